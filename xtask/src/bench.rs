@@ -60,7 +60,7 @@ pub fn versus_numpy(options: &[&str]) -> Result<()> {
     Ok(())
 }
 
-#[allow(clippy::print_stdout)] // this is the output that was asked for
+#[allow(clippy::print_stdout)] // this is the output that was requested
 fn show(rows: &[Row]) -> Result<()> {
     println!("{}", serde_json::to_string_pretty(rows)?);
     Ok(())

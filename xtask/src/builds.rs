@@ -1,5 +1,5 @@
 //! `cargo xtask figures --builds`: what it costs to build the project and to run its tests, from a clean
-//! clone. Minutes of work on two cores, so that they are measured only when they are asked for.
+//! clone. Minutes of work on two cores, so that they are measured only when they are requested.
 
 use std::fs;
 use std::path::{Path, PathBuf};

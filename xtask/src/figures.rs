@@ -171,7 +171,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     print(&figures, json)
 }
 
-#[allow(clippy::print_stdout)] // this is the output that was asked for
+#[allow(clippy::print_stdout)] // this is the output that was requested
 fn print(figures: &[Figure], json: bool) -> Result<()> {
     if json {
         println!("{}", serde_json::to_string_pretty(figures)?);

@@ -18,7 +18,7 @@ pub struct ContinuousRotation {
 }
 
 impl ContinuousRotation {
-    /// No rotation: everything it is asked for is zero.
+    /// No rotation: everything it is requested is zero.
     #[must_use]
     pub fn none() -> Self {
         Self {

@@ -8,7 +8,7 @@ use kinetostat::Pose;
 
 use crate::{Places, Task, Work, sample};
 
-/// A machine and where it is asked.
+/// A machine and its range of commands.
 #[derive(Clone, Copy, Debug)]
 pub struct BenchMachine {
     /// Name of its file, see [`path`].
@@ -136,7 +136,7 @@ impl BenchMachine {
         )
     }
 
-    /// What is asked of an unloaded machine: with its Jacobian where it has one.
+    /// The quantities of an unloaded machine: with its Jacobian where it has one.
     #[must_use]
     pub fn unloaded(&self) -> Work {
         match self.serial {

@@ -27,7 +27,7 @@ mod kinetostat_bench {
         rows.iter().map(|b| f64::from_ne_bytes(*b)).collect()
     }
 
-    /// A question for many postures of one machine.
+    /// A task for many postures of one machine.
     #[pyclass(frozen)]
     struct Task(Own, Mutex<Results>);
 

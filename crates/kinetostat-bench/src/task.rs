@@ -1,4 +1,4 @@
-//! A question for many postures of one machine.
+//! A task for many postures of one machine.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -9,7 +9,7 @@ use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 
-/// What is asked for.
+/// The quantities requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
     /// Unloaded stiffness of the tool.
@@ -52,7 +52,7 @@ impl Places {
     }
 }
 
-/// A machine, where it is commanded, how it is loaded and what is asked.
+/// A machine, where it is commanded, how it is loaded and what is computed.
 #[derive(Debug)]
 pub struct Task {
     // Its machine lives as long as the program: a benchmark loads a handful.
@@ -70,9 +70,9 @@ pub struct Answers {
     pub tool: Vec<f64>,
     /// Coordinates of all limbs; empty for an unloaded machine.
     pub coordinates: Vec<f64>,
-    /// 36 numbers per posture, row by row; empty where not asked for.
+    /// 36 numbers per posture, row by row; empty where not requested.
     pub stiffness: Vec<f64>,
-    /// 6 n numbers per posture, row by row; empty where not asked for.
+    /// 6 n numbers per posture, row by row; empty where not requested.
     pub jacobian: Vec<f64>,
     /// How many the vectorised kernels solved.
     pub vectorised: usize,

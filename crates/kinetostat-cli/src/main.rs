@@ -50,7 +50,7 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             screen::complain_of_line(&error);
-            // Help and version were asked for; everything else is wrong input.
+            // Help and version were requested; everything else is wrong input.
             return match error.kind() {
                 ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
                 _ => ExitCode::from(Code::WrongInput as u8),

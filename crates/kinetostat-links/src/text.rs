@@ -46,8 +46,8 @@ impl Text {
         };
         let file = File::open(path).map_err(|e| unread(&e))?;
         // The size that the system tells is checked first: nothing of a huge file is read.
-        let told = file.metadata().map_or(0, |m| m.len());
-        if told > MOST_BYTES {
+        let size = file.metadata().map_or(0, |m| m.len());
+        if size > MOST_BYTES {
             return Err(too_large(&name));
         }
         let mut bytes = Vec::new();

@@ -39,7 +39,7 @@ pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singu
 pub use placement::Placement;
 pub use result::figures::Figures;
 pub use result::point::{PointKind, PointResult};
-pub use result::question::{ActuatorColumn, FileRead, Question, ToolAtCorners};
+pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
 pub use result::summary::Summary;

@@ -273,8 +273,8 @@ pub(crate) fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) 
         )
     };
     let mut all = (number::DIGITS..=17).map(shown);
-    let told = all.find(|(found, allowed)| found != allowed);
-    told.unwrap_or_else(|| shown(number::DIGITS))
+    let shown_apart = all.find(|(found, allowed)| found != allowed);
+    shown_apart.unwrap_or_else(|| shown(number::DIGITS))
 }
 
 impl Beyond {

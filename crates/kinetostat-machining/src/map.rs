@@ -49,7 +49,7 @@ impl Grid {
         let (from, to, count) = (self.from_mm[axis], self.to_mm[axis], self.counts[axis]);
         match index {
             0 => from,
-            // Exactly what was asked for.
+            // Exactly what was requested.
             _ if index + 1 == count => to,
             _ => from + (to - from) * index as f64 / (count - 1) as f64,
         }
@@ -123,7 +123,7 @@ pub struct MapPlace {
     pub smallest_stiffness_n_per_mm: f64,
     /// The same for a force along x, y and z (base axes), by the motion along it, N/mm.
     pub stiffness_n_per_mm: [f64; 3],
-    /// How far the unloaded tool has turned from the orientation that was asked for, deg: zero unless
+    /// How far the unloaded tool has turned from the orientation that was requested, deg: zero unless
     /// the orientation follows.
     pub tool_turn_deg: f64,
     /// From where the tool is commanded to where it goes under the load, base axes, mm.
@@ -205,7 +205,7 @@ fn solved(task: &MapTask<'_>, batch: &Batch, places: std::ops::Range<usize>) -> 
 /// Places by their positions only, one after the other: each followed from the one before where that
 /// is near.
 fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
-    let asked = Orientation {
+    let requested = Orientation {
         follows: true,
         load_turns: false,
     };
@@ -216,7 +216,7 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
             let at = posture.target().translation.vector;
             (at - pose.translation.vector).norm() < near
         });
-        let posture = asked.posture(task.mechanism, pose, close);
+        let posture = requested.posture(task.mechanism, pose, close);
         let Some(posture) = place.within_limits(posture) else {
             last = None;
             continue;

@@ -19,7 +19,7 @@ use crate::warning::{Warning, WarningCode};
 /// by their controllers.
 pub const NEAR_SINGULAR: f64 = 0.05;
 
-/// A singular posture near the one that was asked for.
+/// A singular posture near the one that was requested.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NearSingular {
     /// Passive joints let go (a motion gained), or joints cannot follow (a motion lost).

@@ -8,7 +8,7 @@ use crate::limits::Beyond;
 use crate::load::law::ProgramLoad;
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
-use crate::result::question::Question;
+use crate::result::run_inputs::RunInputs;
 
 /// Everything that decides a run.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Task<'a> {
     /// How the compensated program is written.
     pub writing: WriteOptions,
     /// Names and words for the result; figures are filled in by the run.
-    pub question: Question,
+    pub run_inputs: RunInputs,
     /// What its figures are compared with.
     pub bounds: Bounds,
 }

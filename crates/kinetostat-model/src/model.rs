@@ -79,7 +79,7 @@ impl Model {
         let mut findings = Findings::default();
         let mut mechanism = assemble(&document, &mut findings);
         if let Some(mechanism) = mechanism.as_mut().filter(|_| findings.errors.is_empty()) {
-            settle_home(mechanism, &mut findings);
+            move_home_within_reach(mechanism, &mut findings);
         }
         let controller = mechanism
             .as_ref()
@@ -257,8 +257,8 @@ const ROUGH_HOME_M: f64 = 5e-3;
 
 /// A home that is off by a few millimetres, only where the machine cannot move, is taken to the
 /// nearest pose that it can take.
-fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
-    let Some(written) = mechanism.settle_home(ROUGH_HOME_M) else {
+fn move_home_within_reach(mechanism: &mut Mechanism, findings: &mut Findings) {
+    let Some(written) = mechanism.move_home_within_reach(ROUGH_HOME_M) else {
         return;
     };
     let tool = mechanism.tool();

@@ -1,6 +1,6 @@
 //! A drawing of a machine: its limbs as they stand, and how it moves or bends.
 //!
-//! Parallel projection; what is nearer covers what is behind. Links that bend are told from rigid
+//! Parallel projection; what is nearer covers what is behind. Links that bend are distinguished from rigid
 //! ones, drives from passive joints. What moves little is drawn larger, on top of the machine.
 
 mod applied;

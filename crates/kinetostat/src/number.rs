@@ -264,11 +264,11 @@ pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
         let value = length(value_mm, digits, Rounding::Up);
         let bound = length(bound_mm, digits, Rounding::Nearest);
         let shown = parsed(&value).zip(parsed(&bound));
-        let told = match shown {
+        let distinct = match shown {
             Some((value, bound)) => (value > bound) == (value_mm > bound_mm),
             None => true,
         };
-        if told {
+        if distinct {
             // The bound is a setting: zeros at its end say nothing.
             let (number, unit) = bound.split_once(' ').unwrap_or((&bound, ""));
             return (value, with_unit(without_zeros(number), unit));

@@ -3,17 +3,17 @@
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// What `question` answers of each item, in their order.
+/// What `answer` returns for each item, in their order.
 #[cfg(feature = "parallel")]
 pub(crate) fn map<I: Send, T: Send>(
     items: Vec<I>,
-    question: impl Fn(I) -> T + Send + Sync,
+    answer: impl Fn(I) -> T + Send + Sync,
 ) -> Vec<T> {
-    items.into_par_iter().map(question).collect()
+    items.into_par_iter().map(answer).collect()
 }
 
-/// What `question` answers of each item, in their order.
+/// What `answer` returns for each item, in their order.
 #[cfg(not(feature = "parallel"))]
-pub(crate) fn map<I, T>(items: Vec<I>, question: impl Fn(I) -> T) -> Vec<T> {
-    items.into_iter().map(question).collect()
+pub(crate) fn map<I, T>(items: Vec<I>, answer: impl Fn(I) -> T) -> Vec<T> {
+    items.into_iter().map(answer).collect()
 }

@@ -63,10 +63,10 @@ impl Default for Settings {
 }
 
 /// A setting that nothing can be done with.
-pub(crate) fn wrong(place: &Place, what: &str, found: impl Debug, asked: &str) -> Error {
+pub(crate) fn wrong(place: &Place, what: &str, found: impl Debug, required: &str) -> Error {
     Error::model(
         place,
-        format!("settings: {what} is {found:?}, {asked} is needed"),
+        format!("settings: {what} is {found:?}, {required} is needed"),
     )
 }
 
@@ -83,8 +83,8 @@ impl Settings {
         }
         let step = self.smallest_load_step;
         if !(step > 0.0 && step <= 1.0) {
-            let asked = "a share above 0 and up to 1";
-            return Err(wrong(place, "smallest_load_step", step, asked));
+            let required = "a share above 0 and up to 1";
+            return Err(wrong(place, "smallest_load_step", step, required));
         }
         Ok(())
     }

@@ -32,7 +32,7 @@ pub(crate) struct Fit<'a> {
     pub(crate) length: f64,
     /// Share of the length below which two machines are the same.
     pub(crate) same: f64,
-    /// Thousands of postures can be asked for.
+    /// Thousands of postures can be requested.
     pub(crate) quick: bool,
 }
 

@@ -38,7 +38,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-#[allow(clippy::print_stdout)] // this is the output that was asked for
+#[allow(clippy::print_stdout)] // this is the output that was requested
 fn names() {
     for (name, ..) in WORKS {
         println!("together {name}");

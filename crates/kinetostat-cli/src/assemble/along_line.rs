@@ -111,11 +111,11 @@ fn point(solved: &AssembledMachine, place: Vector3<f64>, distance_mm: f64) -> Po
 }
 
 pub(crate) fn answer(
-    question: &AssemblyQuery,
+    assembly: &AssemblyQuery,
     line: &[f64],
     args: &AssembleArgs,
 ) -> Answer<AlongLine> {
-    let query = &question.query;
+    let query = &assembly.query;
     let count = args.points.unwrap_or(41);
     if !(2..=MOST_POINTS).contains(&count) {
         return Err(Failure::input(format!(
@@ -148,7 +148,7 @@ pub(crate) fn answer(
         let posture = at(&query.mechanism, &target, follows, near.as_ref()).map_err(located)?;
         posture.within_limits().map_err(located)?;
         let drawn =
-            at(&question.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
+            at(&assembly.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
         turned = larger(turned, posture.target().rotation.angle_to(&target.rotation));
         near = Some(posture.clone());
         let solved = AssembledMachine::solve(posture, &drawn, &query.wrench).map_err(located)?;
@@ -295,7 +295,7 @@ pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
 /// Eleven points are what a screen holds.
 const SHOWN: usize = 11;
 
-pub(crate) fn answer_text(question: &AssemblyQuery, a: &AlongLine) -> String {
+pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &AlongLine) -> String {
     let mut out = wrapped(
         &format!(
             "{} ({}), from {} to {} mm in {}",
@@ -307,7 +307,7 @@ pub(crate) fn answer_text(question: &AssemblyQuery, a: &AlongLine) -> String {
         ),
         0,
     );
-    for deviation in &question.query.deviations {
+    for deviation in &assembly.query.deviations {
         out.push_str(&wrapped(deviation, 0));
     }
     let size = |of: fn(&Point) -> [f64; 3]| {

@@ -104,12 +104,12 @@ pub(crate) struct SpringAnswer {
     pub(crate) torque: Cases<f64>,
 }
 
-pub(crate) fn answer(question: &AssemblyQuery) -> Answer<Assembly> {
-    let query = &question.query;
+pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
+    let query = &assembly.query;
     let posture = query.posture()?;
     let drawn = match &query.followed {
-        Some(_) => query.standing_in(&question.perfect)?,
-        None => question.perfect.posture(&query.target)?,
+        Some(_) => query.standing_in(&assembly.perfect)?,
+        None => assembly.perfect.posture(&query.target)?,
     };
     let over = posture.overconstraint();
     let solved = AssembledMachine::solve(posture, &drawn, &query.wrench)?;

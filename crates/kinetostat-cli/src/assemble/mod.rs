@@ -19,30 +19,30 @@ use crate::ui::json;
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
-    let question = assembly_query(args)?;
+    let assembly = assembly_query(args)?;
     let existing = Existing::forced(args.force_overwrite);
-    let mut outputs = Outputs::new(existing, question.query.inputs.clone());
+    let mut outputs = Outputs::new(existing, assembly.query.inputs.clone());
     let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
     let csv = csv.transpose()?;
     let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
     let plot = plot.transpose()?;
     let (text, json, table) = match &args.along {
         Some(line) => {
-            let a = along_line::answer(&question, line, args)?;
+            let a = along_line::answer(&assembly, line, args)?;
             if let Some(index) = plot {
                 let drawn = along_line::plot(&a, args.component).svg();
                 outputs.fill(index, drawn.as_bytes())?;
             }
             (
-                along_line::answer_text(&question, &a),
+                along_line::answer_text(&assembly, &a),
                 json::json(&a)?,
                 along_line::csv(&a)?,
             )
         }
         None => {
-            let a = answer(&question)?;
+            let a = answer(&assembly)?;
             (
-                text::answer_text(&question, &a, args.all),
+                text::answer_text(&assembly, &a, args.all),
                 json::json(&a)?,
                 table::csv(&a)?,
             )

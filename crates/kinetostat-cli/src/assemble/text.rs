@@ -12,8 +12,8 @@ use kinetostat::number::larger;
 const SHOWN: usize = 12;
 
 /// The question, one sentence, and tables.
-pub(crate) fn answer_text(question: &AssemblyQuery, a: &Assembly, all: bool) -> String {
-    let mut out = question.query.heading();
+pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> String {
+    let mut out = assembly.query.heading();
     out.push_str(&wrapped(&verdict(a), 2));
     out.push_str("\nOver-constraint\n");
     out.push_str(&over_constraint(a));
@@ -23,8 +23,8 @@ pub(crate) fn answer_text(question: &AssemblyQuery, a: &Assembly, all: bool) -> 
         out.push_str(&wrapped(
             &format!(
                 "The load: force {} N and moment {} N m on the tool. 'of errors' is the share of the deviations: as built less as drawn.",
-                load_triple(question.query.wrench.force().into()),
-                load_triple(question.query.wrench.moment().into())
+                load_triple(assembly.query.wrench.force().into()),
+                load_triple(assembly.query.wrench.moment().into())
             ),
             0,
         ));

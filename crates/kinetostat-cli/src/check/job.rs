@@ -112,7 +112,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);
-    let q = &machine.question;
+    let q = &machine.run_inputs;
     Ok(JobFindings {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -96,7 +96,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         outputs::written(&paths)
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.question.program)
+    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.run_inputs.program)
 }
 
 fn flags(args: &CompensateArgs) -> WritingFlags<'_> {

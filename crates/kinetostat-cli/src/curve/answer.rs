@@ -42,7 +42,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) subject: &'static str,
     #[serde(skip)]
     pub(crate) units: Units,
-    /// What was asked and what the start's own branch covers of it, as the parameter is shown.
+    /// What was requested and what the start's own branch covers of it, as the parameter is shown.
     #[serde(skip)]
     pub(crate) requested: (f64, f64),
     #[serde(skip)]
@@ -86,8 +86,8 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(crate) fn of(question: &CurveQuery) -> Self {
-        match question.measure {
+    pub(crate) fn of(query: &CurveQuery) -> Self {
+        match query.measure {
             Measure::Force(_) => Self {
                 displacement: "displacement",
                 displacement_unit: "mm",

@@ -105,7 +105,7 @@ fn shapes_at(
     let regular = (all.found.into_iter()).filter(|f| !is_degenerate(chain, &there, f));
     Ok(Shapes {
         list: regular.map(|f| f.equilibrium).collect(),
-        settled: all.settled,
+        exhausted: all.exhausted,
     })
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn settings(q: &CurveQuery) -> CurveSettings {
 pub(crate) struct Shapes<E> {
     pub(crate) list: Vec<E>,
     /// The search ended because nothing new came.
-    pub(crate) settled: bool,
+    pub(crate) exhausted: bool,
 }
 
 /// Searches for shapes at the start and at both ends of the range, and follows those that no branch holds.
@@ -59,7 +59,7 @@ pub(crate) fn add_shapes_off_the_curve<E>(
         stage.is("searching for shapes off the curve");
         let shapes = search(value)?;
         let at = short(q.shown(value));
-        if !shapes.settled {
+        if !shapes.exhausted {
             warnings.push(Warning::new(
                 WarningCode::SearchEnds,
                 format!(

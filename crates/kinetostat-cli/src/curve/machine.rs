@@ -30,7 +30,7 @@ pub(crate) fn follow(
             let regular = all.found.into_iter().filter(|f| !f.singular);
             Ok(Shapes {
                 list: regular.map(|f| f.equilibrium).collect(),
-                settled: all.settled,
+                exhausted: all.exhausted,
             })
         };
         let add = |shape: &MechanismEquilibrium, _| curves.add(shape);

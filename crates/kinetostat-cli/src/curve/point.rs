@@ -5,7 +5,7 @@ use kinetostat::continuation::{CurveEquilibrium, CurvePoint, CurveStability};
 use crate::curve::answer::PointAnswer;
 use crate::curve::query::{CurveQuery, Measure};
 
-/// In the units of the question. `turned`: whole turns of the tool about the growing moment, rad; `coordinates`: in their
+/// In the units of the query. `turned`: whole turns of the tool about the growing moment, rad; `coordinates`: in their
 /// units.
 pub(crate) fn point_answer<E: CurveEquilibrium>(
     p: &CurvePoint<E>,

@@ -25,7 +25,7 @@ pub(crate) enum Measure {
     Work,
 }
 
-/// A question of `curve`.
+/// A query of `curve`.
 #[derive(Clone, Debug)]
 pub(crate) struct CurveQuery {
     pub(crate) holding: Holding,
@@ -39,7 +39,7 @@ pub(crate) struct CurveQuery {
     pub(crate) branches: usize,
     pub(crate) points: usize,
     pub(crate) all: bool,
-    /// What is asked, in words.
+    /// The query in words.
     pub(crate) words: String,
 }
 
@@ -53,7 +53,7 @@ impl CurveQuery {
         0.0_f64.clamp(self.range.0, self.range.1)
     }
 
-    /// The parameter in the unit of the question (mm, deg or a factor).
+    /// The parameter in the unit of the query (mm, deg or a factor).
     pub(crate) fn shown(&self, value: f64) -> f64 {
         match (&self.parameter, self.measure) {
             (Parameter::Displacement(_), Measure::Moment(_)) => value.to_degrees(),
@@ -84,7 +84,7 @@ fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     Ok(v.normalize())
 }
 
-/// A number that was asked for, as short as it can be: a small one is never called nothing.
+/// A number of the query, as short as it can be: a small one is never called nothing.
 fn given(value: f64) -> String {
     match short(value).as_str() {
         "0" | "-0" if value != 0.0 => number(value, 4),
@@ -92,7 +92,7 @@ fn given(value: f64) -> String {
     }
 }
 
-/// Three components that were asked for; what turning them left of nothing is nothing.
+/// Three components of the query; what turning them left of nothing is nothing.
 fn given_triple(v: [f64; 3]) -> String {
     let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
     triple(v, |x| {
@@ -104,7 +104,7 @@ fn given_triple(v: [f64; 3]) -> String {
     })
 }
 
-/// The question of `curve`. `chain`: for growing forces on its nodes; a machine has none.
+/// The query of `curve`. `chain`: for growing forces on its nodes; a machine has none.
 pub(crate) fn curve_query(
     moves: &Moves,
     chain: Option<&SerialChain>,
@@ -123,7 +123,7 @@ pub(crate) fn curve_query(
             )));
         }
     }
-    let mut question = CurveQuery {
+    let mut query = CurveQuery {
         holding: Holding {
             subject: moves.subject,
             held: Vec::new(),
@@ -143,63 +143,63 @@ pub(crate) fn curve_query(
         words: String::new(),
     };
     if let Some(limits) = &args.force_limits {
-        question.force_limits = Some(ends("--force-limits", limits)?);
+        query.force_limits = Some(ends("--force-limits", limits)?);
     }
     match (&args.direction, &args.about, &args.factor) {
-        (Some(direction), None, None) => pushed(&mut question, direction, args)?,
-        (None, Some(about), None) => turned(&mut question, about, args)?,
-        (None, None, Some(range)) => question.range = ends("--factor", range)?,
+        (Some(direction), None, None) => pushed(&mut query, direction, args)?,
+        (None, Some(about), None) => turned(&mut query, about, args)?,
+        (None, None, Some(range)) => query.range = ends("--factor", range)?,
         _ => {
             return Err(Failure::input(
                 "what shall grow? Either a displacement (--direction X Y Z --displacement-mm FROM TO, or --about X Y Z --turn-deg FROM TO) or a load (--force FX FY FZ --factor FROM TO)",
             ));
         }
     }
-    if question.driven.is_some()
+    if query.driven.is_some()
         && (args.force.is_some() || args.moment.is_some() || !args.grow.is_empty())
     {
         return Err(Failure::input(
             "--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
         ));
     }
-    if let Some(driven) = question.driven {
-        question.parameter = Parameter::Displacement(Twist(driven.twist()));
-        question.holding = holding(moves, &args.end, &place, constant, true, Some(&driven))?;
+    if let Some(driven) = query.driven {
+        query.parameter = Parameter::Displacement(Twist(driven.twist()));
+        query.holding = holding(moves, &args.end, &place, constant, true, Some(&driven))?;
     } else {
-        load_pattern(&mut question, moves, chain, args, constant)?;
+        load_pattern(&mut query, moves, chain, args, constant)?;
     }
-    question.words.push(' ');
-    question.words.push_str(&question.holding.description());
-    question.words.push_str(&constant_loads_text(&args.end));
-    Ok(question)
+    query.words.push(' ');
+    query.words.push_str(&query.holding.description());
+    query.words.push_str(&constant_loads_text(&args.end));
+    Ok(query)
 }
 
 /// The tool is pushed along a direction.
-fn pushed(question: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
+fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.displacement_mm.as_ref().ok_or_else(|| {
         Failure::input(
             "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
         )
     })?;
     let (low, high) = ends("--displacement-mm", range)?;
-    question.range = (1e-3 * low, 1e-3 * high);
-    question.measure = Measure::Force(1.0);
+    query.range = (1e-3 * low, 1e-3 * high);
+    query.measure = Measure::Force(1.0);
     let driven = Driven {
         axis: unit("--direction", direction)?,
         turns: false,
     };
-    question.words = format!(
+    query.words = format!(
         "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
         axis_description(&driven.axis),
         short(low),
         short(high)
     );
-    question.driven = Some(driven);
+    query.driven = Some(driven);
     Ok(())
 }
 
 /// The tool is turned about a direction.
-fn turned(question: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
+fn turned(query: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.turn_deg.as_ref().ok_or_else(|| {
         Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
     })?;
@@ -209,25 +209,25 @@ fn turned(question: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<
             "--turn-deg: the tool can be turned by -180 to 180 degrees",
         ));
     }
-    question.range = (low.to_radians(), high.to_radians());
-    question.measure = Measure::Moment(1.0);
+    query.range = (low.to_radians(), high.to_radians());
+    query.measure = Measure::Moment(1.0);
     let driven = Driven {
         axis: unit("--about", about)?,
         turns: true,
     };
-    question.words = format!(
+    query.words = format!(
         "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
         axis_description(&driven.axis),
         short(low),
         short(high)
     );
-    question.driven = Some(driven);
+    query.driven = Some(driven);
     Ok(())
 }
 
 /// The growing load of the options.
 fn load_pattern(
-    question: &mut CurveQuery,
+    query: &mut CurveQuery,
     moves: &Moves,
     chain: Option<&SerialChain>,
     args: &CurveArgs,
@@ -257,7 +257,7 @@ fn load_pattern(
             "which load shall grow? Give --force FX FY FZ, --moment MX MY MZ or --grow NODE=FX,FY,FZ, not all zero",
         ));
     }
-    question.measure = match (force > 0.0, moment > 0.0, sizes.as_slice()) {
+    query.measure = match (force > 0.0, moment > 0.0, sizes.as_slice()) {
         (true, false, []) => Measure::Force(force),
         (false, true, []) => Measure::Moment(moment),
         (false, false, [size]) => Measure::Force(*size),
@@ -285,10 +285,10 @@ fn load_pattern(
             ));
         }
     }
-    question.words = format!(
+    query.words = format!(
         "The load grows from {} to {} times {}.",
-        given(question.range.0),
-        given(question.range.1),
+        given(query.range.0),
+        given(query.range.1),
         parts.join(" with ")
     );
     let holding = holding(moves, &args.end, &moves.place, constant, false, None)?;
@@ -303,7 +303,7 @@ fn load_pattern(
             holding.rigid.join(", ")
         )));
     }
-    question.holding = holding;
-    question.parameter = Parameter::Load(LoadPattern { end, loads });
+    query.holding = holding;
+    query.parameter = Parameter::Load(LoadPattern { end, loads });
     Ok(())
 }

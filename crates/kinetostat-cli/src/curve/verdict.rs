@@ -106,13 +106,13 @@ fn slack(a: &CurveAnswer) -> f64 {
     1e-6 * (a.requested.1 - a.requested.0)
 }
 
-/// Whether the start's own branch covers what was asked.
+/// Whether the start's own branch covers what was requested.
 fn covers_the_request(a: &CurveAnswer) -> bool {
     let (low, high) = a.reached;
     low <= a.requested.0 + slack(a) && high >= a.requested.1 - slack(a)
 }
 
-/// Says so if the start's own branch does not cover what was asked.
+/// Says so if the start's own branch does not cover what was requested.
 pub(crate) fn reach(a: &CurveAnswer) -> String {
     if covers_the_request(a) {
         return String::new();

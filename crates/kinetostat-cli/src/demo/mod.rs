@@ -150,7 +150,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     }
     let mut run = solve::solve(Aim::Compensate, &machine, &setting, args.threads)?;
     // The demo may run again on another day and finds its own files.
-    run.result.question.date = None;
+    run.result.run_inputs.date = None;
     outputs.list(false, &model);
     outputs.fill(&run)?;
     outputs.files.commit()?;
@@ -162,7 +162,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     report::print_run(&text, args.json.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.question.program)
+    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.run_inputs.program)
 }
 
 fn next(out: &Path) -> String {

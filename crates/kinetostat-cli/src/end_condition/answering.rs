@@ -34,10 +34,10 @@ pub(crate) struct Shown {
     pub(crate) svg: String,
 }
 
-/// From the question to the files: reads the model, claims what will be written, works, shows.
+/// From the query to the files: reads the model, claims what will be written, works, shows.
 pub(crate) fn answer_query<A: Serialize + Send + 'static>(
     command: &CommandQuery<'_>,
-    question: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,
+    work_of: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,
     warnings: impl Fn(&mut A) -> &mut Vec<Warning>,
     show: impl FnOnce(&str, &A) -> Answer<Shown>,
 ) -> Answer<()> {
@@ -49,7 +49,7 @@ pub(crate) fn answer_query<A: Serialize + Send + 'static>(
         None,
         None,
     )?;
-    let work = question(&query)?;
+    let work = work_of(&query)?;
     let targets = ClaimedOutputs::claim(command.outputs, &query.inputs)?;
     let place = query.answer();
     let names = [
@@ -94,7 +94,7 @@ impl ClaimedOutputs {
         })
     }
 
-    /// Writes what was asked for and says the rest.
+    /// Writes what was requested and says the rest.
     fn finish<T: Serialize>(mut self, shown: &Shown, answer: &T) -> Answer<()> {
         if let Some(index) = self.json {
             self.outputs.fill(index, json::json(answer)?.as_bytes())?;

@@ -69,7 +69,7 @@ pub(crate) struct MatrixArgs {
 /// FILE has the columns case,node,x_mm,y_mm,z_mm,ux_mm,uy_mm,uz_mm (units mm, m; displacements also um),
 /// or is the .dat file of CalculiX with one step per case. A rigid motion is fitted to the nodes in
 /// each case, the interface may warp (an averaged interface); the compliance, how sure it is and what of
-/// it is not symmetric are told.
+/// it is not symmetric are reported.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct DisplacementsArgs {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::Mechanism;
-use kinetostat_machining::{Bounds, Placement, ProgramLoad, Question, ToolGiven};
+use kinetostat_machining::{Bounds, Placement, ProgramLoad, RunInputs, ToolGiven};
 use kinetostat_model::Model;
 use kinetostat_program::WriteOptions;
 
@@ -28,7 +28,7 @@ pub(crate) struct MachineSetup {
     pub(crate) load: ProgramLoad,
     /// Tools by number, each with its machine and load.
     pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
-    pub(crate) question: Question,
+    pub(crate) run_inputs: RunInputs,
     /// Ratings, tool and workspace; limits are those of the run.
     pub(crate) bounds: Bounds,
     /// Tolerance of a program that states none, mm, and where it comes from.
@@ -89,7 +89,7 @@ pub(crate) fn machine_setup(
         Some(_) => named,
         None => format!("preset {named}"),
     };
-    let question = Question {
+    let run_inputs = RunInputs {
         model: model.name().to_owned(),
         model_source: source,
         model_deviations: deviation_descriptions(&model),
@@ -98,7 +98,7 @@ pub(crate) fn machine_setup(
         tool_orientation: orientation::description(&placement.tool_orientation),
         stiffnesses: stiffness_list::stiffnesses(&model),
         files: vec![model_file],
-        ..Question::default()
+        ..RunInputs::default()
     };
     Ok((
         MachineSetup {
@@ -106,7 +106,7 @@ pub(crate) fn machine_setup(
             placement,
             load,
             tools,
-            question,
+            run_inputs,
             bounds: Bounds {
                 ratings: model.ratings(),
                 tools: given,

@@ -20,7 +20,7 @@ pub(crate) struct OutputPaths {
 }
 
 impl OutputPaths {
-    /// Those that are asked for, with what they are.
+    /// Those that are requested, with what they are.
     pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         [
             ("compensated program", &self.program),

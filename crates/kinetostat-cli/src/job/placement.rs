@@ -55,7 +55,7 @@ pub(crate) fn placement(
     let follows = match (flag, table.orientation) {
         (Some(None), _) | (None, Some(OrientationWord::Follows)) => true,
         (Some(Some(_)), _) | (None, Some(OrientationWord::Held)) => false,
-        // Unless it was asked for, no machine is held to what it cannot do.
+        // Unless it was requested, no machine is held to what it cannot do.
         (None, None) => in_job.is_none() && mechanism.turns_as_it_moves(),
     };
     let tool = flag.flatten().or(in_job).unwrap_or(home);

@@ -26,7 +26,7 @@ pub(crate) struct PlaceArgs {
 }
 
 impl PlaceArgs {
-    /// One place is asked for.
+    /// One place is requested.
     pub(crate) fn given(&self) -> bool {
         self.at.is_some()
             || self.rotation.is_some()

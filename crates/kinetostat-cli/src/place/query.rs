@@ -35,7 +35,7 @@ pub(crate) struct PlaceQuery {
     pub(crate) target: Pose,
     pub(crate) at_home: bool,
     /// Joints and how far the tool has turned from the orientation it is kept near to, deg, where the
-    /// place is asked for by its position only.
+    /// place is requested by its position only.
     pub(crate) followed: Option<Followed>,
     /// Commands, m or rad, where the place is given by them.
     pub(crate) joints: Option<Vec<f64>>,
@@ -104,7 +104,7 @@ pub(crate) fn place_query_of(
         (None, Some(None)) => followed(&mechanism, &target, true, &mut warnings)?,
         (None, _) => match reachable(&mechanism, target, &mut warnings) {
             Ok(target) => (target, None),
-            // Unless an orientation was asked for, no machine is held to what it cannot do.
+            // Unless an orientation was requested, no machine is held to what it cannot do.
             Err(_) if wanted.is_none() && mechanism.turns_as_it_moves() => {
                 followed(&mechanism, &target, false, &mut warnings)?
             }
@@ -204,7 +204,7 @@ impl PlaceQuery {
         }
     }
 
-    /// What was asked, in words.
+    /// The query in words.
     pub(crate) fn heading(&self) -> String {
         let position = self.target.translation.vector * 1e3;
         let mut out = wrapped(

@@ -63,7 +63,7 @@ impl RunOutputs {
     /// What a person should know about the files.
     pub(crate) fn note(&self, run: &Run) -> String {
         self.points
-            .and_then(|_| points_table::note(&run.result.question, &run.points, &self.listing))
+            .and_then(|_| points_table::note(&run.result.run_inputs, &run.points, &self.listing))
             .map_or_else(String::new, |note| {
                 format!("\n{}", layout::wrapped(&note, 2))
             })
@@ -79,9 +79,12 @@ impl RunOutputs {
         }
         if let Some(index) = self.points {
             let outputs = &mut self.files;
-            points_table::table(&run.result.question, &run.points, &self.listing, |bytes| {
-                outputs.append(index, bytes)
-            })?;
+            points_table::table(
+                &run.result.run_inputs,
+                &run.points,
+                &self.listing,
+                |bytes| outputs.append(index, bytes),
+            )?;
             outputs.complete(index)?;
         }
         if let Some(index) = self.report {

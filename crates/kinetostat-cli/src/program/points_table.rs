@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_machining::{PointKind, PointResult, Question, thinned};
+use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
 use kinetostat_model::Controller;
 
 use crate::ui::csv_cell::{decimals, digits};
@@ -27,19 +27,19 @@ pub(crate) struct Listing {
 }
 
 /// Which points are listed: all of them, or of a long program those that `thinned` keeps.
-fn listed(question: &Question, points: &[PointResult], listing: &Listing) -> Option<Vec<usize>> {
-    let columns = header(question, points, listing).len();
+fn listed(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Option<Vec<usize>> {
+    let columns = header(run_inputs, points, listing).len();
     let most = MOST_BYTES / (CELL * columns);
     (!listing.all && points.len() > most).then(|| thinned(points, &[], most))
 }
 
 /// What is to be said about a table that does not list every point.
 pub(crate) fn note(
-    question: &Question,
+    run_inputs: &RunInputs,
     points: &[PointResult],
     listing: &Listing,
 ) -> Option<String> {
-    let kept = listed(question, points, listing)?;
+    let kept = listed(run_inputs, points, listing)?;
     Some(format!(
         "the table of points lists {} of {}: of every stretch its first point and those with the largest and the smallest error before and after, and the points that the figures come from; --all-points lists every one",
         kept.len(),
@@ -49,17 +49,17 @@ pub(crate) fn note(
 
 /// The table piece by piece; it opens in a spreadsheet, and the decimal mark is a point.
 pub(crate) fn table(
-    question: &Question,
+    run_inputs: &RunInputs,
     points: &[PointResult],
     listing: &Listing,
     mut put: impl FnMut(&[u8]) -> Answer<()>,
 ) -> Answer<()> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = header(question, points, listing);
+    let header = header(run_inputs, points, listing);
     writer.write_record(&header).map_err(failed)?;
     put(&bytes(writer)?)?;
-    let lines = |block: &mut dyn Iterator<Item = &PointResult>| lines(question, listing, block);
-    match listed(question, points, listing) {
+    let lines = |block: &mut dyn Iterator<Item = &PointResult>| lines(run_inputs, listing, block);
+    match listed(run_inputs, points, listing) {
         Some(kept) => kept
             .chunks(BLOCK)
             .try_for_each(|block| put(&lines(&mut block.iter().map(|i| &points[*i]))?)),
@@ -69,7 +69,7 @@ pub(crate) fn table(
     }
 }
 
-fn header(question: &Question, points: &[PointResult], listing: &Listing) -> Vec<String> {
+fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> Vec<String> {
     let mut header: Vec<String> = ["line", "output_line", "kind", "share", "path_mm"]
         .map(String::from)
         .to_vec();
@@ -83,19 +83,21 @@ fn header(question: &Question, points: &[PointResult], listing: &Listing) -> Vec
         header.extend(["x", "y", "z"].map(|axis| format!("{name}{axis}{unit}")));
     }
     header.push("residual_rotation_deg".into());
-    // Of a machine whose orientation follows: how far the tool is turned from the one that was asked for.
+    // Of a machine whose orientation follows: how far the tool is turned from the one that was requested.
     if points.iter().any(|p| p.tool_turn_deg.is_some()) {
         header.push("tool_turn_deg".into());
     }
     let unit = |unit: &str| unit.replace(' ', "_").to_lowercase();
     let mut per = |quantity: &str, of: &dyn Fn(usize) -> String| {
-        for (i, actuator) in question.actuators.iter().enumerate() {
+        for (i, actuator) in run_inputs.actuators.iter().enumerate() {
             header.push(format!("{}_{quantity}_{}", one_word(&actuator.name), of(i)));
         }
     };
-    per("command", &|i| unit(&question.actuators[i].motion_unit));
-    per("force", &|i| unit(&question.actuators[i].force_unit));
-    per("correction", &|i| unit(&question.actuators[i].motion_unit));
+    per("command", &|i| unit(&run_inputs.actuators[i].motion_unit));
+    per("force", &|i| unit(&run_inputs.actuators[i].force_unit));
+    per("correction", &|i| {
+        unit(&run_inputs.actuators[i].motion_unit)
+    });
     for axis in listing.controller.iter().flat_map(|c| c.axes()) {
         header.push(format!(
             "pendant_{}_{}",
@@ -147,7 +149,7 @@ fn size([x, y, z]: &[f64; 3]) -> f64 {
 /// Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
 /// 0.01 N, 1e-5 deg; four digits of what is a ratio.
 fn lines(
-    question: &Question,
+    run_inputs: &RunInputs,
     listing: &Listing,
     points: &mut dyn Iterator<Item = &PointResult>,
 ) -> Answer<Vec<u8>> {
@@ -183,7 +185,7 @@ fn lines(
         row.extend(point.actuator_correction.iter().map(|x| decimals(*x, 6)));
         if let Some(controller) = &listing.controller {
             let shown = controller
-                .pendant(&in_si(question, point))
+                .pendant(&in_si(run_inputs, point))
                 .unwrap_or_default();
             row.extend(shown.iter().map(|x| decimals(*x, 5)));
         }
@@ -208,8 +210,8 @@ fn rounded_away(share: f64) -> f64 {
 }
 
 /// Joint values in m and rad.
-fn in_si(question: &Question, point: &PointResult) -> Vec<f64> {
-    let units = question.actuators.iter().map(|a| a.motion_unit.as_str());
+fn in_si(run_inputs: &RunInputs, point: &PointResult) -> Vec<f64> {
+    let units = run_inputs.actuators.iter().map(|a| a.motion_unit.as_str());
     let values = point.actuator_command.iter().zip(units);
     values
         .map(|(value, unit)| match unit {

@@ -36,13 +36,13 @@ pub(crate) fn solve(
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
     let tools = tools(machine);
-    let mut question = machine.question.clone();
-    question.program.clone_from(&setting.program_name);
-    question.files.insert(0, setting.program_file.clone());
-    question.files.extend(setting.job_file.clone());
-    question.date = crate::files::origin::day();
+    let mut run_inputs = machine.run_inputs.clone();
+    run_inputs.program.clone_from(&setting.program_name);
+    run_inputs.files.insert(0, setting.program_file.clone());
+    run_inputs.files.extend(setting.job_file.clone());
+    run_inputs.date = crate::files::origin::day();
     let mut writing = setting.writing.clone();
-    question.tolerance_from = "as stated".to_owned();
+    run_inputs.tolerance_from = "as stated".to_owned();
     if aim == Aim::Compensate {
         let (usual_mm, from) = &machine.usual_tolerance;
         // Of the machine, where the program may be scaled.
@@ -59,7 +59,7 @@ pub(crate) fn solve(
                 )));
             }
             writing.tolerance_mm = usual_mm;
-            question.tolerance_from.clone_from(from);
+            run_inputs.tolerance_from.clone_from(from);
         }
         if !chord_stated {
             // Never finer than the program of a machine that is not known.
@@ -72,7 +72,7 @@ pub(crate) fn solve(
             format!("version {}", env!("CARGO_PKG_VERSION")),
             format!(
                 "model {} ({}), fingerprint {:016x}",
-                question.model, question.model_source, machine.fingerprint
+                run_inputs.model, run_inputs.model_source, machine.fingerprint
             ),
             format!(
                 "load {}",
@@ -81,8 +81,8 @@ pub(crate) fn solve(
                     &LoadAlongPath::with_tools(machine.load, &path, &tools)
                 )
             ),
-            format!("tool {}", question.tool),
-            format!("placement {}", question.placement),
+            format!("tool {}", run_inputs.tool),
+            format!("placement {}", run_inputs.placement),
         ];
     }
     let task = Task {
@@ -94,7 +94,7 @@ pub(crate) fn solve(
         load: machine.load,
         tools: &tools,
         writing,
-        question,
+        run_inputs,
         bounds: Bounds {
             limits: setting.limits,
             ..machine.bounds.clone()

@@ -12,7 +12,7 @@ use crate::ui::warnings::warnings;
 /// The result of a run for a person.
 pub(crate) fn of_run(result: &RunResult) -> String {
     let mut out = String::new();
-    let q = &result.question;
+    let q = &result.run_inputs;
     out.push_str(&wrapped(
         &format!("{} on {} ({})", q.program, q.model, q.model_source),
         0,
@@ -36,7 +36,7 @@ pub(crate) fn verdict(result: &RunResult) -> String {
             "{unchanged} The tool is up to {} off its path.",
             figures.error_after
         )
-    } else if result.question.compensated {
+    } else if result.run_inputs.compensated {
         let held = result.tolerance.held == Some(true);
         let missed = result.tolerance.missed_text();
         let first = missed.map_or_else(String::new, |missed| format!("{missed} "));
@@ -77,7 +77,7 @@ fn figures(result: &RunResult) -> String {
     let s = &result.summary;
     let f = Figures::of(result);
     let mut rows = Vec::new();
-    let compensated = result.question.compensated;
+    let compensated = result.run_inputs.compensated;
     let mut row = |name: &str, before: &str, after: &str| {
         let cells = match compensated {
             true => vec![name, before, after],
@@ -168,12 +168,12 @@ fn figures(result: &RunResult) -> String {
 
 fn actuators(result: &RunResult) -> String {
     let f = Figures::of(result);
-    let compensated = result.question.compensated;
+    let compensated = result.run_inputs.compensated;
     let mut rows = vec![vec!["actuator".to_owned(), "largest force".to_owned()]];
     if compensated {
         rows[0].push("largest change".to_owned());
     }
-    for (i, actuator) in result.question.actuators.iter().enumerate() {
+    for (i, actuator) in result.run_inputs.actuators.iter().enumerate() {
         let mut row = vec![actuator.name.clone(), f.actuator_force[i].clone()];
         if compensated {
             row.push(f.actuator_correction[i].clone());

@@ -152,7 +152,7 @@ impl From<kinetostat::Error> for Failure {
             _ => "",
         };
         let reported = match &error {
-            // Millimetres and degrees, as the place was asked for.
+            // Millimetres and degrees, as the place was requested.
             kinetostat::Error::Unreachable {
                 place,
                 distance_m,

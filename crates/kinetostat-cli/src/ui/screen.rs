@@ -60,7 +60,7 @@ pub(crate) fn complain(failure: &Failure) {
 
 /// Tells what is wrong with a command line, in the words of its reader; a word of kilobytes is cut.
 pub(crate) fn complain_of_line(error: &clap::Error) {
-    let asked_for = matches!(
+    let requested = matches!(
         error.kind(),
         ClapKind::DisplayHelp
             | ClapKind::DisplayVersion
@@ -68,7 +68,7 @@ pub(crate) fn complain_of_line(error: &clap::Error) {
     );
     let whole = error.render().to_string();
     let text = shortened(&safe(&whole));
-    let _ = match asked_for || text == whole {
+    let _ = match requested || text == whole {
         true => error.print(),
         false => write(&mut anstream::stderr().lock(), text.as_bytes()),
     };

@@ -769,7 +769,7 @@ fn angles_in_radians_under_degrees_smell_in_every_command() {
             &["compensate", "job.toml", "--force-overwrite"],
         ] {
             let said = run(here.path(), words);
-            // A place that cannot be reached so is told as that.
+            // A place that cannot be reached so is reported as that.
             if matches!(said.code, 1 | 2) {
                 continue;
             }

@@ -338,7 +338,7 @@ fn frames_that_are_elsewhere_are_told_with_their_place() {
     assert!(found[0].contains("(0, 20, 180) mm"), "{}", said.err);
 }
 
-/// The first joint's zero and a base turned about its axis cannot be told apart, and are not.
+/// The first joint's zero and a base turned about its axis cannot be distinguished, and are not.
 #[test]
 fn what_the_poses_do_not_decide_is_told_so() {
     let shown = |q: [f64; 6]| [q[0] - 25.0, q[1], q[2], q[3], q[4], q[5]];

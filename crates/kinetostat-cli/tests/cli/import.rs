@@ -160,7 +160,7 @@ fn wrong_questions_end_with_one() {
         assert!(said.err.contains(needle), "{line}: {}", said.err);
         assert!(said.out.is_empty(), "{line}: {}", said.out);
     }
-    // JSON takes the place of the model where no file is asked for.
+    // JSON takes the place of the model where no file is requested.
     let words = ["import", "urdf", "crane.urdf", "--tip", "trolley", "--json"];
     let said = run(here.path(), &words).answered();
     let found: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");

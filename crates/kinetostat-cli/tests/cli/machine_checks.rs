@@ -1,4 +1,4 @@
-//! `kinetostat check`: what it counts and names, and that singular postures near an answer are told.
+//! `kinetostat check`: what it counts and names, and that singular postures near an answer are reported.
 
 use crate::common::checks::{
     ARM, BAR, COLUMN, HEAVY, checked, edited, flat, of, preset, texts, warnings,
@@ -137,7 +137,7 @@ fn the_scale_of_stiffness_is_that_of_the_compliance() {
         .as_f64()
         .expect("a stiffness");
     assert!((told / softest - 1.0).abs() < 1e-3, "{told} {softest}");
-    // The load that was asked for, solved by another command.
+    // The load that was requested, solved by another command.
     let said = run(
         here.path(),
         &[

@@ -69,11 +69,11 @@ fn every_command_takes_a_position() {
         assert!((turn - closed).abs() < 1e-8, "{line}: {turn} {closed}");
         let vector = place["rotation_vector_deg"][2].as_f64().expect("a number");
         assert!((vector - closed).abs() < 1e-8, "{line}: {vector}");
-        let asked = line.contains("follows");
+        let requested = line.contains("follows");
         let warnings = flat(&answer["warnings"].to_string());
         assert_eq!(
             warnings.contains("cannot hold an orientation"),
-            !asked,
+            !requested,
             "{warnings}"
         );
         assert!(warnings.contains("the tool turns by"), "{warnings}");
@@ -88,7 +88,7 @@ fn every_command_takes_a_position() {
         let wrong = said.err.contains("cannot be reached");
         assert!(!wrong && said.code == 0, "{line}: {said:?}");
     }
-    // An orientation that was asked for is held, or refused.
+    // An orientation that was requested is held, or refused.
     let held = ask(
         here,
         "deflect rpp.toml --at 300 450 20 --rotation rotation_vector_deg=0,0,0",

@@ -52,7 +52,7 @@ fn all_commands_give_the_same_figure_at_the_same_place() {
     ] {
         let [x, y, z] = place;
         let force = ["--force", "80", "-50", "-120"];
-        let asked = |command: &'static str, force: &[&'static str]| {
+        let answer_to = |command: &'static str, force: &[&'static str]| {
             let mut words = vec![command, model, "--at", x, y, z, "--json"];
             words.extend(force);
             json(here, &words)
@@ -66,7 +66,7 @@ fn all_commands_give_the_same_figure_at_the_same_place() {
             own["least"]["value"].as_f64().expect("a number")
         };
         // As drawn.
-        let drawn = asked("stiffness", &[]);
+        let drawn = answer_to("stiffness", &[]);
         same(
             model,
             figure(&drawn),
@@ -74,16 +74,20 @@ fn all_commands_give_the_same_figure_at_the_same_place() {
         );
         same(model, figure(&drawn), map(&[]));
         // Under a force.
-        let loaded = asked("stiffness", &force);
+        let loaded = answer_to("stiffness", &force);
         same(
             model,
             figure(&loaded),
             of_matrix(&loaded["stiffness_n_m_rad"]),
         );
         same(model, figure(&loaded), map(&force));
-        same(model, figure(&loaded), figure(&asked("deflect", &force)));
+        same(
+            model,
+            figure(&loaded),
+            figure(&answer_to("deflect", &force)),
+        );
         // Without a load on the tool: with all that acts in the model.
-        let rest = figure(&asked("deflect", &[]));
+        let rest = figure(&answer_to("deflect", &[]));
         if drawn["left_out"].is_array() {
             same(model, figure(&drawn["at_rest"]), rest);
             same(

@@ -498,7 +498,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
     assert_eq!(count, 84);
 }
 
-/// One of something is told as one, in summaries, reports and warnings.
+/// One of something is reported as one, in summaries, reports and warnings.
 #[test]
 fn one_is_not_told_in_the_plural() {
     const MANY: [&str; 24] = [

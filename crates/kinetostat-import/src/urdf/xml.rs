@@ -178,7 +178,7 @@ pub(crate) fn parse<'a>(
         };
         log.error(&at(place, 1), message, help);
         match log.stop() {
-            Err(told) => told,
+            Err(refused) => refused,
             Ok(()) => refusal(name, "this is not well-formed XML", "export it again"),
         }
     })

@@ -149,7 +149,7 @@ pub fn with_pinocchio(urdf: &str, imported: &Imported, count: usize) -> Option<D
     let path = folder.path().join("robot.urdf");
     std::fs::write(&path, urdf).unwrap();
     let postures = postures(imported, count);
-    let asked = json!({
+    let request = json!({
         "urdf": path, "base": imported.base, "tip": imported.tip,
         "joints": imported.actuators, "values": postures,
     });
@@ -171,7 +171,7 @@ pub fn with_pinocchio(urdf: &str, imported: &Imported, count: usize) -> Option<D
         .stdin
         .take()
         .unwrap()
-        .write_all(asked.to_string().as_bytes())
+        .write_all(request.to_string().as_bytes())
         .ok();
     let output = process.wait_with_output().unwrap();
     if output.status.code() == Some(3) {

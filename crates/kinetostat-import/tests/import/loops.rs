@@ -393,7 +393,7 @@ fn a_mimic_joint_in_another_limb_is_refused() {
     assert!(said.contains("joint 'two'"), "{said}");
 }
 
-/// All limbs run from the base to the tool, so poses can be asked for.
+/// All limbs run from the base to the tool, so poses can be requested.
 #[test]
 fn a_parallel_machine_answers_for_poses() {
     let (urdf, options) = (five_bar(), five_bar_options());

@@ -70,7 +70,7 @@ struct Written {
     source: Option<String>,
 }
 
-/// Reads a CSV or JSON file (told apart by its first character). `bare`: units of six plain rows of
+/// Reads a CSV or JSON file (distinguished by its first character). `bare`: units of six plain rows of
 /// six numbers without a header; `None` refuses those.
 ///
 /// # Errors

@@ -139,12 +139,12 @@ pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<
 
 /// A load that is given and acts nowhere along the program.
 pub(crate) fn never_acts(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
-    let asked = |(_, load): &(String, ProgramLoad)| {
+    let acts_on = |(_, load): &(String, ProgramLoad)| {
         of_law(load.cutting, &task.placement).force().norm() > 0.0
     };
     let cuts = |p: &&PointResult| p.kind != PointKind::Rapid;
     let acts = |p: &PointResult| p.force_n.iter().any(|x| *x != 0.0);
-    if !loads(task).iter().any(asked) || points.iter().filter(cuts).any(acts) {
+    if !loads(task).iter().any(acts_on) || points.iter().filter(cuts).any(acts) {
         return None;
     }
     let why = match task.load.below_z_mm {

@@ -15,7 +15,7 @@ use crate::task::{Task, kinds};
 use crate::warning::{Warning, WarningCode};
 
 /// Figures of the question that are beyond their limits.
-pub(crate) fn of_question(task: &Task<'_>) -> Vec<Beyond> {
+pub(crate) fn of_task(task: &Task<'_>) -> Vec<Beyond> {
     let limits = &task.bounds.limits;
     let mut exceeded = Exceeded {
         limits,

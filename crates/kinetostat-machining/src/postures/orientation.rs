@@ -1,11 +1,11 @@
-//! What is done with the orientation of a pose that is asked for.
+//! What is done with the orientation of a pose that is requested.
 
 use kinetostat::{Error, Mechanism, Pose, Posture, PostureRequest, Wrench};
 
 use crate::load::law::ProgramLoad;
 use crate::placement::Placement;
 
-/// What is done with the orientation of a pose that is asked for.
+/// What is done with the orientation of a pose that is requested.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Orientation {
     /// It is the one to keep near to; otherwise it is held.

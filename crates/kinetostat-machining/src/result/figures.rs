@@ -50,7 +50,7 @@ impl Figures {
     #[must_use]
     pub fn of(result: &RunResult) -> Self {
         let s = &result.summary;
-        let actuators = &result.question.actuators;
+        let actuators = &result.run_inputs.actuators;
         let per = |values: &[f64], unit: fn(&crate::ActuatorColumn) -> &str| {
             actuators
                 .iter()

@@ -3,7 +3,7 @@
 
 pub(crate) mod figures;
 pub(crate) mod point;
-pub(crate) mod question;
+pub(crate) mod run_inputs;
 pub(crate) mod run_result;
 pub(crate) mod selection;
 pub(crate) mod statements;

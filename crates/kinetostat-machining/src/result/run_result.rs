@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
 use crate::result::point::PointResult;
-use crate::result::question::Question;
+use crate::result::run_inputs::RunInputs;
 use crate::result::summary::Summary;
 use crate::result::tolerance::ToleranceVerdict;
 use crate::warning::Warning;
@@ -26,8 +26,9 @@ pub struct RunResult {
     pub tolerance: ToleranceVerdict,
     /// Figures of the whole run.
     pub summary: Summary,
-    /// What was asked.
-    pub question: Question,
+    /// Model, program, load and tolerances of the run.
+    #[serde(rename = "question")]
+    pub run_inputs: RunInputs,
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.
@@ -53,8 +54,8 @@ impl RunResult {
     #[must_use]
     pub fn allowed_mm(&self) -> f64 {
         sum_of_bounds(
-            self.question.tolerance_mm,
-            (self.question.chord_tolerance_mm, self.summary.feed_arcs),
+            self.run_inputs.tolerance_mm,
+            (self.run_inputs.chord_tolerance_mm, self.summary.feed_arcs),
             self.summary.max_rounding_error_mm,
         )
     }
@@ -64,7 +65,7 @@ impl RunResult {
     #[must_use]
     pub fn holds_tolerance(&self) -> Option<bool> {
         let after = self.summary.max_position_error_after_mm;
-        self.question
+        self.run_inputs
             .compensated
             .then(|| after <= self.allowed_mm())
     }

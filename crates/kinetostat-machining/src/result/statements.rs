@@ -63,7 +63,7 @@ impl RunResult {
     pub fn own_weight_text(&self) -> Option<String> {
         let s = &self.summary;
         let own = s.max_error_by_own_weight_mm?;
-        if !own.is_finite() || own <= self.question.tolerance_mm || s.unchanged {
+        if !own.is_finite() || own <= self.run_inputs.tolerance_mm || s.unchanged {
             return None;
         }
         let put = format!(
@@ -71,7 +71,7 @@ impl RunResult {
              the tool up to {} off",
             largest_length(own)
         );
-        Some(match self.question.compensated {
+        Some(match self.run_inputs.compensated {
             true => format!(
                 "{put}; the program makes up for that too. Where the part was touched off with this machine, or its \
                  controller corrects the weight, that would be done twice: leave weight and springs out of the model \
@@ -84,9 +84,9 @@ impl RunResult {
     /// The reading of the load at corners that all tools share, if they share one, and which tools are read by
     /// each of the two: "tools 1 and 3".
     fn read_at_corners(&self) -> (Option<CornerLoad>, [String; 2]) {
-        let tools = &self.question.tools_at_corners;
+        let tools = &self.run_inputs.tools_at_corners;
         let Some(first) = tools.first().map(|tool| tool.load_at_corners) else {
-            return (Some(self.question.load_at_corners), Default::default());
+            return (Some(self.run_inputs.load_at_corners), Default::default());
         };
         let read = |reading: CornerLoad| {
             let own = tools.iter().filter(|tool| tool.load_at_corners == reading);

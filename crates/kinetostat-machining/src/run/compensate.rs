@@ -6,7 +6,7 @@ use kinetostat_program::{
     write_corrected,
 };
 
-use crate::checks::refused::{of_accounting, of_points, of_question};
+use crate::checks::refused::{of_accounting, of_points, of_task};
 use crate::field::ModelField;
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
@@ -49,7 +49,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// # Errors
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    refuse(of_question(task))?;
+    refuse(of_task(task))?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     refuse(first_look(task, &load, watch)?)?;
     let field = ModelField::new(task.mechanism, task.placement, &load);

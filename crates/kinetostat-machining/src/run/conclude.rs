@@ -1,14 +1,14 @@
-//! The result of a run: what was asked, its figures, warnings and points.
+//! The result of a run: its inputs, figures, warnings and points.
 
 use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, MotionKind};
 use kinetostat_program::{Corrected, Path};
 
-use crate::checks::refused::{as_warning, of_points, of_question};
+use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
 use crate::load::along_path::LoadAlongPath;
 use crate::result::point::{PointKind, PointResult};
-use crate::result::question::{ActuatorColumn, Question, ToolAtCorners};
+use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 use crate::result::selection::{thinned, worst};
 use crate::result::summary::Summary;
@@ -53,7 +53,7 @@ pub fn load_description(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> Stri
     }
 }
 
-/// The result of a run. The tolerance is compared last: it needs the figures and the question that the result states.
+/// The result of a run. The tolerance is compared last: it needs the figures and the inputs that the result states.
 pub(crate) fn conclude(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
@@ -74,7 +74,7 @@ pub(crate) fn conclude(
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceVerdict::default(),
         summary,
-        question: question_of(task, load, &points, written.is_some()),
+        run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,
         near_singularity,
@@ -92,16 +92,16 @@ pub(crate) fn conclude(
     }
 }
 
-/// The question as the result repeats it: what the task states, with the load in words and the box of the feed path.
-fn question_of(
+/// The inputs as the result repeats them: what the task states, with the load in words and the box of the feed path.
+fn run_inputs_of(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
     points: &[PointResult],
     compensated: bool,
-) -> Question {
+) -> RunInputs {
     let (box_min_mm, box_max_mm) = feed_box(points);
     let tools = task.tools.iter();
-    Question {
+    RunInputs {
         load: load_description(task.mechanism, load),
         tolerance_mm: task.writing.tolerance_mm,
         chord_tolerance_mm: task.writing.chord_tolerance_mm,
@@ -117,7 +117,7 @@ fn question_of(
         actuators: actuator_columns(task.mechanism),
         box_min_mm,
         box_max_mm,
-        ..task.question.clone()
+        ..task.run_inputs.clone()
     }
 }
 
@@ -182,7 +182,7 @@ fn warnings(
         ));
     }
     if written.is_none() {
-        let beyond = of_question(task).into_iter().chain(of_points(task, points));
+        let beyond = of_task(task).into_iter().chain(of_points(task, points));
         warnings.extend(beyond.map(|b| as_warning(&b)));
     }
     warnings.extend(unusual(task, points, summary, written.is_some()));

@@ -6,7 +6,7 @@ use kinetostat::{
     model::FunctionLoad,
 };
 use kinetostat_machining::{
-    Bounds, CuttingLoad, Placement, ProgramLoad, Question, Run, Task, Unwatched, WarningCode,
+    Bounds, CuttingLoad, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode,
     compensate_program,
 };
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -66,7 +66,7 @@ fn run(bump: [f64; 2]) -> Run {
         load: ProgramLoad::new(CuttingLoad::None),
         tools: &[],
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     };
     compensate_program(&task, &Unwatched).expect("run")

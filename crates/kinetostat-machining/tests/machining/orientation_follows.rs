@@ -3,7 +3,7 @@
 use kinetostat::{Mechanism, Pose, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
-    Question, Run, RunError, Task, Unwatched, analyse, compensate_program, map, straight_tool,
+    Run, RunError, RunInputs, Task, Unwatched, analyse, compensate_program, map, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -75,7 +75,7 @@ fn task<'a>(
         load,
         tools: &[],
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     }
 }

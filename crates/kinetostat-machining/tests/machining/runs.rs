@@ -2,7 +2,7 @@
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    Bounds, CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Question, Run, RunError, Task,
+    Bounds, CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Run, RunError, RunInputs, Task,
     Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
@@ -84,7 +84,7 @@ fn run(
         load,
         tools: &[],
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     };
     if write {
@@ -179,7 +179,7 @@ fn analysis_tells_the_errors_that_compensation_removes() {
     let both = run(&machine, GROOVE, origin, milling(), true)
         .expect("compensation")
         .result;
-    assert!(!before.question.compensated && both.question.compensated);
+    assert!(!before.run_inputs.compensated && both.run_inputs.compensated);
     let (a, b) = (
         before.summary.max_position_error_before_mm,
         both.summary.max_position_error_before_mm,
@@ -243,7 +243,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         load: milling(),
         tools: &[],
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     };
     let summary = compensate_program(&task, &Unwatched)
@@ -332,7 +332,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             load: milling(),
             tools: &[],
             writing: WriteOptions::default(),
-            question: Question::default(),
+            run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
         };
         for written in [false, true] {

@@ -5,8 +5,8 @@
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::number::largest_length;
 use kinetostat_machining::{
-    Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Question,
-    Run, Task, Unwatched, WarningCode, compensate_program, straight_tool,
+    Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Run,
+    RunInputs, Task, Unwatched, WarningCode, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Piece, Program, ReadOptions, WriteOptions, interpret, irregular};
@@ -16,8 +16,8 @@ use rayon::prelude::*;
 
 /// 12, or as many as `KINETOSTAT_CASES` says.
 fn cases() -> u64 {
-    let asked = std::env::var("KINETOSTAT_CASES").ok();
-    asked.and_then(|cases| cases.parse().ok()).unwrap_or(12)
+    let setting = std::env::var("KINETOSTAT_CASES").ok();
+    setting.and_then(|cases| cases.parse().ok()).unwrap_or(12)
 }
 
 /// The `k`th random number of a case.
@@ -73,7 +73,7 @@ fn run(
         load,
         tools: &[],
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     };
     let run = compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}\n{text}"));

@@ -2,7 +2,7 @@
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Bounds, CornerLoad, CuttingLoad, Placement, PointKind, ProgramLoad, Question, Run, RunError,
+    Bounds, CornerLoad, CuttingLoad, Placement, PointKind, ProgramLoad, Run, RunError, RunInputs,
     Task, Tool, Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
@@ -56,7 +56,7 @@ fn run(
         load,
         tools,
         writing: WriteOptions::default(),
-        question: Question::default(),
+        run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
     };
     if write {
@@ -146,9 +146,12 @@ fn the_written_program_is_right_for_both_tools() {
     assert!(summary.max_position_error_before_mm > 0.1, "{summary:?}");
     assert!(summary.max_position_error_after_mm < 2e-3, "{summary:?}");
     assert!(
-        run.result.question.load.contains("tool 2: milling: 900 N"),
+        run.result
+            .run_inputs
+            .load
+            .contains("tool 2: milling: 900 N"),
         "{}",
-        run.result.question.load
+        run.result.run_inputs.load
     );
     // An independent look: command the ends of the written program, ask each tool's own machine.
     let written = run.written.expect("written");

@@ -330,7 +330,7 @@ fn a_slanted_link_buckles_at_its_euler_load() {
 }
 
 /// Unloaded stiffness does not depend on convention and segments, and the axial load of a plain
-/// spring in the frame's axes is told as well.
+/// spring in the frame's axes is reported as well.
 #[test]
 fn the_heavy_arm_is_as_stiff_when_its_links_bow() {
     let text = preset_text("heavy_6r").expect("preset");

@@ -107,7 +107,7 @@ impl Stretch {
         let [from, to] = self.share;
         let length = motion.length_between_mm(from, to);
         let tolerance = options.tolerance_mm;
-        let asked_all = self.quarters.is_some();
+        let all_requested = self.quarters.is_some();
         let off = departure(&values, [self.begins, self.ends[1]]);
         let (unknown, needs_quarters) = match self.course {
             Course::Cubic => (0.0, true),
@@ -123,7 +123,7 @@ impl Stretch {
                     Curve::Line => radius_mm,
                     Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),
                 };
-                let points = if asked_all { 5 } else { 3 };
+                let points = if all_requested { 5 } else { 3 };
                 let change = (self.ends[1] - self.ends[0]).norm();
                 (
                     remainder(points, size, length, radius),
@@ -137,14 +137,14 @@ impl Stretch {
         if off > tolerance || surprised {
             let shortest =
                 length <= options.smallest_piece_mm || self.at(0.5) <= from || self.at(0.5) >= to;
-            return match (asked_all, shortest) {
+            return match (all_requested, shortest) {
                 // As ever: what is off is looked at once more before it is halved.
                 (false, _) => Decision::Refine,
                 (true, true) => Decision::Jump,
                 (true, false) => Decision::Halve,
             };
         }
-        if !asked_all && (needs_quarters || unknown > UNKNOWN * tolerance) {
+        if !all_requested && (needs_quarters || unknown > UNKNOWN * tolerance) {
             return Decision::Refine;
         }
         if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm {

@@ -282,8 +282,8 @@ fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves) {
 
 /// 400, or as many as `PROPTEST_CASES` says.
 fn cases() -> u32 {
-    let asked = std::env::var("PROPTEST_CASES").ok();
-    asked.and_then(|cases| cases.parse().ok()).unwrap_or(400)
+    let setting = std::env::var("PROPTEST_CASES").ok();
+    setting.and_then(|cases| cases.parse().ok()).unwrap_or(400)
 }
 
 proptest! {

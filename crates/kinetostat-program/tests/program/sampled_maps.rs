@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 
 /// 300, or as many as `KINETOSTAT_CASES` says.
 fn cases() -> u64 {
-    let asked = std::env::var("KINETOSTAT_CASES").ok();
-    asked.and_then(|cases| cases.parse().ok()).unwrap_or(300)
+    let setting = std::env::var("KINETOSTAT_CASES").ok();
+    setting.and_then(|cases| cases.parse().ok()).unwrap_or(300)
 }
 
 #[test]

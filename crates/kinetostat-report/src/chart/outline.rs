@@ -87,7 +87,7 @@ struct Covered {
 }
 
 impl Covered {
-    /// Size of places that are told apart, pixels.
+    /// Size of places that are distinguished, pixels.
     const PLACE: f64 = 0.5;
 
     /// Draws a line; says whether it shows something new.

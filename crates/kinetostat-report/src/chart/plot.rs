@@ -22,7 +22,7 @@ const STYLE: &str = concat!(
     include_str!("../template/plot.css")
 );
 
-/// Colours of lines, told apart also without colour vision; further lines begin again.
+/// Colours of lines, distinct also without colour vision; further lines begin again.
 const COLOURS: [&str; 6] = ["c0", "c1", "c2", "c3", "c4", "c5"];
 
 /// A plot.

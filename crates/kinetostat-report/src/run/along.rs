@@ -20,7 +20,7 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     };
     let mut panels = Vec::new();
     panels.extend(before_panel(result, &along, sheet));
-    if result.question.compensated {
+    if result.run_inputs.compensated {
         panels.extend(after_panel(result, &along));
     }
     let heights = if sheet.narrow() {
@@ -106,7 +106,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
     };
     let mut panels = Vec::new();
     for (index, actuator) in result
-        .question
+        .run_inputs
         .actuators
         .iter()
         .take(MOST_ACTUATORS)
@@ -124,7 +124,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
             most,
             values,
         ));
-        if result.question.compensated {
+        if result.run_inputs.compensated {
             let values = along.values(result.points, |p| p.actuator_correction.get(index).copied());
             panels.extend(actuator_panel(
                 &name,

@@ -1,6 +1,6 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{FileRead, PointKind, PointResult, Question, Summary};
+use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
@@ -14,7 +14,7 @@ fn card(name: &str, value: String, note: String) -> Value {
 
 /// The key figures as cards; none if nothing was calculated.
 pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
-    let (summary, question) = (&result.summary, &result.question);
+    let (summary, run_inputs) = (&result.summary, &result.run_inputs);
     if summary.points == 0 && result.points.is_empty() {
         return Vec::new();
     }
@@ -24,7 +24,7 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
         figures.error_before.clone(),
         format!("largest; root mean square {}", figures.rms_before),
     )];
-    if question.compensated {
+    if run_inputs.compensated {
         cards.push(card(
             "Error with compensation",
             figures.error_after.clone(),
@@ -40,7 +40,7 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
             "of the programmed positions".to_owned(),
         ));
     }
-    let (name, note) = match question.compensated {
+    let (name, note) = match run_inputs.compensated {
         true => ("Tilt that stays", "not corrected by positions"),
         false => ("Tilt of the tool", "largest along the path"),
     };
@@ -56,7 +56,7 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
     };
     cards.push(card("Share of the way to buckling", value, note.to_owned()));
     cards.push(actuator_card(result));
-    cards.push(if question.compensated {
+    cards.push(if run_inputs.compensated {
         let pieces = match &figures.shortest_piece {
             Some(shortest) => format!("at most; divided blocks: pieces from {shortest}"),
             None => "at most; no block was divided".to_owned(),
@@ -82,14 +82,14 @@ fn actuator_card(result: &Shown<'_>) -> Value {
         let force = result.summary.max_actuator_force.get(i);
         force.and_then(|f| number::drawable(*f)).map(f64::abs)
     };
-    let largest = (0..result.question.actuators.len())
+    let largest = (0..result.run_inputs.actuators.len())
         .filter_map(|i| Some((i, size(i)?)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a });
     match largest {
         Some((i, _)) => card(
             "Largest actuator load",
             text::shorten(&result.figures.actuator_force[i], 32),
-            text::shorten(&result.question.actuators[i].name, 40),
+            text::shorten(&result.run_inputs.actuators[i].name, 40),
         ),
         None => card("Largest actuator load", MISSING.to_owned(), String::new()),
     }
@@ -149,7 +149,7 @@ fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
 
 /// What the written program leaves: name, size, explanation.
 pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
-    let (summary, question) = (&result.summary, &result.question);
+    let (summary, run_inputs) = (&result.summary, &result.run_inputs);
     let row = |name: &str, size: String, text: String| context! { name, size, text };
     let mut rows = vec![row(
         "Tilt of the tool",
@@ -158,7 +158,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
          cannot turn it back; a side wall cut deep below the tip shows it."
             .to_owned(),
     )];
-    if !question.compensated {
+    if !run_inputs.compensated {
         return rows;
     }
     rows.push(row(
@@ -166,7 +166,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
         result.figures.rounding.clone(),
         format!(
             "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
-            question.decimals
+            run_inputs.decimals
         ),
     ));
     let steps = match summary.corner_steps {
@@ -221,23 +221,23 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
 
 /// The first lines under the title: what the verdict is about.
 pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
-    let question = &result.question;
+    let run_inputs = &result.run_inputs;
     let mut rows = Vec::new();
-    if let Some(date) = &question.date {
+    if let Some(date) = &run_inputs.date {
         rows.push(fact("Date", text::shorten(date, 20)));
     }
     rows.extend([
-        fact("Program", first_screen(&question.program)),
-        fact("Machine", first_screen(&question.model)),
-        fact("Load", first_screen(&question.load)),
+        fact("Program", first_screen(&run_inputs.program)),
+        fact("Machine", first_screen(&run_inputs.model)),
+        fact("Load", first_screen(&run_inputs.load)),
     ]);
-    if question.compensated {
+    if run_inputs.compensated {
         rows.push(fact(
             "Tolerance",
             format!(
                 "path {}, chords of arcs {}",
-                number::length_setting(question.tolerance_mm),
-                number::length_setting(question.chord_tolerance_mm)
+                number::length_setting(run_inputs.tolerance_mm),
+                number::length_setting(run_inputs.chord_tolerance_mm)
             ),
         ));
     }
@@ -291,36 +291,36 @@ fn file(file: &FileRead) -> String {
     format!("{} {}: {}", file.what, file.name, file.sha256)
 }
 
-/// What was asked and how the program was written.
+/// What was requested and how the program was written.
 pub(crate) fn asked(result: &Shown<'_>) -> Vec<Value> {
-    let (summary, question) = (&result.summary, &result.question);
-    let deviations: Vec<String> = question
+    let (summary, run_inputs) = (&result.summary, &result.run_inputs);
+    let deviations: Vec<String> = run_inputs
         .model_deviations
         .iter()
         .map(|line| text::clean(line))
         .collect();
     let mut rows = vec![
-        fact("Machine model", or_unknown(&question.model)),
-        fact("Model from", or_unknown(&question.model_source)),
+        fact("Machine model", or_unknown(&run_inputs.model)),
+        fact("Model from", or_unknown(&run_inputs.model_source)),
         context! {
             name => "Deviations from the drawing",
             lines => if deviations.is_empty() { vec!["none".to_owned()] } else { deviations },
         },
-        list("Stiffnesses used", &question.stiffnesses),
-        fact("Program", or_unknown(&question.program)),
+        list("Stiffnesses used", &run_inputs.stiffnesses),
+        fact("Program", or_unknown(&run_inputs.program)),
         list(
             "Files and their SHA-256",
-            &question.files.iter().map(file).collect::<Vec<_>>(),
+            &run_inputs.files.iter().map(file).collect::<Vec<_>>(),
         ),
-        fact("Load", or_unknown(&question.load)),
-        fact("Where the program lies", or_unknown(&question.placement)),
-        fact("Tool", or_unknown(&question.tool)),
+        fact("Load", or_unknown(&run_inputs.load)),
+        fact("Where the program lies", or_unknown(&run_inputs.placement)),
+        fact("Tool", or_unknown(&run_inputs.tool)),
         fact(
             "Orientation of the tool",
-            or_unknown(&question.tool_orientation),
+            or_unknown(&run_inputs.tool_orientation),
         ),
-        fact("Path cut", extent(question, &result.figures.feed_length)),
-        fact("Actuators", actuator_names(question)),
+        fact("Path cut", extent(run_inputs, &result.figures.feed_length)),
+        fact("Actuators", actuator_names(run_inputs)),
         fact("Length and time at feed", length_and_time(summary)),
         fact("Points calculated", number::count(summary.points)),
         fact(
@@ -332,7 +332,7 @@ pub(crate) fn asked(result: &Shown<'_>) -> Vec<Value> {
             ),
         ),
     ];
-    if question.compensated {
+    if run_inputs.compensated {
         rows.extend(written(result));
     } else {
         rows.push(fact("Blocks written", "none, analysis only".to_owned()));
@@ -345,7 +345,7 @@ pub(crate) fn asked(result: &Shown<'_>) -> Vec<Value> {
 }
 
 fn written(result: &Shown<'_>) -> Vec<Value> {
-    let (summary, question) = (&result.summary, &result.question);
+    let (summary, run_inputs) = (&result.summary, &result.run_inputs);
     // Every block read must be found again in one of the three counts.
     let carried = summary
         .blocks_split
@@ -399,16 +399,19 @@ fn written(result: &Shown<'_>) -> Vec<Value> {
         ),
         fact(
             "Tolerance of the path",
-            match text::clean(&question.tolerance_from) {
-                from if from.is_empty() => number::length_setting(question.tolerance_mm),
-                from => format!("{}: {from}", number::length_setting(question.tolerance_mm)),
+            match text::clean(&run_inputs.tolerance_from) {
+                from if from.is_empty() => number::length_setting(run_inputs.tolerance_mm),
+                from => format!(
+                    "{}: {from}",
+                    number::length_setting(run_inputs.tolerance_mm)
+                ),
             },
         ),
         fact(
             "Tolerance of chords in arcs",
-            number::length_setting(question.chord_tolerance_mm),
+            number::length_setting(run_inputs.chord_tolerance_mm),
         ),
-        fact("Decimals written", question.decimals.to_string()),
+        fact("Decimals written", run_inputs.decimals.to_string()),
         fact(
             "Error allowed in all",
             number::against(summary.max_position_error_after_mm, result.allowed_mm()).1,
@@ -416,7 +419,7 @@ fn written(result: &Shown<'_>) -> Vec<Value> {
     ]
 }
 
-fn extent(question: &Question, length: &str) -> String {
+fn extent(run_inputs: &RunInputs, length: &str) -> String {
     let axes: Vec<String> = ["X", "Y", "Z"]
         .iter()
         .enumerate()
@@ -424,8 +427,8 @@ fn extent(question: &Question, length: &str) -> String {
             let corner = |value: f64| number::fixed(value, 3);
             format!(
                 "{name} {} to {}",
-                corner(question.box_min_mm[axis]),
-                corner(question.box_max_mm[axis])
+                corner(run_inputs.box_min_mm[axis]),
+                corner(run_inputs.box_max_mm[axis])
             )
         })
         .collect();
@@ -435,8 +438,8 @@ fn extent(question: &Question, length: &str) -> String {
     )
 }
 
-fn actuator_names(question: &Question) -> String {
-    let names: Vec<String> = question
+fn actuator_names(run_inputs: &RunInputs) -> String {
+    let names: Vec<String> = run_inputs
         .actuators
         .iter()
         .map(|a| or_unknown(&a.name))

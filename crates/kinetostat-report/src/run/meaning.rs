@@ -11,7 +11,7 @@ const SMALLEST_ROTATION: f64 = 0.000_5;
 /// How good the news is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
-    /// The written program does what was asked.
+    /// The written program does what was requested.
     Good,
     /// Nothing was to be corrected.
     Unchanged,
@@ -76,7 +76,7 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
         ));
     }
     if !summary.converged {
-        let program = if result.question.compensated {
+        let program = if result.run_inputs.compensated {
             " or on the compensated program"
         } else {
             ""
@@ -86,7 +86,7 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
              below{program} before the reason is found (see the warnings)."
         ));
     }
-    let mut meaning = if result.question.compensated {
+    let mut meaning = if result.run_inputs.compensated {
         compensated(result)
     } else {
         analysed(result)
@@ -107,7 +107,7 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     }
     if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
         let angle = in_type(result).rotation;
-        meaning.sentence.push_str(&if result.question.compensated {
+        meaning.sentence.push_str(&if result.run_inputs.compensated {
             format!(" The tool stays tilted by up to {angle}, which a program of positions cannot correct.")
         } else {
             format!(" It tilts by up to {angle}.")
@@ -238,8 +238,8 @@ mod tests {
         result.summary.max_position_error_before_mm = 0.7583;
         result.summary.max_position_error_after_mm = 0.000_57;
         result.summary.max_rounding_error_mm = 0.000_1;
-        result.question.compensated = true;
-        result.question.tolerance_mm = 0.000_5;
+        result.run_inputs.compensated = true;
+        result.run_inputs.tolerance_mm = 0.000_5;
         result.points.push(PointResult {
             force_n: [0.0, 0.0, -100.0],
             stable: true,
@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn analysis_and_no_load() {
         let mut result = run();
-        result.question.compensated = false;
+        result.run_inputs.compensated = false;
         result.points[0].force_n = [0.0; 3];
         let (level, text) = sentence(&result);
         assert_eq!(level, Level::Analysis);

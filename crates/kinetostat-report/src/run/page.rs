@@ -24,20 +24,20 @@ const MOST_WARNINGS: usize = 100;
 pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.add_template(PAGE, include_str!("../template/report.html"))?;
-    let question = &result.question;
+    let run_inputs = &result.run_inputs;
     let verdict = meaning::verdict(result);
     let warnings: Vec<String> = result
         .warnings
         .iter()
         .map(|warning| text::clean(&warning.to_string()))
         .collect();
-    let actuators = question.actuators.len();
+    let actuators = run_inputs.actuators.len();
     environment.get_template(PAGE)?.render(context! {
         style => Value::from_safe_string(STYLE.to_owned()),
-        program => name_or(&question.program, "Unnamed program"),
-        model => name_or(&question.model, "unnamed machine"),
+        program => name_or(&run_inputs.program, "Unnamed program"),
+        model => name_or(&run_inputs.model, "unnamed machine"),
         version => text::shorten(&result.kinetostat_version, 40),
-        compensated => question.compensated,
+        compensated => run_inputs.compensated,
         verdict => context! {
             class => verdict.level.class(),
             word => verdict.level.word(),

@@ -55,7 +55,7 @@ fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
         number::largest(cutting.map(error)).filter(|error| *error > 0.0)
     };
     let before = largest(|p| norm(&p.error_before_mm));
-    let after = largest(|p| norm(&p.error_after_mm)).filter(|_| result.question.compensated);
+    let after = largest(|p| norm(&p.error_after_mm)).filter(|_| result.run_inputs.compensated);
     let Some(top) = before.into_iter().chain(after).reduce(f64::max) else {
         return false;
     };

@@ -25,8 +25,8 @@ fn fixtures() -> Vec<(&'static str, RunResult)> {
         ..RunResult::default()
     };
     let mut many = pocket_on_serial_robot(300);
-    let repeated = many.question.actuators.clone();
-    many.question
+    let repeated = many.run_inputs.actuators.clone();
+    many.run_inputs
         .actuators
         .extend(repeated.iter().cloned().cycle().take(20));
     vec![
@@ -214,16 +214,16 @@ fn missing_numbers_are_words() {
 fn the_line_of_the_plot_is_the_bound_that_is_judged() {
     let mut result = circle_groove();
     let worst = result.summary.max_position_error_after_mm;
-    result.question.tolerance_mm = 3.0 * worst;
-    result.question.chord_tolerance_mm = 1.5 * worst;
+    result.run_inputs.tolerance_mm = 3.0 * worst;
+    result.run_inputs.chord_tolerance_mm = 1.5 * worst;
     result.summary.max_rounding_error_mm = 0.5 * worst;
     assert!((result.allowed_mm() / (5.0 * worst) - 1.0).abs() < 1e-12);
     let page = html(&result).expect("a page");
     let told = |page: &str| page.matches("allowed").count();
     assert!(told(&plain(&page)) >= 2, "card and plot");
     assert!(page.contains("class=\"verdict good\""), "held");
-    result.question.tolerance_mm = 0.1 * worst;
-    result.question.chord_tolerance_mm = 0.0;
+    result.run_inputs.tolerance_mm = 0.1 * worst;
+    result.run_inputs.chord_tolerance_mm = 0.0;
     result.summary.max_rounding_error_mm = 0.0;
     assert_eq!(result.holds_tolerance(), Some(false));
     let page = html(&result).expect("a page");

@@ -39,7 +39,7 @@ pub struct Residual {
     /// Iterations spent.
     pub iterations: usize,
     /// Rate observed: norm of the last correction by that of the one before, in scaled units
-    /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
+    /// (square root of energy). A linear iteration converges at its rate, exact Newton falls towards
     /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rate: Option<f64>,

@@ -105,7 +105,7 @@ fn corrected<T>(
     let (mut goal, mut state) = (*position, start);
     let (mut spent, mut left) = (0, f64::INFINITY);
     for step in 1..=CORRECTIONS {
-        let (mut solver, residual) = posture.settled(wrench, state)?;
+        let (mut solver, residual) = posture.converged_solver(wrench, state)?;
         spent += residual.iterations;
         let miss = position - solver.state.platforms[tool].translation.vector;
         let miss = DVector::from_column_slice(miss.as_slice());

@@ -18,7 +18,7 @@ impl BranchEnd {
         }
     }
 
-    /// Nothing that was asked for ends the branch there: it may go on.
+    /// Nothing that was requested ends the branch there: it may go on.
     #[must_use]
     pub fn may_go_on(self) -> bool {
         matches!(self, Self::Points | Self::Lost | Self::Stalled)

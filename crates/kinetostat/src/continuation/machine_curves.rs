@@ -93,7 +93,7 @@ impl Posture {
 }
 
 impl MachineCurves<'_> {
-    /// Follows the curve through a further equilibrium of the same question, and the branches connected to it as far as
+    /// Follows the curve through a further equilibrium of the same query, and the branches connected to it as far as
     /// [`CurveSettings::branches`] allows for each start. False if the tool's place and its load lie on a branch that is
     /// known.
     ///
@@ -120,7 +120,7 @@ impl MachineCurves<'_> {
     /// Equilibria at one value of the parameter, on all branches.
     ///
     /// # Errors
-    /// None in practice: the question was accepted when the curve was followed.
+    /// None in practice: the query was accepted when the curve was followed.
     pub fn at(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
         self.ask(|system| points_at(system, &self.branches, value, true))
     }
@@ -129,7 +129,7 @@ impl MachineCurves<'_> {
     /// on all branches.
     ///
     /// # Errors
-    /// None in practice: the question was accepted when the curve was followed.
+    /// None in practice: the query was accepted when the curve was followed.
     pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
         self.ask(|system| points_at(system, &self.branches, value, false))
     }
@@ -139,7 +139,7 @@ impl MachineCurves<'_> {
     /// first. Where no branch holds one at the load, the machine is let go at the ends of the limit point's branch.
     ///
     /// # Errors
-    /// None in practice: the question was accepted when the curve was followed.
+    /// None in practice: the query was accepted when the curve was followed.
     pub fn jumps(&self) -> Result<Vec<Jump<MechanismEquilibrium>>> {
         self.ask(|system| {
             let mut list = jumps(system, &self.branches, &self.specials);
@@ -178,11 +178,11 @@ impl MachineCurves<'_> {
         to
     }
 
-    /// Asks the machine's system in the units of this curve.
-    fn ask<R>(&self, question: impl FnOnce(&mut MachineSystem<'_, '_>) -> R) -> Result<R> {
+    /// Evaluates the machine's system in the units of this curve.
+    fn ask<R>(&self, query: impl FnOnce(&mut MachineSystem<'_, '_>) -> R) -> Result<R> {
         let (parameter, end) = (&self.parameter, &self.end);
         let conditions = ToolConditions::new(self.posture, parameter, end, &self.settings)?;
         let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
-        Ok(question(&mut system))
+        Ok(query(&mut system))
     }
 }

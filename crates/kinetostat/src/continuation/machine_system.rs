@@ -281,7 +281,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
                 guide.hands.set_column(held + i, &(row / size));
                 guide.goals[held + i] = q[i] / size;
             }
-            let found = path.settle(state, self.near.1, guide, false).ok();
+            let found = path.converge(state, self.near.1, guide, false).ok();
             let (equilibrium, _) = found?;
             self.here = Held {
                 z: z.clone(),
@@ -308,7 +308,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
     }
 
     /// Equilibrium near a state under one condition on the motion, or at its load.
-    fn settle(&self, z: &DVector<f64>, row: &Row<'_>) -> Result<(MechanismEquilibrium, f64)> {
+    fn converge(&self, z: &DVector<f64>, row: &Row<'_>) -> Result<(MechanismEquilibrium, f64)> {
         let path = self.conditions;
         let (q, factor) = self.physical(z);
         let mut state = self.near.0.clone();
@@ -332,7 +332,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
                 (path.guide(None), *value)
             }
         };
-        path.settle(state, by(guide.1), guide.0, false)
+        path.converge(state, by(guide.1), guide.0, false)
     }
 }
 
@@ -454,7 +454,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
     }
 
     fn correct(&mut self, z: &DVector<f64>, row: &Row<'_>, _most: usize) -> Option<Corrected> {
-        let (equilibrium, factor) = self.settle(z, row).ok()?;
+        let (equilibrium, factor) = self.converge(z, row).ok()?;
         let z = self.state(&equilibrium, factor);
         let iterations = equilibrium.residual.iterations;
         let (_, norms) = self.residual(&equilibrium, factor);

@@ -68,7 +68,7 @@ impl CurveSettings {
             }
         }
         let largest_change = self.largest_change.unwrap_or(1.0);
-        for (what, value, most, asked) in [
+        for (what, value, most, required) in [
             (
                 "largest_angle",
                 self.largest_angle,
@@ -95,7 +95,7 @@ impl CurveSettings {
             ),
         ] {
             if !(value > 0.0 && value <= most) {
-                return Err(wrong(place, what, value, asked));
+                return Err(wrong(place, what, value, required));
             }
         }
         for (what, count) in [("points", self.points), ("branches", self.branches)] {

@@ -13,7 +13,7 @@ use crate::machine::platforms::parts::Guide;
 use crate::machine::posture::Posture;
 use crate::spatial::{Pose, Wrench, pose_residual, turn_matrix};
 
-/// The question in numbers.
+/// Parameter and end conditions in numbers.
 pub(crate) struct ToolConditions<'p> {
     pub(crate) posture: &'p Posture,
     pub(crate) settings: CurveSettings,
@@ -121,7 +121,7 @@ impl<'p> ToolConditions<'p> {
         Ok(path)
     }
 
-    /// The same question with the tool driven along one of its free motions (scaled, unit length)
+    /// The same conditions with the tool driven along one of its free motions (scaled, unit length)
     /// besides: the load along it that this takes is the conjugate. That load is square to all other
     /// motions, rotations at the natural length.
     pub(crate) fn driven(&self, motion: &Vector6<f64>, settings: CurveSettings) -> Self {

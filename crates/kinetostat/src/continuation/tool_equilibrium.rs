@@ -20,8 +20,8 @@ impl ToolConditions<'_> {
         state: MechanismState,
         wrench: &Wrench,
     ) -> Option<MechanismEquilibrium> {
-        let settled = self.settle(state, *wrench, self.guide(None), false);
-        settled.ok().map(|(e, _)| e)
+        let converged = self.converge(state, *wrench, self.guide(None), false);
+        converged.ok().map(|(e, _)| e)
     }
 
     /// One equilibrium twice: the same place of the tool, but for motions that cost nothing, and the
@@ -44,7 +44,7 @@ impl ToolConditions<'_> {
     }
 
     /// Newton from a state under a wrench; the wrench that is left after it is that of the answer.
-    pub(crate) fn settle(
+    pub(crate) fn converge(
         &self,
         state: MechanismState,
         wrench: Wrench,
@@ -90,11 +90,11 @@ impl ToolConditions<'_> {
             (self.dead + self.pattern * value, self.guide(None))
         };
         match self.by_motion || self.held.ncols() > 0 {
-            true => self.settle(state, wrench, guide, true),
+            true => self.converge(state, wrench, guide, true),
             // What nothing holds comes to rest along several paths.
             false => {
                 let rest = self.posture.rest_under(&wrench, state)?;
-                self.settle(rest, wrench, guide, false)
+                self.converge(rest, wrench, guide, false)
             }
         }
     }

@@ -134,7 +134,7 @@ impl ToolConditions<'_> {
         let predicted = state.platforms[tool];
         let wrench = from.equilibrium.wrench + self.pattern * (rate * by);
         let guide = self.guide(Some((&row, goal)));
-        let (e, factor) = self.settle(state, wrench, guide, false).ok()?;
+        let (e, factor) = self.converge(state, wrench, guide, false).ok()?;
         let off = pose_residual(&e.tool, &predicted).0;
         let off = Vector6::from_fn(|i, _| off[i] * self.unit(i)).norm();
         (off <= 0.5 * by.abs() + 1e-12 * self.length).then(|| self.point(e, factor, &from.tangent))
@@ -146,10 +146,10 @@ impl ToolConditions<'_> {
         let wrench = from.equilibrium.wrench;
         let (e, factor) = if motion {
             let row = self.pattern.0;
-            self.settle(state, wrench, self.guide(Some((&row, value))), false)
+            self.converge(state, wrench, self.guide(Some((&row, value))), false)
         } else {
             let wrench = wrench + self.pattern * (value - from.factor);
-            self.settle(state, wrench, self.guide(None), false)
+            self.converge(state, wrench, self.guide(None), false)
         }
         .ok()?;
         Some(self.point(e, factor, &from.tangent))

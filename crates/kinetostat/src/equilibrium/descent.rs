@@ -141,7 +141,7 @@ impl ToolConditions<'_> {
             goals,
             hands,
         };
-        let (next, _) = self.settle(state, here.wrench, guide, false).ok()?;
+        let (next, _) = self.converge(state, here.wrench, guide, false).ok()?;
         // Not another one of the shapes at the same place.
         let went = self.scaled(&pose_residual(&next.tool, &here.tool).0).norm();
         (went <= 3.0 * parts.norm()).then_some(next)

@@ -49,7 +49,7 @@ pub struct Equilibria<E: CurveEquilibrium = Equilibrium> {
     pub chance_of_more_at_most: f64,
     /// True if the search ended because nothing new was found, not because starts ran out or the
     /// largest number was reached.
-    pub settled: bool,
+    pub exhausted: bool,
 }
 
 impl<E: CurveEquilibrium> Equilibria<E> {
@@ -64,7 +64,7 @@ impl<E: CurveEquilibrium> Equilibria<E> {
             fruitless: coverage.fruitless,
             chance_of_more: coverage.chance_of_more.0,
             chance_of_more_at_most: coverage.chance_of_more.1,
-            settled: coverage.settled,
+            exhausted: coverage.exhausted,
         }
     }
 }

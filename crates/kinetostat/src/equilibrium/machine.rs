@@ -73,7 +73,7 @@ impl Posture {
         wrench: &Wrench,
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
-        let (mut solver, residual) = self.settled(wrench, start)?;
+        let (mut solver, residual) = self.converged_solver(wrench, start)?;
         let found = conclude(&mut solver, residual)?;
         Ok(self.by_growing_load(wrench, &found).unwrap_or(found))
     }
@@ -84,7 +84,7 @@ impl Posture {
     /// # Errors
     /// As [`Self::deflected_by`].
     pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
-        let (mut solver, residual) = self.settled(wrench, start)?;
+        let (mut solver, residual) = self.converged_solver(wrench, start)?;
         if !self.is_far(&solver.state) {
             return Ok(solver.state);
         }
@@ -116,7 +116,7 @@ impl Posture {
         moved.sum::<f64>() > FAR
     }
 
-    pub(crate) fn settled(
+    pub(crate) fn converged_solver(
         &self,
         wrench: &Wrench,
         start: MechanismState,

@@ -84,7 +84,7 @@ pub(crate) struct Coverage {
     /// Chance that one more successful start finds something new, and its upper end (95 %).
     pub chance_of_more: (f64, f64),
     /// The search ended because nothing new came.
-    pub settled: bool,
+    pub exhausted: bool,
 }
 
 /// Chance that one more successful start finds something new, and its upper end (95 %): by how many
@@ -230,7 +230,7 @@ impl<S: Searched> EquilibriumSearch<'_, S> {
             outside: self.outside,
             fruitless: self.fruitless,
             chance_of_more: chance_of_more(hits, once),
-            settled: self.fruitless >= limits.fruitless && self.known.len() < limits.most,
+            exhausted: self.fruitless >= limits.fruitless && self.known.len() < limits.most,
         };
         (self.known, coverage)
     }

@@ -37,7 +37,7 @@ pub enum Error {
         place: Place,
         /// Kind of thing: node, limb, platform.
         what: &'static str,
-        /// Name asked for.
+        /// Name requested.
         name: String,
         /// Names that exist, comma separated.
         known: String,
@@ -142,7 +142,7 @@ impl Error {
         }
     }
 
-    /// The same failure, told to be beyond a limit point of the load.
+    /// The same failure, reported to be beyond a limit point of the load.
     pub(crate) fn at_limit(mut self, found: LoadLimit) -> Self {
         if let Self::NotConverged {
             load_factor, limit, ..

@@ -1,4 +1,4 @@
-//! Places that are asked for by position only: the orientation follows.
+//! Targets that prescribe the position only: the orientation follows.
 //!
 //! A machine with fewer freedoms than a full pose turns its tool as it moves (five-bar, 3-RPS, an arm of
 //! few joints). Asked for a position, it takes the pose there whose rotation from a wanted orientation

@@ -281,7 +281,7 @@ impl Posture {
     }
 }
 
-/// A limb's nearest pose is told as the pose that the tool would have with it.
+/// A limb's nearest pose is reported as the pose that the tool would have with it.
 fn of_tool(mut error: Error, platform_from_tip: &Pose) -> Error {
     if let Error::Unreachable { nearest, .. } = &mut error {
         **nearest *= platform_from_tip.inverse();

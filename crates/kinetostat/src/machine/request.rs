@@ -1,4 +1,4 @@
-//! What is asked of a machine's joints: a pose of the tool, a position, commands, or joints that are known; and from
+//! What a posture is requested by: a pose of the tool, a position, commands, or joints that are known; and from
 //! where they are looked for.
 
 use nalgebra::{UnitQuaternion, Vector3};
@@ -42,7 +42,7 @@ enum Start<'a> {
 /// let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
 ///
 /// let bent = arm.posture(PostureRequest::commands(&[0.3, 0.9]))?;
-/// // An arm of two joints turns its tool as it moves: a position is asked for, the orientation follows.
+/// // An arm of two joints turns its tool as it moves: a position is requested, the orientation follows.
 /// let position = bent.target().translation.vector + vector![0.01, 0.0, 0.0];
 /// let request = PostureRequest::position(&position, &home.rotation).near(&bent);
 /// let beside = arm.posture(request)?;

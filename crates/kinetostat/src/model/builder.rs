@@ -72,7 +72,7 @@ pub struct ChainBuilder {
     mistake: Option<String>,
 }
 
-/// Smallest eigenvalue of a scaled stiffness matrix that is told from rounding.
+/// Smallest eigenvalue of a scaled stiffness matrix that is distinct from rounding.
 const SINGULAR: f64 = 1e-12;
 
 impl Chain {

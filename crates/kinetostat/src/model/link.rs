@@ -305,7 +305,7 @@ impl ChainBuilder {
     /// the offset of its far end, which is written before it: `matrix` 6 x 6 (N/m, N/rad, N m/m,
     /// N m/rad) at the far end, root clamped, in the axes of that frame; `offset` from near to far
     /// end, m. It is [`ChainBuilder::spring6`] ([`LinkConvention::TranslationsFirst`]) with the
-    /// link's axial load told.
+    /// link's axial load given.
     #[must_use]
     pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
         let length = offset.norm();

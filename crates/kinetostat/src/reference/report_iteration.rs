@@ -11,7 +11,7 @@
 //! which is 4.16 with the term `- J_th th0` that its print lacks (errata, 4.16). The wrench of the
 //! last step does not matter to it. Near an equilibrium its error changes by the factor
 //! `max |mu|` over the eigenvalues of `(N^T K N)^-1 N^T H N`, `N` the null space of `J`: it can only
-//! settle on stable shapes, slows down as `1/(1 - mu)` towards buckling, and fails on stable shapes
+//! converge on stable shapes, slows down as `1/(1 - mu)` towards buckling, and fails on stable shapes
 //! with `mu < -1` (tension), where it ends in a cycle of two states.
 
 use nalgebra::{DMatrix, DVector};
@@ -35,7 +35,7 @@ use crate::spatial::{MotionKind, Wrench};
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct IterationSettings {
-    /// Settled when no coordinate changes by more in one step, rad (slides: as a share of the
+    /// Converged when no coordinate changes by more in one step, rad (slides: as a share of the
     /// chain's natural length). Default 1e-10.
     pub tolerance: f64,
     /// Steps at most. Default 500.
@@ -46,8 +46,8 @@ impl IterationSettings {
     /// Refuses what no iteration can end by, naming it.
     fn check(&self, place: &Place) -> Result<()> {
         if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
-            let asked = "a number between 0 and 1";
-            return Err(wrong(place, "tolerance", self.tolerance, asked));
+            let required = "a number between 0 and 1";
+            return Err(wrong(place, "tolerance", self.tolerance, required));
         }
         if self.steps == 0 {
             return Err(wrong(place, "steps", 0, "at least 1"));
@@ -87,7 +87,8 @@ pub struct ChainState {
 #[non_exhaustive]
 pub enum IterationOutcome {
     /// On the equilibrium that exact Newton finds from the same start.
-    Settled,
+    #[cfg_attr(feature = "serde", serde(rename = "settled"))]
+    Converged,
     /// On another equilibrium than exact Newton from the same start.
     Leaves,
     /// It alternates between two states, neither of which is an equilibrium.
@@ -130,7 +131,7 @@ impl ReportIteration {
         let rate = |r: Option<f64>| r.map_or_else(|| "unknown".to_owned(), |r| format!("{r:.4}"));
         let (n, expected) = (self.steps, rate(self.expected_rate));
         match &self.outcome {
-            IterationOutcome::Settled => format!(
+            IterationOutcome::Converged => format!(
                 "settled in {n} steps; each step left {} of the error (expected {expected})",
                 rate(self.observed_rate)
             ),
@@ -238,7 +239,7 @@ fn iterate(
         }
         if last <= settings.tolerance && nearly_in_equilibrium(&mut system, &z, settings.tolerance)
         {
-            outcome = IterationOutcome::Settled;
+            outcome = IterationOutcome::Converged;
             break;
         }
         if before <= settings.tolerance && last > 1e3 * settings.tolerance.max(1e-12) {
@@ -250,7 +251,7 @@ fn iterate(
     let steps = path.len() - 1;
     let nearest = from_nearby(&mut system, &begin);
     let mut here = None;
-    if outcome == IterationOutcome::Settled {
+    if outcome == IterationOutcome::Converged {
         here = refined(&mut system, &z);
         let other = match (&here, &nearest) {
             (Some((a, _)), Some((b, _))) => {

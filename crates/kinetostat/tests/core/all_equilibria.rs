@@ -17,8 +17,8 @@ pub fn search(label: &str, problem: &ChainProblem<'_>, settings: &SearchSettings
     let all = equilibria(problem, &Bounds::of(problem.chain), settings)
         .unwrap_or_else(|e| panic!("{label}: {e}"));
     assert!(
-        all.settled,
-        "{label}: not settled after {} starts",
+        all.exhausted,
+        "{label}: not exhausted after {} starts",
         all.starts
     );
     assert!(all.fruitless >= settings.fruitless, "{label}");

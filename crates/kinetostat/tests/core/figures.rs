@@ -27,9 +27,9 @@ impl Figures {
     }
 
     #[allow(clippy::print_stdout, reason = "read by cargo xtask figures")]
-    fn print(&mut self, name: &str, measured: Value, asked: &str, unit: &str, holds: bool) {
+    fn print(&mut self, name: &str, measured: Value, expected: &str, unit: &str, holds: bool) {
         let figure = json!({
-            "name": name, "measured": measured, "asked": asked, "unit": unit, "holds": holds,
+            "name": name, "measured": measured, "asked": expected, "unit": unit, "holds": holds,
         });
         println!("figure {figure}");
         if !holds {
@@ -39,21 +39,27 @@ impl Figures {
 
     fn at_most(&mut self, name: &str, measured: &Worst, most: f64, unit: &str) {
         let holds = measured.holds(most);
-        let asked = format!("at most {most:e}");
-        self.print(name, json!(measured.measured()), &asked, unit, holds);
+        let expected = format!("at most {most:e}");
+        self.print(name, json!(measured.measured()), &expected, unit, holds);
     }
 
     fn at_least(&mut self, name: &str, measured: usize, least: usize, unit: &str) {
-        let asked = format!("at least {least}");
-        self.print(name, json!(measured), &asked, unit, measured >= least);
+        let expected = format!("at least {least}");
+        self.print(name, json!(measured), &expected, unit, measured >= least);
     }
 
     /// The same whole number in every row.
-    fn exactly(&mut self, name: &str, measured: &[usize], asked: usize, unit: &str) {
-        let odd = measured.iter().find(|m| **m != asked);
+    fn exactly(&mut self, name: &str, measured: &[usize], expected: usize, unit: &str) {
+        let odd = measured.iter().find(|m| **m != expected);
         let shown = odd.or(measured.first());
         let holds = odd.is_none() && !measured.is_empty();
-        self.print(name, json!(shown), &format!("exactly {asked}"), unit, holds);
+        self.print(
+            name,
+            json!(shown),
+            &format!("exactly {expected}"),
+            unit,
+            holds,
+        );
     }
 
     fn finish(self) {

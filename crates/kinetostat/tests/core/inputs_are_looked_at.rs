@@ -1,5 +1,5 @@
 //! Numbers that are none, zero, negative or absurd in the scalar inputs of the public functions: an
-//! error that names the argument, or a finite answer. And messages about what was asked wrongly.
+//! error that names the argument, or a finite answer. And messages about what was requested wrongly.
 
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainProblem, EndCondition, Error, LinkSpec, MotionKind,

@@ -147,11 +147,11 @@ fn from(change: impl Fn(&mut MechanismState, &mut Pose, &mut Wrench)) -> Result<
     let posture = machine.posture(&pose)?;
     let (mut state, mut wrench) = (posture.rest_state(), Wrench::zero());
     change(&mut state, &mut pose, &mut wrench);
-    let settled = posture.deflected_from(&wrench, state.clone())?;
+    let converged = posture.deflected_from(&wrench, state.clone())?;
     let none = [false; 6];
     let compensated = compensate_from(&posture, &pose, &wrench, none.into(), state)?;
     Ok([
-        numbers(&settled.tool),
+        numbers(&converged.tool),
         numbers(&compensated.equilibrium.tool),
     ])
 }

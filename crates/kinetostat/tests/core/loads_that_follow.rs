@@ -74,7 +74,7 @@ fn partly_following_columns_diverge_by_the_determinant() {
         // Absolute angles a, b: [[2 - P, f P - 1], [-1, 1 - (1 - f) P]] has determinant zero at
         // (1 - f) P^2 - 3 (1 - f) P + 1 = 0: real for (1 - f) >= 4 / 9.
         let d = 1.0 - follows;
-        let asked = (3.0 * d - (9.0 * d * d - 4.0 * d).sqrt()) / (2.0 * d);
+        let expected = (3.0 * d - (9.0 * d * d - 4.0 * d).sqrt()) / (2.0 * d);
         let found = critical_load_factor(
             &problem,
             &pattern,
@@ -85,9 +85,15 @@ fn partly_following_columns_diverge_by_the_determinant() {
         assert_eq!(found.conservative, follows == 0.0);
         assert_eq!(found.caution().is_none(), follows == 0.0);
         let exact = found.exact.expect("divergence").factor;
-        assert!((exact - asked).abs() < 1e-6, "{follows}: {exact} {asked}");
+        assert!(
+            (exact - expected).abs() < 1e-6,
+            "{follows}: {exact} {expected}"
+        );
         let linear = found.linear.expect("a linear prediction");
-        assert!((linear - asked).abs() < 1e-9, "{follows}: {linear} {asked}");
+        assert!(
+            (linear - expected).abs() < 1e-9,
+            "{follows}: {linear} {expected}"
+        );
         if let Some(until) = found.definite_until {
             assert!(until <= exact + 1e-9, "{until} {exact}");
         }
@@ -113,22 +119,28 @@ fn a_dead_load_beside_a_follower_diverges_by_the_determinant() {
                 .unwrap();
         // Absolute angles: [[2 - F - p, F - 1], [-1, 1 - p]] has the determinant p^2 - (3 - F) p + 1.
         let half: f64 = 0.5 * (3.0 - stays);
-        let asked = (half >= 1.0).then(|| half - (half * half - 1.0).sqrt());
+        let expected = (half >= 1.0).then(|| half - (half * half - 1.0).sqrt());
         let exact = found.exact.map(|e| e.factor);
         let linear = found.linear;
         assert_eq!(
             exact.is_some(),
-            asked.is_some(),
-            "{stays}: {exact:?} {asked:?}"
+            expected.is_some(),
+            "{stays}: {exact:?} {expected:?}"
         );
         assert_eq!(
             linear.is_some(),
-            asked.is_some(),
-            "{stays}: {linear:?} {asked:?}"
+            expected.is_some(),
+            "{stays}: {linear:?} {expected:?}"
         );
-        if let (Some(exact), Some(linear), Some(asked)) = (exact, linear, asked) {
-            assert!((exact - asked).abs() < 1e-6, "{stays}: {exact} {asked}");
-            assert!((linear - asked).abs() < 1e-9, "{stays}: {linear} {asked}");
+        if let (Some(exact), Some(linear), Some(expected)) = (exact, linear, expected) {
+            assert!(
+                (exact - expected).abs() < 1e-6,
+                "{stays}: {exact} {expected}"
+            );
+            assert!(
+                (linear - expected).abs() < 1e-9,
+                "{stays}: {linear} {expected}"
+            );
         }
         assert!(!found.conservative);
     }
@@ -162,10 +174,10 @@ fn by_hand(t: &Matrix2<f64>) -> Option<(bool, bool)> {
 }
 
 /// A column that is lost whatever its masses are (the determinant negative, or the symmetric part of the
-/// stiffness negative in every motion) is told so by every way of asking, and as swinging by none.
+/// stiffness negative in every motion) is reported so by every way of asking, and as swinging by none.
 #[test]
 fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
-    let (mut seen, mut asked) = ([0; 4], [0; 2]);
+    let (mut seen, mut expected) = ([0; 4], [0; 2]);
     let (mut few, mut some) = (SpreadSettings::default(), SearchSettings::default());
     (few.starts, few.fruitless) = (10, 5);
     (some.starts, some.fruitless) = (20, 10);
@@ -218,7 +230,7 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                     straight(&limbs[0].coordinates)
                 };
                 for f in all.filter(|f| own(&f.equilibrium.limbs)) {
-                    asked[0] += 1;
+                    expected[0] += 1;
                     let told = (f.stable, f.may_flutter);
                     assert_eq!(told, awaited, "equilibria of the machine, {case}");
                 }
@@ -228,7 +240,7 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let all = equilibria(&one, &bounds, &some).unwrap();
                 let all = all.found.iter();
                 for f in all.filter(|f| straight(&f.equilibrium.coordinates)) {
-                    asked[1] += 1;
+                    expected[1] += 1;
                     let told = (f.stable, f.may_flutter);
                     assert_eq!(told, awaited, "equilibria of the chain, {case}");
                 }
@@ -236,5 +248,5 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
         }
     }
     assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
-    assert!(asked.iter().all(|n| *n > 40), "{asked:?}");
+    assert!(expected.iter().all(|n| *n > 40), "{expected:?}");
 }

@@ -341,7 +341,7 @@ fn the_rate_observed_falls_towards_zero_for_newton() {
         "{:?}",
         newton.residual
     );
-    // The report's own steps settle at a rate; it is max |mu| of the shape with its end free.
+    // The report's own steps converge at a rate; it is max |mu| of the shape with its end free.
     let settings = Settings::default().with_picard_steps(usize::MAX);
     let report = solve_chain(&problem, &settings).unwrap();
     let rate = report.residual.rate.unwrap();

@@ -37,7 +37,7 @@ fn both_partners_are_kept_down_to_one_part_in_a_hundred_million() {
             }
             0.5 * (low + high)
         };
-        let asked = [root(limit, rise), root(0.0, limit), root(-1.0, -rise)];
+        let expected = [root(limit, rise), root(0.0, limit), root(-1.0, -rise)];
         let mut end = EndCondition::wrench(Wrench::new(vector![0.0, -p, 0.0], Vector3::zeros()));
         end.pose = Pose::translation(span, rise, 0.0);
         end.prescribed[0] = Prescribed::Pose;
@@ -51,11 +51,15 @@ fn both_partners_are_kept_down_to_one_part_in_a_hundred_million() {
             .iter()
             .map(|f| (f.equilibrium.tip.translation.vector.y, f.stable))
             .collect();
-        assert_eq!(heights.len(), 3, "{share:e}: {heights:?} asked {asked:?}");
-        for (k, h) in asked.iter().enumerate() {
+        assert_eq!(
+            heights.len(),
+            3,
+            "{share:e}: {heights:?} asked {expected:?}"
+        );
+        for (k, h) in expected.iter().enumerate() {
             // A root beside a fold is known to the root of the rounding.
             let near = |(found, stable): &&(f64, bool)| {
-                (found - h).abs() < 0.05 * (asked[0] - asked[1]) && *stable == (k != 1)
+                (found - h).abs() < 0.05 * (expected[0] - expected[1]) && *stable == (k != 1)
             };
             assert!(
                 heights.iter().any(|f| near(&f)),

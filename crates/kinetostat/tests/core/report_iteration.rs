@@ -24,7 +24,7 @@ pub struct Row {
     /// Stable or not, F_x, max |mu|; as printed in the table.
     pub force: f64,
     pub mu: f64,
-    /// Observed ratio and steps of the report's iteration, `None` where it does not settle.
+    /// Observed ratio and steps of the report's iteration, `None` where it does not converge.
     pub rate: Option<f64>,
     pub steps: Option<usize>,
     pub newton_steps: usize,
@@ -153,8 +153,8 @@ fn to_rounding(problem: &ChainProblem<'_>) -> Equilibrium {
         coordinates: found.coordinates.clone(),
         wrench: found.wrench,
     };
-    let settled = newton_iteration(problem, Some(state), &IterationSettings::default());
-    settled.unwrap().equilibrium.unwrap()
+    let converged = newton_iteration(problem, Some(state), &IterationSettings::default());
+    converged.unwrap().equilibrium.unwrap()
 }
 
 /// The exact state with its coordinates moved by `size` in a random direction.
@@ -182,17 +182,17 @@ fn the_table_of_iterations() {
             println!("{}: {}", row.name, report.words());
             let expected = report.rate_at_start.unwrap();
             close(row.name, expected, row.mu, 6e-6);
-            assert_eq!(newton.outcome, IterationOutcome::Settled, "{}", row.name);
+            assert_eq!(newton.outcome, IterationOutcome::Converged, "{}", row.name);
             let steps = steps_to(&newton.path, &m.exact).unwrap();
             assert!(steps <= row.newton_steps, "{}: {steps}", row.name);
             match row.rate {
                 Some(rate) => {
-                    assert_eq!(report.outcome, IterationOutcome::Settled, "{}", row.name);
+                    assert_eq!(report.outcome, IterationOutcome::Converged, "{}", row.name);
                     close(row.name, report.observed_rate.unwrap(), rate, 6e-5);
                     close(row.name, report.observed_rate.unwrap(), expected, 1e-6);
                     counts.push(steps_to(&report.path, &m.exact).unwrap());
                 }
-                None => assert_ne!(report.outcome, IterationOutcome::Settled, "{}", row.name),
+                None => assert_ne!(report.outcome, IterationOutcome::Converged, "{}", row.name),
             }
         }
         if let Some(steps) = row.steps {
@@ -431,7 +431,7 @@ fn newton_is_quadratic_on_planar_and_spatial_chains() {
             "{}",
             words(&run.newton_errors)
         );
-        assert_eq!(run.report.outcome, IterationOutcome::Settled);
+        assert_eq!(run.report.outcome, IterationOutcome::Converged);
         let (expected, observed) = (run.report.expected_rate, run.report.observed_rate);
         close("mu", expected.unwrap(), run.mu, 1e-7);
         // A fast iteration is over before its slowest mode is alone: then it is faster yet.

@@ -82,8 +82,8 @@ fn clustered_singular_values_come_back() {
     for (case, (a, values)) in cases(6000).enumerate() {
         let own = SingularValues::of(&a);
         let most = values[0];
-        for (found, asked) in own.values.iter().zip(&values) {
-            let error = (found - asked).abs() / most;
+        for (found, expected) in own.values.iter().zip(&values) {
+            let error = (found - expected).abs() / most;
             assert!(error <= 1e-14, "case {case}: {error:e}");
         }
         assert!(own.values.is_sorted_by(|a, b| a >= b), "case {case}");

@@ -139,9 +139,9 @@ fn compliances_of_rods_beside_and_behind_each_other_add_up() {
         for (i, (_, first, _)) in own.iter().enumerate() {
             for (j, (_, second, _)) in own.iter().enumerate() {
                 let value = (first.transpose() * compliance * second)[0];
-                let asked = if i == j { 1.0 } else { 0.0 };
+                let expected = if i == j { 1.0 } else { 0.0 };
                 assert!(
-                    (value - asked).abs() <= 1e-4,
+                    (value - expected).abs() <= 1e-4,
                     "EA {axial:e}: {i} {j} {value}"
                 );
             }

@@ -37,11 +37,11 @@ fn principal(chain: Chain) -> (Vec<f64>, Vec<String>) {
 }
 
 /// Largest relative error.
-fn off(found: &[f64], asked: [f64; 3]) -> f64 {
-    let mut asked: Vec<f64> = asked.into_iter().chain(asked).collect();
-    asked.sort_by(f64::total_cmp);
+fn off(found: &[f64], expected: [f64; 3]) -> f64 {
+    let mut expected: Vec<f64> = expected.into_iter().chain(expected).collect();
+    expected.sort_by(f64::total_cmp);
     assert_eq!(found.len(), 6);
-    let both = found.iter().zip(&asked);
+    let both = found.iter().zip(&expected);
     let errors = both.map(|(a, b)| (a / b - 1.0).abs());
     errors.fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
 }
@@ -153,17 +153,17 @@ fn a_soft_direction_that_a_load_makes_negative_is_not_free() {
             let end = Wrench::new(Vector3::new(-push, 0.0, 0.0), Vector3::zeros());
             let found = machine.posture(&there).unwrap().deflected_by(&end).unwrap();
             let aside = 2.0 * hinge / (left * left) - push / left;
-            let mut asked = [along, across, aside];
-            asked.sort_by(f64::total_cmp);
+            let mut expected = [along, across, aside];
+            expected.sort_by(f64::total_cmp);
             let mut values: Vec<f64> = (found.directions.iter())
                 .filter(|d| d.kind != DirectionKind::Free)
                 .map(|d| d.stiffness_n_per_m)
                 .collect();
             values.sort_by(f64::total_cmp);
             assert_eq!(values.len(), 3, "{:?}", found.directions);
-            for (value, asked) in values.iter().zip(asked) {
-                let error = (value - asked).abs() / asked.abs().max(1e-4 * hinge);
-                assert!(error < 1e-6, "1e{decade}, {share}: {value} {asked}");
+            for (value, expected) in values.iter().zip(expected) {
+                let error = (value - expected).abs() / expected.abs().max(1e-4 * hinge);
+                assert!(error < 1e-6, "1e{decade}, {share}: {value} {expected}");
             }
             // The end turns as it likes.
             assert_eq!(found.platform.free, 3, "1e{decade}, {share}");
@@ -265,8 +265,9 @@ fn principal_directions_are_those_of_the_loaded_matrix() {
                 let length = found.length;
                 let unit = |i: usize| if i < 3 { 1.0 } else { length };
                 let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] / (unit(i) * unit(j)));
-                let mut asked: Vec<f64> = scaled.symmetric_eigenvalues().iter().copied().collect();
-                asked.sort_by(f64::total_cmp);
+                let mut expected: Vec<f64> =
+                    scaled.symmetric_eigenvalues().iter().copied().collect();
+                expected.sort_by(f64::total_cmp);
                 let mut values: Vec<f64> = found
                     .directions
                     .iter()
@@ -274,12 +275,12 @@ fn principal_directions_are_those_of_the_loaded_matrix() {
                     .collect();
                 values.sort_by(f64::total_cmp);
                 assert_eq!(values.len(), 6, "{case}");
-                for (value, asked) in values.iter().zip(&asked) {
-                    let error = (value - asked).abs();
-                    let held = 1e-13 * scaled.largest_entry() + 1e-9 * asked.abs();
-                    assert!(error <= held, "{case}: {values:?} {asked}");
+                for (value, expected) in values.iter().zip(&expected) {
+                    let error = (value - expected).abs();
+                    let held = 1e-13 * scaled.largest_entry() + 1e-9 * expected.abs();
+                    assert!(error <= held, "{case}: {values:?} {expected}");
                 }
-                negative += usize::from(asked[0] < 0.0);
+                negative += usize::from(expected[0] < 0.0);
                 seen += 1;
             }
         }

@@ -1,4 +1,4 @@
-//! Machines that Newton does not settle from their unloaded posture: pendulums, strings and trusses
+//! Machines that Newton does not bring to equilibrium from their unloaded posture: pendulums, strings and trusses
 //! in their flat posture, free bars, limit points on the way. Against statics by hand.
 
 use kinetostat::{
@@ -218,7 +218,7 @@ fn an_answer_behind_a_limit_point_is_recognised() {
 }
 
 /// Whatever the share of the limit: below it the state told is the one in front of it, which the
-/// machine reaches without a snap; beyond it, if any state is told, the limit is on the way.
+/// machine reaches without a snap; beyond it, if any state is reported, the limit is on the way.
 #[test]
 fn a_limit_beyond_the_load_is_not_on_the_way() {
     let mut told_behind = 0;

@@ -62,14 +62,17 @@ pub fn case(random: &mut Random) {
         k.directions
     );
     let mut found: Vec<f64> = k.directions.iter().map(|d| d.stiffness_n_per_m).collect();
-    let mut asked = values.clone();
+    let mut expected = values.clone();
     found.sort_by(f64::total_cmp);
-    asked.sort_by(f64::total_cmp);
+    expected.sort_by(f64::total_cmp);
     // A full matrix holds its softest value to the rounding of its stiffest one.
     let held = if whole { 1e-14 * most / least } else { 0.0 };
-    for (a, b) in found.iter().zip(&asked) {
+    for (a, b) in found.iter().zip(&expected) {
         let off = (a / b - 1.0).abs();
-        assert!(off <= 1e-9 + held, "{a:e} instead of {b:e} among {asked:?}");
+        assert!(
+            off <= 1e-9 + held,
+            "{a:e} instead of {b:e} among {expected:?}"
+        );
     }
 }
 
@@ -123,9 +126,9 @@ pub fn stiff_link(random: &mut Random) {
     let problem = ChainProblem::new(&chain, EndCondition::wrench(wrench));
     let e = solve_chain(&problem, &Settings::default()).expect("an equilibrium");
     let moved = e.tip.translation.vector.y;
-    let asked = force * length.powi(3) / (3.0 * bending);
+    let expected = force * length.powi(3) / (3.0 * bending);
     assert!(
-        (moved / asked - 1.0).abs() < 1e-6,
-        "{moved:e} instead of {asked:e}"
+        (moved / expected - 1.0).abs() < 1e-6,
+        "{moved:e} instead of {expected:e}"
     );
 }

@@ -74,11 +74,11 @@ fn strut(random: &mut Random, name: &str, foot: Vector3<f64>, way: Vector3<f64>)
 }
 
 #[track_caller]
-fn same(what: &str, found: &Matrix6<f64>, asked: &Matrix6<f64>, length: f64, most: f64) {
+fn same(what: &str, found: &Matrix6<f64>, expected: &Matrix6<f64>, length: f64, most: f64) {
     let unit = |i: usize| if i < 3 { 1.0 } else { length };
     for i in 0..6 {
         for j in 0..6 {
-            let off = (found[(i, j)] - asked[(i, j)]) / (unit(i) * unit(j));
+            let off = (found[(i, j)] - expected[(i, j)]) / (unit(i) * unit(j));
             assert!(
                 off.abs() <= 1e-9 * most,
                 "{what}[{i}, {j}] is off by {off:e} of {most:e}"
@@ -92,20 +92,20 @@ pub fn case(random: &mut Random) {
     let (foot, way) = (whole(random, 3), whole(random, 6));
     let (chain, axial) = strut(random, "strut", foot, way);
     let along = way.normalize();
-    let mut asked = Matrix6::zeros();
-    asked
+    let mut expected = Matrix6::zeros();
+    expected
         .fixed_view_mut::<3, 3>(0, 0)
         .copy_from(&(axial * along * along.transpose()));
     let home = (chain.home_coordinates(), chain.home_commands());
     let base = Pose::identity();
     let k = unloaded_stiffness(&chain, &base, &home.0, &home.1).expect("a stiffness");
     let length = way.norm();
-    same("strut", &k.cartesian.matrix, &asked, length, axial);
+    same("strut", &k.cartesian.matrix, &expected, length, axial);
     let kinds = (k.count(DirectionKind::Finite), k.count(DirectionKind::Free));
     assert_eq!((k.rank, kinds), (1, (1, 5)), "directions of a strut");
     let blocks = ChainBlocks::unloaded(&chain, &base, &home.0, &home.1).expect("blocks");
     let inverse = blocks.block_inverse().expect("springs that hold");
-    same("block inverse", &inverse, &asked, length, axial);
+    same("block inverse", &inverse, &expected, length, axial);
     let give = blocks.compliance();
     assert_eq!(
         (give.rank(), give.free.len()),
@@ -119,7 +119,7 @@ fn machine(random: &mut Random) {
     let home = Pose::translation(0.0, 0.0, 6.0);
     let mut builder = Mechanism::builder("six struts");
     let tool = builder.platform(Platform::new("tool", home));
-    let mut asked = Matrix6::zeros();
+    let mut expected = Matrix6::zeros();
     let mut most = Worst::new();
     for i in 0..6 {
         let (mut foot, mut hand) = (whole(random, 5), whole(random, 2));
@@ -129,7 +129,7 @@ fn machine(random: &mut Random) {
         let (chain, axial) = strut(random, &name, foot, way);
         let (along, arm) = (way.normalize(), hand.cross(&way.normalize()));
         let wrench = Vector6::new(along.x, along.y, along.z, arm.x, arm.y, arm.z);
-        asked += axial * wrench * wrench.transpose();
+        expected += axial * wrench * wrench.transpose();
         most.add(axial);
         builder = builder.limb(
             Limb::between(name, 0, tool, chain).fixed_at(Pose::translation(hand.x, hand.y, hand.z)),
@@ -139,9 +139,15 @@ fn machine(random: &mut Random) {
     let machine = builder.build().expect("a machine");
     let posture = machine.posture(&home).expect("home");
     let k = posture.stiffness().expect("a stiffness");
-    same("six struts", &k.cartesian.matrix, &asked, 2.0, most);
+    same("six struts", &k.cartesian.matrix, &expected, 2.0, most);
     let held = posture.wrench_at(&home).expect("home without load");
-    same("six struts held", &held.stiffness.matrix, &asked, 2.0, most);
+    same(
+        "six struts held",
+        &held.stiffness.matrix,
+        &expected,
+        2.0,
+        most,
+    );
     let push = held.wrench.force().norm() + held.wrench.moment().norm();
     assert!(push <= 1e-9 * most, "a wrench {push:e} at rest");
 }

@@ -64,24 +64,24 @@ fn median(task: &Task, block: usize) -> Result<f64> {
 }
 
 /// A line that `cargo xtask figures` reads; with `--figures` only.
-fn figure(name: &str, measured: f64, asked: &str, unit: &str, holds: bool) {
+fn figure(name: &str, measured: f64, required: &str, unit: &str, holds: bool) {
     if !std::env::args().any(|word| word == "--figures") {
         return;
     }
     let name = name.replace('"', "'");
     println!(
-        r#"figure {{"name":"{name}","measured":{measured:e},"asked":"{asked}","unit":"{unit}","holds":{holds}}}"#
+        r#"figure {{"name":"{name}","measured":{measured:e},"asked":"{required}","unit":"{unit}","holds":{holds}}}"#
     );
 }
 
 fn at_most(name: &str, measured: f64, most: f64, unit: &str) {
-    let asked = format!("at most {most}");
-    figure(name, measured, &asked, unit, measured <= most);
+    let required = format!("at most {most}");
+    figure(name, measured, &required, unit, measured <= most);
 }
 
 fn at_least(name: &str, measured: f64, least: f64, unit: &str) {
-    let asked = format!("at least {least}");
-    figure(name, measured, &asked, unit, measured >= least);
+    let required = format!("at least {least}");
+    figure(name, measured, &required, unit, measured >= least);
 }
 
 /// Exponent of growth between the first and the last of several sizes and times.

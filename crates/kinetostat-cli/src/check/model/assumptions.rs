@@ -158,7 +158,7 @@ impl AssumptionsFinding {
         let mut worst: Option<(Vector3<f64>, CarriedLoad)> = None;
         let mut free = Vec::new();
         let mut unstable: Option<Vector3<f64>> = None;
-        // What was asked for is answered by what `deflect` finds, whatever first order says.
+        // What was requested is answered by what `deflect` finds, whatever first order says.
         for (case, outcome) in under_forces(posture, rest, &forces, force.is_none()) {
             match outcome {
                 LoadOutcome::TooMuch(first_order) => {

@@ -14,12 +14,12 @@ use serde_json::{Value, json};
 
 /// Prints a figure, which `cargo xtask figures` collects, and holds it.
 #[allow(clippy::print_stdout, reason = "read by cargo xtask figures")]
-pub fn figure(name: &str, measured: Value, asked: &str, unit: &str, holds: bool) {
+pub fn figure(name: &str, measured: Value, expected: &str, unit: &str, holds: bool) {
     let figure = json!({
-        "name": name, "measured": measured, "asked": asked, "unit": unit, "holds": holds,
+        "name": name, "measured": measured, "asked": expected, "unit": unit, "holds": holds,
     });
     println!("figure {figure}");
-    assert!(holds, "{name} falls short: {measured}, asked {asked}");
+    assert!(holds, "{name} falls short: {measured}, asked {expected}");
 }
 
 /// Random numbers between -1 and 1, always the same.

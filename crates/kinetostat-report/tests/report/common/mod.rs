@@ -46,10 +46,10 @@ fn summarise(result: &mut RunResult, all_points: usize) {
     summary.smallest_stiffness_n_per_mm = least(cutting().map(|p| p.smallest_stiffness_n_per_mm));
     let shares: Vec<f64> = cutting().filter_map(|p| p.share_to_buckling).collect();
     summary.largest_share_to_buckling = (!shares.is_empty()).then(|| largest(shares));
-    summary.max_actuator_force = (0..result.question.actuators.len())
+    summary.max_actuator_force = (0..result.run_inputs.actuators.len())
         .map(|i| most(&|p| p.actuator_force.get(i).map_or(0.0, |f| f.abs())))
         .collect();
-    summary.max_actuator_correction = (0..result.question.actuators.len())
+    summary.max_actuator_correction = (0..result.run_inputs.actuators.len())
         .map(|i| most(&|p| p.actuator_correction.get(i).map_or(0.0, |f| f.abs())))
         .collect();
     summary.converged = true;
@@ -68,27 +68,27 @@ pub fn circle_groove() -> RunResult {
         kinetostat_version: "0.1.0".to_owned(),
         ..RunResult::default()
     };
-    let question = &mut result.question;
-    question.model = "Orthoglide, three translations".to_owned();
-    question.model_source = "preset orthoglide".to_owned();
-    question.model_deviations = vec![
+    let run_inputs = &mut result.run_inputs;
+    run_inputs.model = "Orthoglide, three translations".to_owned();
+    run_inputs.model_source = "preset orthoglide".to_owned();
+    run_inputs.model_deviations = vec![
         "leg x: foot turned by 1 deg about its own axis".to_owned(),
         "leg y: foot turned by 1 deg about its own axis".to_owned(),
         "leg z: foot turned by 1 deg about its own axis".to_owned(),
     ];
-    question.program = "circle-groove.ngc".to_owned();
-    question.load = "milling force turned with the feed: 100 N against it, 40 N across, 60 N up, on cutting moves".to_owned();
-    question.placement = "program origin at X 0, Y 0, Z 0 mm of the machine".to_owned();
-    question.tool = "end mill, 100 mm below the platform".to_owned();
-    question.actuators = ["x", "y", "z"]
+    run_inputs.program = "circle-groove.ngc".to_owned();
+    run_inputs.load = "milling force turned with the feed: 100 N against it, 40 N across, 60 N up, on cutting moves".to_owned();
+    run_inputs.placement = "program origin at X 0, Y 0, Z 0 mm of the machine".to_owned();
+    run_inputs.tool = "end mill, 100 mm below the platform".to_owned();
+    run_inputs.actuators = ["x", "y", "z"]
         .map(|leg| actuator(&format!("slider {leg}"), "mm", "N"))
         .to_vec();
-    question.tolerance_mm = 0.000_5;
-    question.chord_tolerance_mm = 0.000_2;
-    question.decimals = 4;
-    question.box_min_mm = [-25.0, -25.0, -1.0];
-    question.box_max_mm = [25.0, 25.0, 0.0];
-    question.compensated = true;
+    run_inputs.tolerance_mm = 0.000_5;
+    run_inputs.chord_tolerance_mm = 0.000_2;
+    run_inputs.decimals = 4;
+    run_inputs.box_min_mm = [-25.0, -25.0, -1.0];
+    run_inputs.box_max_mm = [25.0, 25.0, 0.0];
+    run_inputs.compensated = true;
 
     let mut points = Vec::new();
     let rapid = |line, path, position| PointResult {
@@ -193,14 +193,14 @@ pub fn circle_groove() -> RunResult {
 pub fn pocket_on_serial_robot(points: usize) -> RunResult {
     let mut result = circle_groove();
     result.warnings = Vec::new();
-    let question = &mut result.question;
-    question.model = "Heavy arm with six joints".to_owned();
-    question.model_source = "preset heavy_6r".to_owned();
-    question.model_deviations = Vec::new();
-    question.program = "pocket-roughing.nc".to_owned();
-    question.load =
+    let run_inputs = &mut result.run_inputs;
+    run_inputs.model = "Heavy arm with six joints".to_owned();
+    run_inputs.model_source = "preset heavy_6r".to_owned();
+    run_inputs.model_deviations = Vec::new();
+    run_inputs.program = "pocket-roughing.nc".to_owned();
+    run_inputs.load =
         "constant force 200, 50, -120 N in base axes, and the weight of the links".to_owned();
-    question.actuators = (1..=6)
+    run_inputs.actuators = (1..=6)
         .map(|i| actuator(&format!("joint {i}"), "deg", "N m"))
         .collect();
     result.points = (0..points)
@@ -263,7 +263,7 @@ pub fn pocket_on_serial_robot(points: usize) -> RunResult {
 /// The groove without compensation.
 pub fn analysis() -> RunResult {
     let mut result = circle_groove();
-    result.question.compensated = false;
+    result.run_inputs.compensated = false;
     for point in result.points.iter_mut().chain(&mut result.worst_points) {
         point.error_after_mm = [0.0; 3];
         point.correction_mm = [0.0; 3];
@@ -336,10 +336,10 @@ pub fn hostile_numbers() -> RunResult {
         &mut s.feed_length_mm,
         &mut s.max_speed_deviation_percent,
         &mut s.largest_corner_step_mm,
-        &mut result.question.tolerance_mm,
-        &mut result.question.chord_tolerance_mm,
-        &mut result.question.box_min_mm[0],
-        &mut result.question.box_max_mm[1],
+        &mut result.run_inputs.tolerance_mm,
+        &mut result.run_inputs.chord_tolerance_mm,
+        &mut result.run_inputs.box_min_mm[0],
+        &mut result.run_inputs.box_max_mm[1],
     ] {
         *value = f64::NAN;
     }
@@ -353,7 +353,7 @@ pub fn hostile_text() -> RunResult {
     let mut result = circle_groove();
     let evil = "<script>alert(1)</script><img src=x onerror=\"alert(2)\"> '\"&{{ version }} \u{202e}gnp\u{0}";
     let long = "a-very-long-name-without-any-space_".repeat(40);
-    let q = &mut result.question;
+    let q = &mut result.run_inputs;
     q.model = evil.to_owned();
     q.model_source = format!("{evil}{long}");
     q.model_deviations = vec![evil.to_owned(), long.clone()];

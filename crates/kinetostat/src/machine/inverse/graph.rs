@@ -47,10 +47,10 @@ pub(crate) fn graph_inverse(
         let mut at = start.clone();
         at.platforms[mechanism.tool()] = *target;
         if let Ok(found) = search.close(at) {
-            return search.settled(found, true);
+            return search.adjusted(found, true);
         }
         if let Ok(found) = search.by_continuation(start.clone(), target) {
-            return search.settled(found, true);
+            return search.adjusted(found, true);
         }
     }
     let home = search.home()?;
@@ -61,10 +61,10 @@ pub(crate) fn graph_inverse(
         let found = search
             .close(found)
             .map_err(|_| search.unreachable(target, target))?;
-        return search.settled(found, false);
+        return search.adjusted(found, false);
     }
     match search.by_continuation(home, target) {
-        Ok(found) => search.settled(found, true),
+        Ok(found) => search.adjusted(found, true),
         Err(reached) => Err(search.unreachable(target, &reached)),
     }
 }
@@ -564,7 +564,7 @@ impl<'m> GraphSearch<'m> {
     }
 
     /// The joints nearest to home among those that close, in the turn that the limits ask for.
-    fn settled(&self, at: GraphPosture, redundant: bool) -> Result<GraphPosture> {
+    fn adjusted(&self, at: GraphPosture, redundant: bool) -> Result<GraphPosture> {
         let mut at = at;
         if redundant && self.can_move_inside(&at) {
             let home = self.home()?;

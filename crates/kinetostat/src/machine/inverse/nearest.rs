@@ -81,7 +81,7 @@ impl Mechanism {
 
     /// Puts the tool's home at the nearest pose that the machine can take, if it lies within `limit`
     /// (see [`Self::nearest_reachable`]). The home as it was, if it was changed.
-    pub fn settle_home(&mut self, limit: f64) -> Option<Pose> {
+    pub fn move_home_within_reach(&mut self, limit: f64) -> Option<Pose> {
         let home = self.platforms()[self.tool()].home;
         if self.posture(&home).is_ok() {
             return None;

@@ -123,7 +123,7 @@ impl<'m> PlatformSolver<'m> {
             .zip(&scales)
             .map(|((l, p), scales)| {
                 let base = &state.platforms[l.from];
-                // What follows from commands and from a moving base is asked of dense matrices.
+                // What follows from commands and from a moving base is computed with dense matrices.
                 let dense = matches!(unknowns, Unknowns::Target(_)) || l.from != 0;
                 let (x, commands) = (&p.coordinates, &p.commands);
                 Linear::new(match dense {

@@ -20,7 +20,7 @@ use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 /// A limb is singular where its singular value is at most this share of the largest.
 pub(crate) const SINGULAR: f64 = 1e-8;
 
-/// Below this share a singular vector is not told from those that are always singular; from here
+/// Below this share a singular vector is not distinguished from those that are always singular; from here
 /// all of them are brought to zero together.
 const UNCLEAR: f64 = 1e-6;
 

@@ -271,7 +271,7 @@ impl Posture {
                 follow(value * value, first, &along)
             })
             .flatten();
-        // At a singular posture what is gained is not told from what is always free; nearby it is.
+        // At a singular posture what is gained is not distinguished from what is always free; nearby it is.
         let near = around.iter().flatten().flatten();
         let near = near.max_by(|a, b| a.values[last].total_cmp(&b.values[last]));
         let motion = match near {

@@ -130,12 +130,12 @@ impl LengthLaw {
                 Limit::NotBelowZero => **value < 0.0,
                 Limit::AboveZero => **value <= 0.0,
             })?;
-            let asked = match limit {
+            let required = match limit {
                 Limit::AboveZero => "above zero",
                 _ => "not below zero",
             };
             Some(format!(
-                "the {what} of the law {self:?} is {value}, a number {asked} is needed"
+                "the {what} of the law {self:?} is {value}, a number {required} is needed"
             ))
         })
     }

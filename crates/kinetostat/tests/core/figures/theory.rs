@@ -15,11 +15,11 @@ fn the_report_s_own_iteration() {
     for m in table() {
         let name = format!("Report's iteration, {}", m.row.name);
         let [mut mu, mut rate] = [(); 2].map(|()| Worst::new());
-        let (mut cycles, mut left, mut settled, mut newton) = (0, 0, 0, vec![]);
+        let (mut cycles, mut left, mut converged, mut newton) = (0, 0, 0, vec![]);
         for (report, exact) in m.report.iter().zip(&m.newton) {
             mu.apart(report.rate_at_start.unwrap_or(f64::NAN), m.row.mu);
             match &report.outcome {
-                IterationOutcome::Settled => settled += 1,
+                IterationOutcome::Converged => converged += 1,
                 IterationOutcome::Leaves => left += 1,
                 IterationOutcome::Cycle(_) => cycles += 1,
                 _ => {}
@@ -44,7 +44,7 @@ fn the_report_s_own_iteration() {
                     5.1e-5,
                     "(table's digits)",
                 );
-                f.at_least(&format!("{name}: settles"), settled, m.report.len(), &of);
+                f.at_least(&format!("{name}: settles"), converged, m.report.len(), &of);
             }
             None if m.row.mu > 1.0 && m.row.force > 0.0 => {
                 f.at_least(

@@ -26,8 +26,11 @@ fn the_largest_are_found_also_where_they_are_equal() {
             let count = equal + 1;
             let (values, vectors) = largest_eigenvalues(&a, count);
             for k in 0..count {
-                let asked = if k < equal { 1.25 } else { 1.1 };
-                assert!((values[k] - asked).abs() < 1e-12, "{n} {equal}: {values}");
+                let expected = if k < equal { 1.25 } else { 1.1 };
+                assert!(
+                    (values[k] - expected).abs() < 1e-12,
+                    "{n} {equal}: {values}"
+                );
             }
             let residual = &a * &vectors - &vectors * DMatrix::from_diagonal(&values);
             assert!(

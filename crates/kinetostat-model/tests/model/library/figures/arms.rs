@@ -172,19 +172,22 @@ fn commands_of_hybrids_come_back() {
         let mut last: Option<Posture> = None;
         let mut random = Random(8);
         for _ in 0..50 {
-            let asked = moved(
+            let expected = moved(
                 &home,
                 &Twist::new(random.vector() * shift, random.vector() * turn),
             );
             // A machine of fewer than six degrees of freedom takes the nearest place.
-            let posture = match mechanism.posture(&asked) {
+            let posture = match mechanism.posture(&expected) {
                 Err(Error::Unreachable { nearest, .. }) if free == 5 => {
                     mechanism.posture(&*nearest)
                 }
                 other => other,
             }
-            .unwrap_or_else(|e| panic!("{name} at {asked}: {e}"));
-            assert!(posture.limit_violations().is_empty(), "{name} at {asked}");
+            .unwrap_or_else(|e| panic!("{name} at {expected}: {e}"));
+            assert!(
+                posture.limit_violations().is_empty(),
+                "{name} at {expected}"
+            );
             closure_residual.add(machine::structure(&model, &posture).closure_residual);
             if let Some(last) = &last {
                 let again = mechanism

@@ -1,12 +1,12 @@
-//! What was asked of a run, as its result repeats it.
+//! The inputs of a run, as its result repeats them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::load::law::CornerLoad;
 
-/// What was asked of the run.
+/// Model, program, load and tolerances of a run, in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Question {
+pub struct RunInputs {
     /// Name of the model.
     pub model: String,
     /// Where it came from: preset or file name.
