@@ -67,8 +67,8 @@ impl Judgement {
 ///
 /// ```
 /// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0);
-/// let judged = kinetostat_links::judge(&bar.cantilever(0.5)?, kinetostat_links::SYMMETRIC_TO);
-/// assert!(judged.is_stiffness() && judged.rank == 6 && judged.findings.is_empty());
+/// let checked = kinetostat_links::judge(&bar.cantilever(0.5)?, kinetostat_links::SYMMETRIC_TO);
+/// assert!(checked.is_stiffness() && checked.rank == 6 && checked.findings.is_empty());
 /// # Ok::<(), kinetostat::Error>(())
 /// ```
 #[must_use]

@@ -50,7 +50,7 @@ pub fn correct_by_table(
         against,
     };
     if made.keeps_as_it_is {
-        // What was measured, so that the warning has the figure of the verdict.
+        // What was measured, so that the warning has the figure of the result.
         let before = made.against.before;
         made.largest_correction = (before.distance_mm, before.line);
         made.written = write_corrected(program, path, &NoCorrection, writing, monitor)?;

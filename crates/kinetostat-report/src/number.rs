@@ -117,7 +117,7 @@ pub(crate) fn length(value_mm: f64, digits: usize, rounding: Rounding) -> String
     typeset(&plain::length(value_mm, digits, rounding))
 }
 
-/// A largest length beside the bound that it is judged by, see [`plain::against`].
+/// A largest length beside the bound that it is compared with, see [`plain::against`].
 pub(crate) fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
     let (value, bound) = plain::against(value_mm, bound_mm);
     (typeset(&value), typeset(&bound))

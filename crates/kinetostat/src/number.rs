@@ -251,7 +251,7 @@ pub fn share(value: f64) -> String {
     with_unit(&number, "%")
 }
 
-/// A largest length beside the bound that it is judged by, with as many digits as show on which side
+/// A largest length beside the bound that it is compared with, with as many digits as show on which side
 /// it lies: a bound that is missed never looks met, and one that is met never looks missed.
 #[must_use]
 pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {

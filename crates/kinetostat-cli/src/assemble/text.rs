@@ -14,7 +14,7 @@ const SHOWN: usize = 12;
 /// The question, one sentence, and tables.
 pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> String {
     let mut out = assembly.query.heading();
-    out.push_str(&wrapped(&verdict(a), 2));
+    out.push_str(&wrapped(&result_text(a), 2));
     out.push_str("\nOver-constraint\n");
     out.push_str(&over_constraint(a));
     let loaded = a.platforms.iter().any(|p| p.shift_mm.under_load.is_some());
@@ -49,7 +49,7 @@ pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> 
 }
 
 /// What happened, in one or two sentences.
-fn verdict(a: &Assembly) -> String {
+fn result_text(a: &Assembly) -> String {
     let Some(tool) = a.platforms.last() else {
         return String::new();
     };

@@ -6,7 +6,7 @@ use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    RESULT_SCHEMA, RunError, TableCorrection, ToleranceVerdict, Warning, WarningCode,
+    RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning, WarningCode,
     correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
     unchanged_text, wide_table,
 };
@@ -38,7 +38,7 @@ struct MapResult<'a> {
     /// It came back so because it keeps the tolerance as it is.
     within_tolerance_before: bool,
     /// How the written program stands to its tolerance, as for a model.
-    tolerance: ToleranceVerdict,
+    tolerance: ToleranceResult,
     /// Places of the written program at which the table was asked again.
     places_checked: usize,
     /// Largest distance between where the program goes as it is and where the table wants it.
@@ -165,7 +165,7 @@ fn warnings_of(
     path: &ToolPath,
     field: &CorrectionMap,
     made: &TableCorrection,
-    tolerance: &ToleranceVerdict,
+    tolerance: &ToleranceResult,
     writing: &WriteOptions,
 ) -> Vec<Warning> {
     let mut warnings = of_program(path, Some(&made.written.accounting.warnings));

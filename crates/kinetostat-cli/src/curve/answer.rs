@@ -190,7 +190,8 @@ pub(crate) struct JumpAnswer {
 #[derive(Serialize)]
 pub(crate) struct CriticalAnswer {
     /// shape (the tool held where it is) or shape_and_tool (as prescribed).
-    pub(crate) judged: &'static str,
+    #[serde(rename = "judged")]
+    pub(crate) stability_of: &'static str,
     /// From the stresses of the first load step alone; null if they never destabilise.
     pub(crate) linear_factor: Option<f64>,
     pub(crate) linear_mode_in_words: String,

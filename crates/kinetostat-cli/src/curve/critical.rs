@@ -24,21 +24,25 @@ pub(crate) fn critical_loads(
         return Ok(Vec::new());
     }
     let mut list = Vec::new();
-    for (judged, name) in [
+    for (stability_of, name) in [
         (StabilityOf::Shape, "shape"),
         (StabilityOf::ShapeAndEnd, "shape_and_tool"),
     ] {
-        let found = critical_load_factor(problem, pattern, judged, settings)?;
+        let found = critical_load_factor(problem, pattern, stability_of, settings)?;
         list.push(critical_answer(chain, name, found));
     }
     Ok(list)
 }
 
-fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -> CriticalAnswer {
+fn critical_answer(
+    chain: &SerialChain,
+    stability_of: &'static str,
+    c: CriticalLoad,
+) -> CriticalAnswer {
     let mode = c.exact.as_ref().map_or_else(Vec::new, |e| e.mode.clone());
     let caution = c.caution().unwrap_or_default();
     CriticalAnswer {
-        judged,
+        stability_of,
         linear_factor: c.linear,
         linear_mode_in_words: chain.motion_description(&c.linear_mode),
         factor: c.exact.as_ref().map(|e| e.factor),

@@ -43,7 +43,7 @@ pub(crate) fn follow(
         specials: curves.specials,
         more_branches: curves.more_branches,
         jumps,
-        // The verdict and the special points say where stability ends.
+        // The stability and the special points say where stability ends.
         critical: Vec::new(),
         warnings,
     })

@@ -17,8 +17,8 @@ mod plot;
 mod point;
 mod points;
 mod query;
+mod stability_text;
 mod text;
-mod verdict;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 

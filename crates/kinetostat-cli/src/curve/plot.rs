@@ -91,7 +91,7 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
     for i in 1..points.len() {
         let (before, here) = (place(&points[i - 1]), place(&points[i]));
         let next = holds(&points[i]);
-        // A verdict at one point alone is that of a bifurcation point.
+        // A change of stability at a single point is that of a bifurcation point.
         let lone = points.get(i + 1).is_some_and(|p| holds(p) == how);
         if next == how || lone {
             list.push((open, here));

@@ -4,7 +4,7 @@ use kinetostat_machining::number::{counted, share};
 
 use crate::curve::answer::{CriticalAnswer, CurveAnswer, NamedPoint, kind_description};
 use crate::curve::figures::value;
-use crate::curve::verdict::{reach, verdict};
+use crate::curve::stability_text::{reach, stability_text};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::number;
 use crate::ui::warnings;
@@ -17,7 +17,7 @@ pub(crate) fn answer_text(heading: &str, a: &CurveAnswer) -> String {
     let mut out = heading.to_owned();
     out.push_str(&wrapped(&a.question, 0));
     out.push('\n');
-    out.push_str(&wrapped(&format!("{}{}", verdict(a), reach(a)), 2));
+    out.push_str(&wrapped(&format!("{}{}", stability_text(a), reach(a)), 2));
     out.push('\n');
     out.push_str(&table(a));
     out.push('\n');
@@ -87,9 +87,9 @@ fn table(a: &CurveAnswer) -> String {
             },
             match p.point.may_flutter {
                 true => "may swing".to_owned(),
-                false => verdict_of(p.limits[0], p.point.stable_under_dead_load),
+                false => stability_word(p.limits[0], p.point.stable_under_dead_load),
             },
-            verdict_of(p.limits[1], p.point.stable_under_prescribed_motion),
+            stability_word(p.limits[1], p.point.stable_under_prescribed_motion),
         ];
         if factor {
             row.insert(1, value(p.point.factor.unwrap_or(f64::NAN), 1.0));
@@ -105,7 +105,7 @@ fn table(a: &CurveAnswer) -> String {
     out
 }
 
-fn verdict_of(limit: bool, stable: bool) -> String {
+fn stability_word(limit: bool, stable: bool) -> String {
     match (limit, stable) {
         (true, _) => "limit",
         (false, true) => "holds",
@@ -204,7 +204,7 @@ fn critical(a: &CurveAnswer) -> String {
 }
 
 fn critical_load_text(c: &CriticalAnswer) -> String {
-    let what = if c.judged == "shape" {
+    let what = if c.stability_of == "shape" {
         "the shape, with the tool held where the load brings it"
     } else {
         "shape and tool, as they are held"

@@ -173,7 +173,7 @@ fn limb_text(limb: &LimbAnswer) -> String {
         None if limb.stable => "it has no inner freedom that could buckle".to_owned(),
         None => "a passive joint is pushed out of line".to_owned(),
     };
-    let verdict = match limb.stable {
+    let stability = match limb.stable {
         // Only loads without a potential are stable beyond one.
         true if limb.share_to_buckling.is_some_and(|mu| mu > 1.0) => {
             "does not go away, but may swing with growing amplitude (flutter), which depends on its masses"
@@ -189,7 +189,7 @@ fn limb_text(limb: &LimbAnswer) -> String {
             limb.neutral_passive_joints.join(", ")
         )
     };
-    format!("limb '{}' {verdict} ({share}){neutral}", limb.name)
+    format!("limb '{}' {stability} ({share}){neutral}", limb.name)
 }
 
 /// Axial loads of the links.

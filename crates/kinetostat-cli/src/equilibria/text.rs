@@ -16,7 +16,7 @@ pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {
     let mut out = heading.to_owned();
     out.push_str(&wrapped(&a.question, 0));
     out.push('\n');
-    out.push_str(&wrapped(&verdict(a), 2));
+    out.push_str(&wrapped(&result_text(a), 2));
     if !a.equilibria.is_empty() {
         out.push('\n');
         out.push_str(&table(a));
@@ -38,7 +38,7 @@ pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {
     out
 }
 
-fn verdict(a: &EquilibriaAnswer) -> String {
+fn result_text(a: &EquilibriaAnswer) -> String {
     let mut text = found(a);
     if a.equilibria.iter().any(|e| e.may_flutter) {
         text.push_str(" Under the load, which has no potential, some may swing with growing amplitude (flutter); whether they do depends on the masses, which are not asked for here.");
@@ -114,7 +114,7 @@ fn table(a: &EquilibriaAnswer) -> String {
     header.extend(shown.iter().map(|&k| names[k].to_owned()));
     let mut rows = vec![header];
     for e in a.equilibria.iter().take(MOST_SHOWN) {
-        let verdict = match (e.stable, e.shape_stable, e.singular) {
+        let stability = match (e.stable, e.shape_stable, e.singular) {
             (_, _, true) => "at a limit",
             _ if e.may_flutter => "may swing",
             (true, ..) => "yes",
@@ -124,7 +124,7 @@ fn table(a: &EquilibriaAnswer) -> String {
         let mut row = vec![
             e.number.to_string(),
             number(e.energy_j, 6),
-            verdict.to_owned(),
+            stability.to_owned(),
             e.share_to_buckling
                 .map_or_else(|| "-".to_owned(), kinetostat_machining::number::share),
             number(e.stiffness_n_per_mm, 5),

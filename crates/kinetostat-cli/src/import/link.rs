@@ -60,7 +60,7 @@ impl Remarks {
     }
 }
 
-/// Judges, writes, tells.
+/// Checks, writes, reports.
 pub(crate) fn finish(
     file: &Path,
     table: &TableArgs,
@@ -69,10 +69,10 @@ pub(crate) fn finish(
     source: &str,
     mut remarks: Remarks,
 ) -> Answer<()> {
-    let judged = judge(stiffness, SYMMETRIC_TO);
-    refuse_what_is_none(file, &judged)?;
+    let checked = judge(stiffness, SYMMETRIC_TO);
+    refuse_what_is_none(file, &checked)?;
     let doubts = doubts_of_link_matrix(stiffness, None);
-    for finding in &judged.findings {
+    for finding in &checked.findings {
         remarks
             .notices
             .push(format!("{}; {}", finding.message, finding.help));
@@ -95,10 +95,10 @@ pub(crate) fn finish(
         outputs.fill(index, toml.as_bytes())?;
         outputs.commit()?;
     }
-    let share = remarks.asymmetry.unwrap_or(judged.antisymmetric_share);
+    let share = remarks.asymmetry.unwrap_or(checked.antisymmetric_share);
     let text = answer_text(
         &name,
-        &judged,
+        &checked,
         stiffness,
         share,
         &remarks,
@@ -118,10 +118,10 @@ pub(crate) fn finish(
             name: &name,
             stiffness_n_mm_rad: rows(stiffness),
             deviation_n_mm_rad: remarks.deviation.as_ref().map(rows),
-            rank: judged.rank,
+            rank: checked.rank,
             antisymmetric_share: share,
             explained_share: remarks.explained,
-            natural_length_mm: judged.natural_length * 1e3,
+            natural_length_mm: checked.natural_length * 1e3,
             zero_modes: remarks.zero_modes,
             notices: &remarks.notices,
         };
@@ -135,10 +135,10 @@ pub(crate) fn finish(
     screen::print_bytes(toml.as_bytes())
 }
 
-fn refuse_what_is_none(file: &Path, judged: &Judgement) -> Answer<()> {
-    let refused = judged.findings.iter().find(|f| f.grade == Grade::Refused);
-    let loose = (!judged.is_definite())
-        .then(|| judged.findings.iter().find(|f| f.message.contains("rank")))
+fn refuse_what_is_none(file: &Path, checked: &Judgement) -> Answer<()> {
+    let refused = checked.findings.iter().find(|f| f.grade == Grade::Refused);
+    let loose = (!checked.is_definite())
+        .then(|| checked.findings.iter().find(|f| f.message.contains("rank")))
         .flatten();
     match refused.or(loose) {
         Some(finding) => Err(Failure::input(format!(
@@ -153,7 +153,7 @@ fn refuse_what_is_none(file: &Path, judged: &Judgement) -> Answer<()> {
 
 fn answer_text(
     name: &str,
-    judged: &Judgement,
+    checked: &Judgement,
     stiffness: &Matrix6<f64>,
     share: f64,
     remarks: &Remarks,
@@ -174,13 +174,13 @@ fn answer_text(
         "rank".into(),
         format!(
             "{}; anti-symmetric share {}",
-            judged.rank,
+            checked.rank,
             formatter::short(share)
         ),
     ]);
     rows.push(vec![
         "natural length".into(),
-        format!("{} mm", numbers::number(judged.natural_length * 1e3, 3)),
+        format!("{} mm", numbers::number(checked.natural_length * 1e3, 3)),
     ]);
     text.push_str(&listed(&rows, 2));
     if !remarks.notices.is_empty() {

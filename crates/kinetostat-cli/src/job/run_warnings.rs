@@ -6,7 +6,7 @@ use kinetostat_model::Model;
 use crate::job::job_file::JobFile;
 use crate::machine::model_warnings::{no_potential, of_model};
 
-/// What looks wrong in the model, what cannot be judged of it, and angles of the job file in the wrong unit.
+/// What looks wrong in the model, what cannot be assessed of it, and angles of the job file in the wrong unit.
 pub(crate) fn of_run(model: &Model, job: Option<&JobFile>) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = of_model(model).collect();
     warnings.extend(no_potential(&model.mechanism));

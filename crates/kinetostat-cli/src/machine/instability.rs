@@ -9,7 +9,7 @@ use kinetostat::number::larger;
 /// Shares below are nothing.
 const NOTHING: f64 = 1e-9;
 
-/// What goes how far, and the judgement. `under_load`: on the tool.
+/// What goes how far, and the result. `under_load`: on the tool.
 pub(crate) fn description(shares: &InstabilityShares<'_>, under_load: bool) -> String {
     let state = shares.state();
     let limb_leads_to = match shares.limb_is_conservative() {

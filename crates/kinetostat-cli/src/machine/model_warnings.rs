@@ -1,4 +1,4 @@
-//! What looks wrong in a model, what cannot be judged of it, and its deviations.
+//! What looks wrong in a model, what cannot be assessed of it, and its deviations.
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{Warning, WarningCode};
@@ -36,7 +36,7 @@ pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
     })
 }
 
-/// What is judged, and what is not, under loads on limbs that have no potential: for answers that do not say it of
+/// What is assessed, and what is not, under loads on limbs that have no potential: for answers that do not say it of
 /// every place.
 pub(crate) fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
     let limbs = mechanism.limbs().iter().enumerate();

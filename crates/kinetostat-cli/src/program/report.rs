@@ -1,13 +1,13 @@
 //! How a run ends: its text and JSON on the screen, and whether its tolerance is held.
 
-use kinetostat_machining::{RunResult, ToleranceVerdict};
+use kinetostat_machining::{RunResult, ToleranceResult};
 
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
-pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
+pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceResult, program: &str) -> Answer<()> {
     match tolerance.missed_text() {
         Some(text) => Err(Failure::tolerance_missed(text).within(program)),
         None => Ok(()),

@@ -1,4 +1,4 @@
-//! A run in words: the verdict, then the figures in a table, readable at 80 columns.
+//! A run in words: the result, then the figures in a table, readable at 80 columns.
 
 use kinetostat_machining::number::{
     MISSING, Rounding, against, largest, largest_length, significant, with_unit,
@@ -18,7 +18,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
         0,
     ));
     out.push('\n');
-    out.push_str(&wrapped(&verdict(result), 2));
+    out.push_str(&wrapped(&result_text(result), 2));
     out.push('\n');
     out.push_str(&figures(result));
     out.push('\n');
@@ -29,7 +29,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
 }
 
 /// One or two sentences that answer the question.
-pub(crate) fn verdict(result: &RunResult) -> String {
+pub(crate) fn result_text(result: &RunResult) -> String {
     let figures = Figures::of(result);
     let mut text = if let Some(unchanged) = result.unchanged_text() {
         format!(

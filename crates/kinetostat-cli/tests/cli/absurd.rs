@@ -34,7 +34,7 @@ backward_step_um = 200
 program = "out.ngc"
 "#;
 
-/// Gravity is left out, so that what is judged is the cut.
+/// Gravity is left out, so that what is assessed is the cut.
 fn arm() -> String {
     HEAVY.replace("[0, 0, -9.81]", "[0, 0, 0]")
 }
@@ -371,9 +371,9 @@ fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() 
         .replace("chord_um = 16", "chord_um = 1");
     let (said, _) = compensated(here.path(), &job, &arm(), &[]);
     assert_eq!(said.code, 3, "{said:?}");
-    let verdict = said.out.lines().nth(2).unwrap_or_default();
+    let second_line = said.out.lines().nth(2).unwrap_or_default();
     assert!(
-        verdict
+        second_line
             .trim_start()
             .starts_with("THE TOLERANCE IS MISSED at line"),
         "{said:?}"
@@ -381,16 +381,16 @@ fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() 
     assert!(said.err.contains("never states"), "{said:?}");
     let text = std::fs::read(here.path().join("r.json")).expect("the result");
     let result: Value = serde_json::from_slice(&text).expect("JSON");
-    let told = &result["tolerance"];
-    assert_eq!(told["held"], false);
+    let reported = &result["tolerance"];
+    assert_eq!(reported["held"], false);
     assert!(
-        told["missed"]["line"].as_u64().is_some_and(|l| l >= 2),
-        "{told}"
+        reported["missed"]["line"].as_u64().is_some_and(|l| l >= 2),
+        "{reported}"
     );
-    let off = told["missed"]["error_mm"].as_f64().expect("a number");
+    let off = reported["missed"]["error_mm"].as_f64().expect("a number");
     assert!(
-        off > told["allowed_mm"].as_f64().expect("a number"),
-        "{told}"
+        off > reported["allowed_mm"].as_f64().expect("a number"),
+        "{reported}"
     );
     assert_eq!(
         result["summary"]["max_position_error_after_mm"].as_f64(),
@@ -414,8 +414,8 @@ fn the_tolerance_is_in_proportion_to_the_machine() {
         let text = std::fs::read(here.path().join("r.json")).expect("the result");
         let result: Value = serde_json::from_slice(&text).expect("JSON");
         let question = &result["question"];
-        let told = question["tolerance_mm"].as_f64().expect("a number");
-        assert!((told - path).abs() < 1e-12, "{question}");
+        let reported = question["tolerance_mm"].as_f64().expect("a number");
+        assert!((reported - path).abs() < 1e-12, "{question}");
         let chord = question["chord_tolerance_mm"].as_f64().expect("a number");
         assert!((chord - 0.8 * path).abs() < 1e-12, "{question}");
         let words = question["tolerance_from"].as_str().expect("words");
@@ -673,7 +673,7 @@ fn a_load_beyond_the_limits_is_told_wherever_it_is_asked() {
         &["map", "orthoglide", "--x", "-10", "10", "3"],
     ];
     for command in place {
-        for (load, told) in [
+        for (load, reported) in [
             (["--force", "0", "0", "-4999"], false),
             (["--force", "0", "0", "-6000"], true),
             (["--moment", "0", "0", "199"], false),
@@ -684,7 +684,7 @@ fn a_load_beyond_the_limits_is_told_wherever_it_is_asked() {
             let answer: Value = serde_json::from_str(&said.out).expect("JSON");
             let list = answer["warnings"].as_array().expect("a list");
             let found = list.iter().find(|w| w["code"] == "over_limit");
-            assert_eq!(found.is_some(), told, "{words:?}: {said:?}");
+            assert_eq!(found.is_some(), reported, "{words:?}: {said:?}");
             if let Some(warning) = found {
                 let message = warning["message"].as_str().expect("a text");
                 assert!(message.contains("that are allowed. Usual: "), "{message}");
@@ -860,8 +860,8 @@ fn an_origin_in_metres_smells_in_every_command() {
             let said = run(here.path(), &words);
             let text = format!("{} {}", said.out, said.err);
             let flat: Vec<&str> = text.split_whitespace().collect();
-            let told = flat.join(" ").contains(smell);
-            assert_eq!(told, smells, "{origin} {words:?}: {said:?}");
+            let reported = flat.join(" ").contains(smell);
+            assert_eq!(reported, smells, "{origin} {words:?}: {said:?}");
         }
     }
 }

@@ -75,7 +75,7 @@ fn check_tells_under_a_load_what_deflect_tells() {
             let (checked, words) = under("check", model, force).expect("an answer");
             let a = &checked["assumptions"];
             let words = flat(&words);
-            let Some((told, _)) = under("deflect", model, force) else {
+            let Some((reported, _)) = under("deflect", model, force) else {
                 assert!(a["reference_stable"].is_null(), "{at}: {words}");
                 assert!(a["largest_share_to_buckling"].is_null(), "{at}");
                 assert!(words.contains("no equilibrium"), "{at}: {words}");
@@ -83,19 +83,19 @@ fn check_tells_under_a_load_what_deflect_tells() {
                 assert!(!words.contains("the load brings"), "{at}: {words}");
                 continue;
             };
-            assert_eq!(a["reference_stable"], told["stable"], "{at}: {words}");
+            assert_eq!(a["reference_stable"], reported["stable"], "{at}: {words}");
             let share = a["largest_share_to_buckling"].as_f64();
-            assert_eq!(share, of_limbs(&told), "{at}");
-            assert_eq!(a[format!("largest_{SHARE}")], told[SHARE], "{at}");
+            assert_eq!(share, of_limbs(&reported), "{at}");
+            assert_eq!(a[format!("largest_{SHARE}")], reported[SHARE], "{at}");
             // What one warns of the load the other does too.
             for code in ["not_stable", "near_buckling", "snaps", "large_displacement"] {
                 let has = |found: &Value| {
                     let list = found["warnings"].as_array().expect("warnings");
                     list.iter().any(|w| w["code"] == code)
                 };
-                assert_eq!(has(&checked), has(&told), "{at}: {code}");
+                assert_eq!(has(&checked), has(&reported), "{at}: {code}");
             }
-            if told["stable"] == false {
+            if reported["stable"] == false {
                 unstable += 1;
                 assert!(!words.contains("Nothing looks wrong"), "{at}");
                 assert!(!words.contains("far from buckling"), "{at}: {words}");
@@ -115,21 +115,24 @@ fn a_share_of_the_way_grows_to_one_and_is_never_below_that_of_a_limb() {
         let mut before = 0.0_f64;
         for size in loads {
             let at = format!("{model} {way:?} times {size}");
-            let Some((told, words)) = under("deflect", model, way.map(|x| x * size)) else {
+            let Some((reported, words)) = under("deflect", model, way.map(|x| x * size)) else {
                 continue;
             };
-            let share = told[SHARE].as_f64();
-            if told["stable"] == false {
+            let share = reported[SHARE].as_f64();
+            if reported["stable"] == false {
                 assert!(share.is_none_or(|s| s >= 1.0), "{at}: {share:?}");
                 assert!(!flat(&words).contains("tool free is"), "{at}: {words}");
                 continue;
             }
             let share = share.expect("a share");
             assert!(share < 1.0, "{at}: {share}");
-            assert!(of_limbs(&told).is_none_or(|s| s <= share), "{at}: {share}");
+            assert!(
+                of_limbs(&reported).is_none_or(|s| s <= share),
+                "{at}: {share}"
+            );
             // Behind a snap it is that of another equilibrium; shares near nothing may fall as a load
             // stretches a limb.
-            let warned = told["warnings"].as_array().expect("warnings");
+            let warned = reported["warnings"].as_array().expect("warnings");
             if !warned.iter().any(|w| w["code"] == "snaps") {
                 assert!(share >= before - 1e-3, "{at}: {before} {share}");
                 before = share;
@@ -147,11 +150,11 @@ fn a_soft_column_is_critical_where_the_closed_form_says() {
         let (found, words) = under("check", "soft.toml", [-load, 0.0, 0.0]).expect("an answer");
         let a = &found["assumptions"];
         assert_eq!(a["reference_stable"], stable, "{words}");
-        let told = a[format!("largest_{SHARE}")].as_f64();
+        let reported = a[format!("largest_{SHARE}")].as_f64();
         let exact = load * (1.0 - load / 500.0) / 100.0;
         assert!(
-            (told.expect("a share") - exact).abs() < 1e-6,
-            "{told:?} {exact}"
+            (reported.expect("a share") - exact).abs() < 1e-6,
+            "{reported:?} {exact}"
         );
     }
 }

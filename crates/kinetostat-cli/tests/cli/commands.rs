@@ -204,7 +204,7 @@ fn stiffness_names_what_moves_and_what_nothing_moves() {
 }
 
 #[test]
-fn deflect_tells_the_load_of_links_and_both_verdicts() {
+fn deflect_gives_the_load_of_links_and_both_stabilities() {
     let here = workplace();
     // A pushed Z: its shape holds, but nothing keeps its end on the line.
     let args = [

@@ -634,7 +634,7 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
         assert_eq!(flat.contains("(flutter)"), follows > 2.0, "{flat}");
         assert_eq!(flat.contains("the platform stays"), follows < 2.0, "{flat}");
         // No command calls it unstable, for its determinant never vanishes, and those that look at many places
-        // say what they do not judge.
+        // say what they do not assess.
         for (command, warns) in [
             ("check ziegler.toml --force 0 0 0", false),
             ("map ziegler.toml --x 2000 --y 0 --z 0 --force 0 0 0", true),

@@ -112,10 +112,10 @@ fn figure_a_truss_pushed_and_pulled_snaps_where_statics_says() {
         assert_eq!(middle["stable_under_dead_load"], false, "{line}");
         assert_eq!(middle["stable_under_prescribed_motion"], true, "{line}");
         // Told as far as the tool is moved.
-        let told = answer["warnings"].to_string();
+        let reported = answer["warnings"].to_string();
         assert!(
-            line.contains("--force") || told.contains("a singular posture is 100.00 mm away"),
-            "{told}"
+            line.contains("--force") || reported.contains("a singular posture is 100.00 mm away"),
+            "{reported}"
         );
     }
     assert!(figure(
@@ -198,10 +198,10 @@ fn figure_the_orthoglide_snaps_through_its_flat_posture() {
         2e-2,
         "N"
     ));
-    let told = answer["warnings"].to_string();
+    let reported = answer["warnings"].to_string();
     assert!(
-        told.contains("a singular posture is 11.357 mm away"),
-        "{told}"
+        reported.contains("a singular posture is 11.357 mm away"),
+        "{reported}"
     );
     assert!(named(&answer, "landing").len() == 2);
 }
@@ -268,9 +268,9 @@ fn what_is_for_chains_is_refused_for_machines() {
     ] {
         let said = run(here.path(), &words(&line));
         assert_eq!(said.code, 1, "{line}: {said:?}");
-        let told = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let reported = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
         for needle in needles {
-            assert!(told.contains(needle), "{line}: {needle}: {told}");
+            assert!(reported.contains(needle), "{line}: {needle}: {reported}");
         }
     }
 }

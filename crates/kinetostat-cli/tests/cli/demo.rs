@@ -40,7 +40,7 @@ fn writes_everything_it_promises() {
     assert_eq!(summary["converged"], true);
     assert_eq!(summary["stable"], true);
 
-    // The text says the verdict, where the files are and what to open.
+    // The text says the result, where the files are and what to open.
     for needle in [
         "As programmed, the tool would be up to",
         "kinetostat-demo/report.html",

@@ -88,8 +88,11 @@ fn figure_files_of_200_mb_are_refused_without_being_read() {
     for question in questions {
         let words: Vec<&str> = question.split(' ').collect();
         let (said, peak) = limited(here.path(), &words, 150);
-        let told = ["not read", "larger than", "too large"];
-        assert!(told.iter().any(|w| said.contains(w)), "{question}: {said}");
+        let reported = ["not read", "larger than", "too large"];
+        assert!(
+            reported.iter().any(|w| said.contains(w)),
+            "{question}: {said}"
+        );
         assert!(said.contains("large."), "{question}: {said}");
         most.add(peak);
     }

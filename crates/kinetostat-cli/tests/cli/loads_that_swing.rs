@@ -142,7 +142,7 @@ fn a_limit_on_the_way_is_told() {
         &[&["deflect", "M"][..], &push].concat(),
     );
     assert_eq!(said.code, 2, "{said:?}");
-    let told = words(&said.err);
+    let reported = words(&said.err);
     for part in [
         "0.999718 of this load",
         "-42.6428] mm",
@@ -150,7 +150,7 @@ fn a_limit_on_the_way_is_told() {
         "kinetostat curve",
         "kinetostat equilibria",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(reported.contains(part), "{reported}");
     }
     let push = ["--force", "0", "0", "-0.001"];
     let said = ask(
@@ -158,8 +158,11 @@ fn a_limit_on_the_way_is_told() {
         &[&["deflect", "M"][..], &push].concat(),
     )
     .answered();
-    let told = words(&said.out);
-    assert!(told.contains("SNAPS on the way to this load"), "{told}");
+    let reported = words(&said.out);
+    assert!(
+        reported.contains("SNAPS on the way to this load"),
+        "{reported}"
+    );
     // The limit lies a little beyond this load.
     let push = ["--force", "0", "0", "-150.9"];
     let said = ask(
@@ -167,10 +170,10 @@ fn a_limit_on_the_way_is_told() {
         &[&["deflect", "M"][..], &push].concat(),
     )
     .answered();
-    let told = words(&said.out);
+    let reported = words(&said.out);
     assert!(
-        !told.contains("SNAPS") && !told.contains("NOT stay"),
-        "{told}"
+        !reported.contains("SNAPS") && !reported.contains("NOT stay"),
+        "{reported}"
     );
     let push = ["--force", "0", "0", "-100"];
     let said = ask(
@@ -251,8 +254,11 @@ fn what_a_jet_takes_from_the_stiffness_is_told_and_called_no_buckling() {
             assert_eq!(words.contains(&none), yields < 0.0, "{jet}: {words}");
             match yields > 0.0 {
                 true => {
-                    let told = a[name][0].as_f64().expect(name);
-                    assert!((told * yields - 1.0).abs() < 1e-6, "{jet}: {name} {told}");
+                    let reported = a[name][0].as_f64().expect(name);
+                    assert!(
+                        (reported * yields - 1.0).abs() < 1e-6,
+                        "{jet}: {name} {reported}"
+                    );
                 }
                 false => assert!(a[name].is_null(), "{jet}: {name} {}", a[name]),
             }
@@ -273,12 +279,20 @@ fn deflect_equilibria_and_curve_agree_on_a_column_under_a_jet() {
         let push = format!("{:?}", -force);
         let push = ["--force", &push, "0", "0"];
         let deflect = ask(&model, &[&["deflect", "M"][..], &push].concat()).answered();
-        let told = words(&format!("{}{}", deflect.out, deflect.err));
-        assert_eq!(told.contains("does NOT stay"), force > lost, "{told}");
+        let reported = words(&format!("{}{}", deflect.out, deflect.err));
+        assert_eq!(
+            reported.contains("does NOT stay"),
+            force > lost,
+            "{reported}"
+        );
         let said = ask(&model, &[&["equilibria", "M"][..], &push].concat()).answered();
-        let told = words(&said.out);
-        assert_eq!(told.contains("may swing"), force < lost, "{told}");
-        assert_eq!(told.contains("it is NOT stable"), force > lost, "{told}");
+        let reported = words(&said.out);
+        assert_eq!(reported.contains("may swing"), force < lost, "{reported}");
+        assert_eq!(
+            reported.contains("it is NOT stable"),
+            force > lost,
+            "{reported}"
+        );
     }
     let line = [
         "curve", "M", "--force", "-1", "0", "0", "--factor", "0", "3", "--json",

@@ -133,10 +133,13 @@ fn the_scale_of_stiffness_is_that_of_the_compliance() {
         / k["compliance_m_rad_per_n"][0][0]
             .as_f64()
             .expect("compliance");
-    let told = a["against_force_n_per_mm"][0]
+    let reported = a["against_force_n_per_mm"][0]
         .as_f64()
         .expect("a stiffness");
-    assert!((told / softest - 1.0).abs() < 1e-3, "{told} {softest}");
+    assert!(
+        (reported / softest - 1.0).abs() < 1e-3,
+        "{reported} {softest}"
+    );
     // The load that was requested, solved by another command.
     let said = run(
         here.path(),
@@ -153,8 +156,8 @@ fn the_scale_of_stiffness_is_that_of_the_compliance() {
     .answered();
     let d: Value = serde_json::from_str(&said.out).expect("JSON");
     let moved = d["displacement_size_mm"].as_f64().expect("mm");
-    let told = a["reference_deflection_mm"].as_f64().expect("mm");
-    assert!((told / moved - 1.0).abs() < 1e-9, "{told} {moved}");
+    let reported = a["reference_deflection_mm"].as_f64().expect("mm");
+    assert!((reported / moved - 1.0).abs() < 1e-9, "{reported} {moved}");
     assert_eq!(
         a["reference_force_n"],
         serde_json::json!([0.0, 0.0, -500.0])
@@ -171,8 +174,11 @@ fn the_scale_of_stiffness_is_that_of_the_compliance() {
         })
         .sum::<f64>()
         .sqrt();
-    let told = a["linear_error_percent"].as_f64().expect("percent");
-    assert!((told - 100.0 * off / moved).abs() < 1e-6, "{told} {off}");
+    let reported = a["linear_error_percent"].as_f64().expect("percent");
+    assert!(
+        (reported - 100.0 * off / moved).abs() < 1e-6,
+        "{reported} {off}"
+    );
 }
 
 #[test]
@@ -220,8 +226,12 @@ fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
         let said = run(here.path(), &words).answered();
         let found: Value = serde_json::from_str(&said.out).expect("JSON");
         let warnings = warnings(&found);
-        let told = |w: &&String| w.contains("singular posture is near") && w.contains("along x");
-        assert!(warnings.iter().any(|w| told(&w)), "{line}: {warnings:?}");
+        let reported =
+            |w: &&String| w.contains("singular posture is near") && w.contains("along x");
+        assert!(
+            warnings.iter().any(|w| reported(&w)),
+            "{line}: {warnings:?}"
+        );
         assert!(
             flat(&said.err).contains("mm of tool motion away"),
             "{}",
@@ -374,11 +384,11 @@ fn a_free_machine_near_buckling_is_told_against_closed_forms() {
             let load = format!("{}", -share * critical);
             let (found, words) = checked(&text, &["--force", &load, "0", "0"]);
             let a = &found["assumptions"];
-            let told = a["largest_share_to_instability_of_free_machine"]
+            let reported = a["largest_share_to_instability_of_free_machine"]
                 .as_f64()
                 .expect("a share");
             // Links of eight pieces, and a share that is nearly straight in the load.
-            assert!((told - share).abs() < 0.01, "{told}, exact {share}");
+            assert!((reported - share).abs() < 0.01, "{reported}, exact {share}");
             let near = warnings(&found)
                 .iter()
                 .any(|w| w.contains("nearest to instability") && w.contains("NEAR BUCKLING"));
@@ -387,8 +397,8 @@ fn a_free_machine_near_buckling_is_told_against_closed_forms() {
         }
         let (found, _) = checked(&text, &["--force", &format!("{critical}"), "0", "0"]);
         let a = &found["assumptions"];
-        let told = a["largest_share_to_instability_of_free_machine"].as_f64();
-        assert!(told < Some(0.01), "a pull is no danger: {told:?}");
+        let reported = a["largest_share_to_instability_of_free_machine"].as_f64();
+        assert!(reported < Some(0.01), "a pull is no danger: {reported:?}");
     }
 }
 

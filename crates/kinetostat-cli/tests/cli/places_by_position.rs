@@ -130,8 +130,8 @@ fn a_map_tells_how_far_the_tool_turns() {
         most.add(own);
     }
     let most = most.value();
-    let told = answer["max_tool_turn_deg"].as_f64().expect("a figure");
-    assert!((told - most).abs() < 1e-8, "{told} {most}");
+    let reported = answer["max_tool_turn_deg"].as_f64().expect("a figure");
+    assert!((reported - most).abs() < 1e-8, "{reported} {most}");
 }
 
 #[test]

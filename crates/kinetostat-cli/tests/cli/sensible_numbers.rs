@@ -170,8 +170,8 @@ fn a_place_outside_the_plane_of_a_machine_is_told_to_be_that() {
         let words: Vec<&str> = line.split(' ').collect();
         let said = run(here, &words);
         assert_eq!(said.code, 2, "{line}: {said:?}");
-        let told = said.err.contains("stays in a surface (here square to z)");
-        assert_eq!(told, beside, "{line}: {said:?}");
+        let reported = said.err.contains("stays in a surface (here square to z)");
+        assert_eq!(reported, beside, "{line}: {said:?}");
         assert!(said.err.contains(nearest), "{line}: {said:?}");
     }
 }

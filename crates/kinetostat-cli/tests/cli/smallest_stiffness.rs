@@ -162,13 +162,13 @@ fn the_smallest_stiffness_has_one_name_in_a_run_and_its_report() {
         .trim()
         .to_owned();
     let json: serde_json::Value = serde_json::from_str(&read("r.json")).expect("JSON");
-    let told = json["summary"]["smallest_stiffness_n_per_mm"]
+    let reported = json["summary"]["smallest_stiffness_n_per_mm"]
         .as_f64()
         .expect("a figure");
     let shown: f64 = figure.trim_end_matches(" N/mm").parse().expect("a number");
     assert!(
-        shown <= told && (told - shown).abs() < 0.01 * told,
-        "{shown} {told}"
+        shown <= reported && (reported - shown).abs() < 0.01 * reported,
+        "{shown} {reported}"
     );
     let page = read("r.html");
     // A box and the title of a plot, both with that figure.

@@ -1,4 +1,4 @@
-//! `compensate --map`: judged and told as a run with a model is, and never worse than the program as it is.
+//! `compensate --map`: assessed and reported as a run with a model is, and never worse than the program as it is.
 
 // Helpers of tests, which clippy does not count as tests.
 #![allow(clippy::unwrap_used)]

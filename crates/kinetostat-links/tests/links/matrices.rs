@@ -91,11 +91,11 @@ fn point_and_axes_of_the_file_are_taken_into_account() {
 }
 
 #[test]
-fn judgement_names_what_a_matrix_is_not() {
+fn findings_name_what_a_matrix_is_not() {
     let refused = |k: &Matrix6<f64>, word: &str| {
-        let judged = judge(k, SYMMETRIC_TO);
-        assert!(!judged.is_stiffness(), "{word}");
-        let all: Vec<String> = judged
+        let checked = judge(k, SYMMETRIC_TO);
+        assert!(!checked.is_stiffness(), "{word}");
+        let all: Vec<String> = checked
             .findings
             .iter()
             .map(|f| format!("{}; {}", f.message, f.help))
@@ -120,22 +120,22 @@ fn judgement_names_what_a_matrix_is_not() {
     let k = bar();
     let column = k.column(5).into_owned();
     let hinged = k - column * column.transpose() / k[(5, 5)];
-    let judged = judge(&hinged, SYMMETRIC_TO);
-    assert!(judged.is_stiffness() && judged.rank == 5 && !judged.is_definite());
+    let checked = judge(&hinged, SYMMETRIC_TO);
+    assert!(checked.is_stiffness() && checked.rank == 5 && !checked.is_definite());
     assert!(
-        judged.findings[0].message.contains("rank is 5")
-            && judged.findings[0].message.contains("rz")
+        checked.findings[0].message.contains("rank is 5")
+            && checked.findings[0].message.contains("rz")
     );
     // N and mm read as N and m.
-    let judged = judge(&in_n_mm(&bar()), SYMMETRIC_TO);
+    let checked = judge(&in_n_mm(&bar()), SYMMETRIC_TO);
     assert!(
-        judged
+        checked
             .findings
             .iter()
             .any(|f| f.grade == Grade::Doubtful && f.help.contains("units"))
     );
-    let judged = judge(&bar(), SYMMETRIC_TO);
-    assert!(judged.findings.is_empty() && (0.05..0.4).contains(&judged.natural_length));
+    let checked = judge(&bar(), SYMMETRIC_TO);
+    assert!(checked.findings.is_empty() && (0.05..0.4).contains(&checked.natural_length));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::near::NearSingular;
 use crate::result::point::PointResult;
 use crate::result::run_inputs::RunInputs;
 use crate::result::summary::Summary;
-use crate::result::tolerance::ToleranceVerdict;
+use crate::result::tolerance::ToleranceResult;
 use crate::warning::Warning;
 
 /// Version of this structure; it changes when a name or a meaning changes.
@@ -23,7 +23,7 @@ pub struct RunResult {
     pub kinetostat_version: String,
     /// Whether the written program holds the tolerance that it was to hold.
     #[serde(default)]
-    pub tolerance: ToleranceVerdict,
+    pub tolerance: ToleranceResult,
     /// Figures of the whole run.
     pub summary: Summary,
     /// Model, program, load and tolerances of the run.

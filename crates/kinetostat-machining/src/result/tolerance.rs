@@ -8,9 +8,9 @@ use crate::number::{against, largest_length, length_setting};
 /// How a program that was corrected from a table stands to its tolerance. All that it can miss it by is what was
 /// left out: whatever else is too far off is refused when the written program is checked.
 #[must_use]
-pub fn of_table(farthest: &Farthest, allowed_mm: f64, accounting: &Accounting) -> ToleranceVerdict {
+pub fn of_table(farthest: &Farthest, allowed_mm: f64, accounting: &Accounting) -> ToleranceResult {
     let held = farthest.distance_mm <= allowed_mm;
-    ToleranceVerdict {
+    ToleranceResult {
         allowed_mm,
         held: Some(held),
         missed: (!held).then(|| MissedTolerance {
@@ -54,7 +54,7 @@ pub fn unchanged_text(within_tolerance: bool, before_mm: f64) -> String {
         .to_owned()
 }
 
-impl ToleranceVerdict {
+impl ToleranceResult {
     /// That the tolerance is missed, where, by how much and why; none where it is held or nothing was written.
     #[must_use]
     pub fn missed_text(&self) -> Option<String> {
@@ -77,7 +77,7 @@ impl ToleranceVerdict {
 
 /// How a written program stands to its tolerance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ToleranceVerdict {
+pub struct ToleranceResult {
     /// [`RunResult::allowed_mm`](crate::RunResult::allowed_mm).
     pub allowed_mm: f64,
     /// [`RunResult::holds_tolerance`](crate::RunResult::holds_tolerance).

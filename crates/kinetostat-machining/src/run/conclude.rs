@@ -12,7 +12,7 @@ use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 use crate::result::selection::{thinned, worst};
 use crate::result::summary::Summary;
-use crate::result::tolerance::ToleranceVerdict;
+use crate::result::tolerance::ToleranceResult;
 use crate::run::checked::Checked;
 use crate::run::following::following;
 use crate::run::nearest_singular::nearest_singular;
@@ -72,7 +72,7 @@ pub(crate) fn conclude(
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
-        tolerance: ToleranceVerdict::default(),
+        tolerance: ToleranceResult::default(),
         summary,
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),

@@ -5,14 +5,14 @@ use kinetostat_program::Corrected;
 
 use crate::result::point::{PointKind, PointResult, size};
 use crate::result::run_result::RunResult;
-use crate::result::tolerance::{MissedTolerance, ToleranceVerdict, left_out};
+use crate::result::tolerance::{MissedTolerance, ToleranceResult, left_out};
 
 /// Whether the written program keeps its tolerance; where it does not, the farthest place with the likely reason.
 pub(crate) fn tolerance(
     result: &RunResult,
     points: &[PointResult],
     written: Option<&Corrected>,
-) -> ToleranceVerdict {
+) -> ToleranceResult {
     let allowed_mm = result.allowed_mm();
     let held = result.holds_tolerance();
     let error = |p: &PointResult| size(&p.error_after_mm);
@@ -45,7 +45,7 @@ pub(crate) fn tolerance(
             reason,
         }
     });
-    ToleranceVerdict {
+    ToleranceResult {
         allowed_mm,
         held,
         missed,

@@ -113,8 +113,12 @@ fn what_only_the_check_finds_is_divided_again() {
     for place in hidden.step_by(3) {
         let bump = [1e-3 * (place + 0.3), 0.0015];
         let run = run(bump);
-        let told = run.result.warnings.iter();
-        again += usize::from(told.clone().any(|w| w.code == WarningCode::DividedAgain));
+        let reported = run.result.warnings.iter();
+        again += usize::from(
+            reported
+                .clone()
+                .any(|w| w.code == WarningCode::DividedAgain),
+        );
         let off = worst(&run, bump);
         let allowed = run.result.allowed_mm();
         assert!(off <= 1.1 * allowed, "{place}: {off} of {allowed}");

@@ -103,15 +103,15 @@ fn a_spindle_head_cuts_a_ring_and_says_how_far_it_turns() {
     for point in &plain.points {
         let place = home.translation.vector + Vector3::from(point.position_mm) * 1e-3;
         let closed = turned(&place);
-        let told = Vector3::from(point.tool_turn_deg.expect("it follows"));
+        let reported = Vector3::from(point.tool_turn_deg.expect("it follows"));
         let own = closed.scaled_axis().map(f64::to_degrees);
-        assert!((told - own).norm() < 1e-7, "{place} {told} {own}");
+        assert!((reported - own).norm() < 1e-7, "{place} {reported} {own}");
         most.add(own.norm());
     }
     let most = most.of(plain.points.len());
     assert!(most > 3.0, "{most}");
-    let told = plain.result.summary.max_tool_turn_deg.expect("it follows");
-    assert!((told - most).abs() < 1e-7, "{told} {most}");
+    let reported = plain.result.summary.max_tool_turn_deg.expect("it follows");
+    assert!((reported - most).abs() < 1e-7, "{reported} {most}");
     let text = plain.result.warnings.iter().map(ToString::to_string);
     assert!(
         text.into_iter()
@@ -166,9 +166,9 @@ fn a_tool_load_turns_with_the_tool() {
                 * 1e3
         };
         let own = moved(&(turned(&place) * home.rotation));
-        let told = Vector3::from(point.error_after_mm);
-        assert!((own - told).norm() < 1e-7, "{own} {told}");
-        most.add((moved(&home.rotation) - told).norm());
+        let reported = Vector3::from(point.error_after_mm);
+        assert!((own - reported).norm() < 1e-7, "{own} {reported}");
+        most.add((moved(&home.rotation) - reported).norm());
     }
     // Which is not what a load with fixed components does.
     let most = most.value();

@@ -268,16 +268,17 @@ fn a_program_on_which_the_machine_would_buckle_is_not_written() {
     };
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X20 F100\n";
     let origin = vector![0.0, 0.0, -0.5];
-    let told = run(&machine, text, origin, ProgramLoad::new(push), false)
+    let reported = run(&machine, text, origin, ProgramLoad::new(push), false)
         .expect("analysis")
         .result;
-    assert!(!told.summary.stable, "{:?}", told.summary);
+    assert!(!reported.summary.stable, "{:?}", reported.summary);
     assert!(
-        told.warnings
+        reported
+            .warnings
             .iter()
             .any(|w| w.message.contains("do not run this program")),
         "{:?}",
-        told.warnings
+        reported.warnings
     );
     let error = run(&machine, text, origin, ProgramLoad::new(push), true).expect_err("unstable");
     assert!(
@@ -358,30 +359,30 @@ fn points_of_a_run_are_those_of_the_general_engine() {
                 let (commands, after, e) = alone(&task.placement.tool_pose(&there));
                 assert!(near(&point.error_after_mm, &after), "{point:?} {after}");
                 let moved = commands.iter().zip(&nominal).map(|(a, b)| a - b);
-                let told = point.actuator_correction.iter().zip(moved);
-                for (told, own) in told {
+                let reported = point.actuator_correction.iter().zip(moved);
+                for (reported, own) in reported {
                     // Metres or radians as mm or degrees.
                     let (mm, deg) = (own * 1e3, own.to_degrees());
                     assert!(
-                        (told - mm).abs().min((told - deg).abs()) < 1e-8,
+                        (reported - mm).abs().min((reported - deg).abs()) < 1e-8,
                         "{point:?}"
                     );
                 }
-                for (told, own) in point.actuator_force.iter().zip(e.actuator_forces()) {
+                for (reported, own) in point.actuator_force.iter().zip(e.actuator_forces()) {
                     assert!(
-                        (told - own).abs() < 1e-6 * own.abs().max(1.0),
-                        "{told} {own}"
+                        (reported - own).abs() < 1e-6 * own.abs().max(1.0),
+                        "{reported} {own}"
                     );
                 }
                 let relative = |a: f64, b: f64| (a - b).abs() < 1e-7 * b.abs();
                 let stiffness = 1e-3 * e.stiffness_against_force();
                 assert!(relative(point.smallest_stiffness_n_per_mm, stiffness));
-                let (told, own) = (point.share_to_buckling, e.share_to_buckling());
+                let (reported, own) = (point.share_to_buckling, e.share_to_buckling());
                 let own = own.filter(|mu| mu.is_finite());
-                assert_eq!(told.is_some(), own.is_some());
+                assert_eq!(reported.is_some(), own.is_some());
                 assert!(
-                    told.zip(own).is_none_or(|(a, b)| relative(a, b)),
-                    "{told:?} {own:?}"
+                    reported.zip(own).is_none_or(|(a, b)| relative(a, b)),
+                    "{reported:?} {own:?}"
                 );
                 assert_eq!(point.stable, e.stable());
             }

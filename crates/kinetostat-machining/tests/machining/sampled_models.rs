@@ -273,12 +273,12 @@ fn the_claim_at_corners_is_told_by_both_readings() {
     let bytes = |run: &Run| run.written.as_ref().expect("written").bytes.clone();
     assert_eq!(bytes(&turns), bytes(&follows));
     let (a, b) = (&turns.result.summary, &follows.result.summary);
-    let (told, measured) = (
+    let (reported, measured) = (
         a.max_corner_error_if_load_follows_feed_mm.expect("steps"),
         b.max_corner_error_if_load_follows_feed_mm.expect("steps"),
     );
     // The batch and the search from neighbour to neighbour agree to 1e-8 mm.
-    assert!((told - measured).abs() < 1e-7, "{told} {measured}");
+    assert!((reported - measured).abs() < 1e-7, "{reported} {measured}");
     assert!((b.max_position_error_after_mm - measured).abs() < 1e-12);
     let both = (
         a.max_corner_error_if_load_turns_mm.expect("steps"),
@@ -307,11 +307,14 @@ fn the_claim_at_corners_is_told_by_both_readings() {
         .tool;
     let wanted = place.tool_pose(&path.moves[3].point(step.share_to));
     let by_hand = 1e3 * (tool.translation.vector - wanted.translation.vector).norm();
-    assert!(by_hand > 0.05 && by_hand <= told + 1e-6, "{by_hand} {told}");
+    assert!(
+        by_hand > 0.05 && by_hand <= reported + 1e-6,
+        "{by_hand} {reported}"
+    );
     assert!(a.corner_steps > 3 && a.corner_points_percent > 0.0);
     let words = turns.result.corners_text().expect("steps");
     assert!(
-        words.contains(&format!("{} off there", largest_length(told)))
+        words.contains(&format!("{} off there", largest_length(reported)))
             && words.contains(&a.corner_steps.to_string()),
         "{words}"
     );

@@ -10,7 +10,7 @@ use crate::problem::{Finding, KeyPath, PathStep};
 use crate::schema::Document;
 use crate::text::source::Source;
 
-/// Keys by which other parts of a file are found: without one of them nothing else can be judged.
+/// Keys by which other parts of a file are found: without one of them nothing else can be checked.
 const BEARING: [&str; 6] = ["schema", "name", "from", "to", "chain", "elements"];
 
 /// What else is wrong than `findings`; empty where nothing can be said without guessing.

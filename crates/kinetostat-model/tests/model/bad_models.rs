@@ -288,9 +288,9 @@ fn every_pair_of_mistakes_is_shown_in_one_run() {
             let bad = text.replacen(one.0, one.1, 1).replacen(other.0, other.1, 1);
             let error = Model::from_toml(&bad, "bad.toml").expect_err("two mistakes");
             for word in [one.2, other.2] {
-                let told = |p: &kinetostat_model::Problem| format!("{} {}", p.message, p.help);
+                let shown = |p: &kinetostat_model::Problem| format!("{} {}", p.message, p.help);
                 assert!(
-                    error.problems().iter().any(|p| told(p).contains(word)),
+                    error.problems().iter().any(|p| shown(p).contains(word)),
                     "{word} is missing:\n{error}"
                 );
             }

@@ -1,5 +1,5 @@
 //! Every preset under load, many postures at once against the general engine posture by posture:
-//! tangent stiffness, verdicts, forces of the actuators, and compensation.
+//! tangent stiffness, stability, forces of the actuators, and compensation.
 
 use kinetostat::batch::{Batch, BatchEquilibrium, Status};
 use kinetostat::{
@@ -74,23 +74,23 @@ fn together(found: &[Status]) -> usize {
 }
 
 /// Largest differences of stiffness, forces, softness and share to buckling.
-fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
+fn errors_of(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
     let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
     let matrix = alone.stiffness.matrix;
     let forces: Vec<f64> = all.actuator_forces.row(i).collect();
-    let verdict = all.verdict(i).expect("asked for");
-    assert_eq!(verdict.stable, alone.stable());
+    let stability = all.verdict(i).expect("asked for");
+    assert_eq!(stability.stable, alone.stable());
     let soft = alone.stiffness_against_force();
-    let share_to_buckling = match (verdict.share_to_buckling, alone.share_to_buckling()) {
+    let share_to_buckling = match (stability.share_to_buckling, alone.share_to_buckling()) {
         (Some(a), Some(b)) if a == b => 0.0,
         (Some(a), Some(b)) => (a - b).abs(),
         (None, None) => 0.0,
         (a, b) => panic!("{a:?} {b:?}"),
     };
-    let softness = if verdict.stiffness_against_force == soft {
+    let softness = if stability.stiffness_against_force == soft {
         0.0
     } else {
-        (verdict.stiffness_against_force - soft).abs() / soft.abs()
+        (stability.stiffness_against_force - soft).abs() / soft.abs()
     };
     [
         (own - matrix).largest_entry() / matrix.largest_entry(),
@@ -135,7 +135,7 @@ fn every_preset_has_the_same_tangent_alone_and_together() {
 }
 
 #[test]
-fn every_preset_is_judged_the_same_alone_and_together() {
+fn every_preset_has_the_same_stability_scalar_and_vectorised() {
     let (count, mut without) = (11, Vec::new());
     for preset in preset_names() {
         let model = Model::preset(preset.name).expect("a preset");
@@ -159,7 +159,7 @@ fn every_preset_is_judged_the_same_alone_and_together() {
                 assert!(all.verdict(i).is_none());
                 continue;
             };
-            for (w, x) in worst.iter_mut().zip(judged(&all, i, &alone)) {
+            for (w, x) in worst.iter_mut().zip(errors_of(&all, i, &alone)) {
                 w.add(x);
             }
             let own: Vec<f64> = all.commands.row(i).collect();

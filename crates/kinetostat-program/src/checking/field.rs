@@ -93,7 +93,7 @@ struct Look {
 /// field's breaks, and at two irregular places inside each.
 ///
 /// Axes that the program never states cannot be written. How far it is off in them is measured with the rest,
-/// and refuses nothing: whoever asked for the program judges that.
+/// and refuses nothing: whoever asked for the program decides that.
 ///
 /// A corner step is looked at inside where the field knows what happens there
 /// ([`CorrectionField::turns`]).

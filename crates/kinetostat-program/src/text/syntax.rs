@@ -23,7 +23,7 @@ const FLATTEN: &str =
     "post-process the program without subprograms, or flatten it with the CAM system";
 const NO_VARIABLES: &str = "let the CAM system or a macro expander write plain numbers";
 
-/// Judges the tokens of a line without comments and blanks.
+/// Checks the tokens of a line without comments and blanks.
 pub(crate) fn check(
     line: &[u8],
     tokens: &[&Spanned],

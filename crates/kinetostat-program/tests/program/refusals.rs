@@ -676,8 +676,8 @@ fn no_block_is_carried_behind_a_closing_tape_mark() {
             let path = interpret(&Program::read(text.as_str()).unwrap(), &ReadOptions::default()).unwrap();
             prop_assert_eq!(path.moves.len(), 1);
             let warned: Vec<usize> = path.warnings.iter().map(|warning| warning.line).collect();
-            let told: Vec<usize> = of(|line| line.2).into_iter().take(1).collect();
-            prop_assert_eq!(warned, told, "{}", text);
+            let reported: Vec<usize> = of(|line| line.2).into_iter().take(1).collect();
+            prop_assert_eq!(warned, reported, "{}", text);
         }
     });
 }

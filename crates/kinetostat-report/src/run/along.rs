@@ -168,7 +168,7 @@ fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let (unit, factor) = number::length_unit(worst);
     let most = &result.figures.error_after;
-    // The bound that is judged, not a part of it.
+    // The bound that errors are compared with, not a part of it.
     let tolerance = result.allowed_mm();
     let mut span = Span {
         low: 0.0,

@@ -219,7 +219,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     rows
 }
 
-/// The first lines under the title: what the verdict is about.
+/// The first lines under the title: what the result is about.
 pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
     let run_inputs = &result.run_inputs;
     let mut rows = Vec::new();
@@ -244,7 +244,7 @@ pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
     rows
 }
 
-/// Text for the first screen, where an endless name must not push the verdict away.
+/// Text for the first screen, where an endless name must not push the result away.
 fn first_screen(text: &str) -> String {
     text::shorten(&or_unknown(text), 200)
 }

@@ -15,7 +15,7 @@ pub(crate) enum Level {
     Good,
     /// Nothing was to be corrected.
     Unchanged,
-    /// An answer without a judgement: analysis only.
+    /// An answer without a tolerance: analysis only.
     Analysis,
     /// Usable only after a look at what is said.
     Attention,
@@ -46,21 +46,21 @@ impl Level {
     }
 }
 
-/// The verdict of a run.
-pub(crate) struct Verdict {
+/// The result of a run against its tolerance.
+pub(crate) struct RunAssessment {
     pub(crate) level: Level,
     pub(crate) sentence: String,
 }
 
-/// Judges a run.
-pub(crate) fn verdict(result: &RunResult) -> Verdict {
+/// Compares a run with its tolerance.
+pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     let summary = &result.summary;
-    let stop = |sentence: String| Verdict {
+    let stop = |sentence: String| RunAssessment {
         level: Level::Stop,
         sentence,
     };
     if summary.points == 0 && result.points.is_empty() {
-        return Verdict {
+        return RunAssessment {
             level: Level::Attention,
             sentence: "No point of the program was calculated, so there is nothing to judge."
                 .to_owned(),
@@ -116,12 +116,12 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     meaning
 }
 
-fn analysed(result: &RunResult) -> Verdict {
+fn analysed(result: &RunResult) -> RunAssessment {
     let before = result.summary.max_position_error_before_mm;
     if !before.is_finite() {
         return unknown();
     }
-    Verdict {
+    RunAssessment {
         level: Level::Analysis,
         sentence: format!(
             "The tool is up to {} off its programmed path. This is an analysis only: no compensated program was \
@@ -131,14 +131,14 @@ fn analysed(result: &RunResult) -> Verdict {
     }
 }
 
-fn compensated(result: &RunResult) -> Verdict {
+fn compensated(result: &RunResult) -> RunAssessment {
     let before = result.summary.max_position_error_before_mm;
     let after = result.summary.max_position_error_after_mm;
     if !before.is_finite() || !after.is_finite() {
         return unknown();
     }
     if let Some(unchanged) = result.unchanged_text() {
-        return Verdict {
+        return RunAssessment {
             level: Level::Unchanged,
             sentence: format!(
                 "{unchanged} The tool is at most {} off.",
@@ -171,13 +171,13 @@ fn compensated(result: &RunResult) -> Verdict {
             ),
             None => format!("The tolerance is missed. {sentence}"),
         };
-        return Verdict {
+        return RunAssessment {
             level: Level::Attention,
             sentence,
         };
     }
     if before <= allowed {
-        return Verdict {
+        return RunAssessment {
             level: Level::Good,
             sentence: format!(
                 "Even without compensation the tool is at most {before_text} off, within the {} asked for; with the \
@@ -186,7 +186,7 @@ fn compensated(result: &RunResult) -> Verdict {
             ),
         };
     }
-    Verdict {
+    RunAssessment {
         level: Level::Good,
         sentence: format!(
             "Without compensation the tool is up to {before_text} off; with the compensated program at most \
@@ -195,8 +195,8 @@ fn compensated(result: &RunResult) -> Verdict {
     }
 }
 
-fn unknown() -> Verdict {
-    Verdict {
+fn unknown() -> RunAssessment {
+    RunAssessment {
         level: Level::Stop,
         sentence: "The error of the tool is not available, so the program cannot be judged: do not run it before the \
                    reason is found (see the warnings)."
@@ -249,8 +249,11 @@ mod tests {
     }
 
     fn sentence(result: &RunResult) -> (Level, String) {
-        let verdict = verdict(result);
-        (verdict.level, verdict.sentence.replace('\u{202f}', " "))
+        let assessment = assessment(result);
+        (
+            assessment.level,
+            assessment.sentence.replace('\u{202f}', " "),
+        )
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.add_template(PAGE, include_str!("../template/report.html"))?;
     let run_inputs = &result.run_inputs;
-    let verdict = meaning::verdict(result);
+    let assessment = meaning::assessment(result);
     let warnings: Vec<String> = result
         .warnings
         .iter()
@@ -39,9 +39,9 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         version => text::shorten(&result.kinetostat_version, 40),
         compensated => run_inputs.compensated,
         verdict => context! {
-            class => verdict.level.class(),
-            word => verdict.level.word(),
-            sentence => verdict.sentence,
+            class => assessment.level.class(),
+            word => assessment.level.word(),
+            sentence => assessment.sentence,
         },
         heading => facts::heading(result),
         cards => facts::cards(result),

@@ -123,7 +123,7 @@ fn every_page_is_sound() {
 }
 
 #[test]
-fn the_verdict_comes_first_and_in_words() {
+fn the_result_comes_first_and_in_words() {
     let page = plain(&html(&circle_groove()).unwrap());
     let start = page.find("class=\"verdict good\"").expect("a verdict");
     assert!(start < page.find("class=\"cards").expect("cards"));
@@ -209,9 +209,9 @@ fn missing_numbers_are_words() {
     );
 }
 
-/// The plot, the card and the verdict speak of one bound: path, chords and rounding together.
+/// The plot, the card and the result speak of one bound: path, chords and rounding together.
 #[test]
-fn the_line_of_the_plot_is_the_bound_that_is_judged() {
+fn the_line_of_the_plot_is_the_bound_that_is_compared() {
     let mut result = circle_groove();
     let worst = result.summary.max_position_error_after_mm;
     result.run_inputs.tolerance_mm = 3.0 * worst;
@@ -219,8 +219,8 @@ fn the_line_of_the_plot_is_the_bound_that_is_judged() {
     result.summary.max_rounding_error_mm = 0.5 * worst;
     assert!((result.allowed_mm() / (5.0 * worst) - 1.0).abs() < 1e-12);
     let page = html(&result).expect("a page");
-    let told = |page: &str| page.matches("allowed").count();
-    assert!(told(&plain(&page)) >= 2, "card and plot");
+    let reported = |page: &str| page.matches("allowed").count();
+    assert!(reported(&plain(&page)) >= 2, "card and plot");
     assert!(page.contains("class=\"verdict good\""), "held");
     result.run_inputs.tolerance_mm = 0.1 * worst;
     result.run_inputs.chord_tolerance_mm = 0.0;

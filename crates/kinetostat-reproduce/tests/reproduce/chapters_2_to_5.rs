@@ -298,12 +298,12 @@ fn all_shapes_of_figure_4_5() {
         let label = shape.name.trim_end_matches(": node y");
         holds(&e, &format!("{label}: F_x"), row[3]);
         holds(&e, &format!("{label}: K_xx"), row[4]);
-        let verdict = match (row[5], row[6]) {
+        let note = match (row[5], row[6]) {
             ("yes", "yes") => "stable",
             ("yes", _) => "stable with the end held, unstable under a dead force",
             _ => "unstable",
         };
-        assert_eq!(shape.note, verdict, "{label}");
+        assert_eq!(shape.note, note, "{label}");
     }
 }
 

@@ -5,7 +5,7 @@
 //! neighbouring equilibrium exists where `det T = 0`, not where its symmetric part is indefinite
 //! (Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963). Below the latter
 //! nothing goes away, whatever the masses are; above it the count here tells what the masses cannot change. A
-//! flutter is not judged: with masses that favour it and no damping every unsymmetric `T` has one.
+//! flutter is not assessed: with masses that favour it and no damping every unsymmetric `T` has one.
 //!
 //! Let `U` span the eigenvectors of the symmetric part with negative eigenvalues and `P` the others. Among `P`
 //! alone the symmetric part is positive, so that `T_PP` is regular, and

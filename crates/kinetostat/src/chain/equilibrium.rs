@@ -57,7 +57,7 @@ impl System {
     /// Tangent and shape by sweeps; `None` where there are none, or where passive joints are
     /// redundant or a pivot is lost.
     /// `solved` as in [`swept_stiffness`].
-    pub fn swept_verdicts(
+    pub fn swept_stiffness_and_stability(
         &self,
         chain: &Chain,
         scales: &[f64],
@@ -69,7 +69,7 @@ impl System {
         Some((stiffness, stability))
     }
 
-    pub(crate) fn dense_verdicts(
+    pub(crate) fn dense_stiffness_and_stability(
         &self,
         chain: &Chain,
         scales: &[f64],
@@ -81,7 +81,7 @@ impl System {
     }
 
     /// Everything that is known about the state at which the system was evaluated; it is dense unless
-    /// the verdicts are given.
+    /// the stiffness and stability are given.
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
     pub(crate) fn equilibrium(
         &self,
@@ -92,10 +92,19 @@ impl System {
         conservative: bool,
         iterations: usize,
         norms: &ResidualNorms,
-        verdicts: Option<(ChainStiffness, ShapeStability)>,
+        stiffness_and_stability: Option<(ChainStiffness, ShapeStability)>,
     ) -> Equilibrium {
-        let verdicts = verdicts.unwrap_or_else(|| self.dense_verdicts(chain, scales, conservative));
-        self.described(chain, x, wrench, conservative, iterations, norms, verdicts)
+        let stiffness_and_stability = stiffness_and_stability
+            .unwrap_or_else(|| self.dense_stiffness_and_stability(chain, scales, conservative));
+        self.described(
+            chain,
+            x,
+            wrench,
+            conservative,
+            iterations,
+            norms,
+            stiffness_and_stability,
+        )
     }
 
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places

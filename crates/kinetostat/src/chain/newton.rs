@@ -290,7 +290,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
     /// Newton from `(x, wrench)` at one share of the load; updates them. Returns iterations and the
     /// last residual, `Err` if it did not converge.
     ///
-    /// Steps are judged by motion, not by residual: after a share `l` of the step `d`, the same
+    /// Steps are assessed by motion, not by residual: after a share `l` of the step `d`, the same
     /// linearisation wants `(1 - l) d` more if it still holds. What it wants otherwise may be at
     /// most `l / 2` of `d` (Deuflhard, Newton Methods for Nonlinear Problems, 3.3: restricted natural
     /// monotonicity). Residuals mislead: a residual of the load is weighed against the chain's natural
@@ -394,21 +394,29 @@ impl Attempt<'_, '_> {
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, scales) = (self.problem.chain, &self.scales);
         let conservative = is_conservative(self.problem);
-        let swept = self.system.swept_verdicts(chain, scales, None);
-        let verdicts = match swept.filter(|(_, s)| conservative || s.stable) {
-            Some(verdicts) => verdicts,
+        let swept = self
+            .system
+            .swept_stiffness_and_stability(chain, scales, None);
+        let stiffness_and_stability = match swept.filter(|(_, s)| conservative || s.stable) {
+            Some(stiffness_and_stability) => stiffness_and_stability,
             None => {
                 if self.system.sweep.is_some() {
                     self.system.make_dense();
                     self.evaluate_system(&x, &wrench, 1.0);
                 }
                 self.system
-                    .dense_verdicts(chain, &self.scales, conservative)
+                    .dense_stiffness_and_stability(chain, &self.scales, conservative)
             }
         };
-        let mut equilibrium =
-            self.system
-                .described(chain, x, wrench, conservative, iterations, norms, verdicts);
+        let mut equilibrium = self.system.described(
+            chain,
+            x,
+            wrench,
+            conservative,
+            iterations,
+            norms,
+            stiffness_and_stability,
+        );
         let [last, before] = self.corrections;
         equilibrium.residual.rate = (before > 0.0).then(|| last / before);
         (equilibrium, self.system.method())

@@ -48,7 +48,7 @@ pub struct ShapeStability {
     /// Motion of all coordinates in the most critical mode (m, rad), largest component 1; empty where
     /// nothing can buckle or numbers of 16 digits do not tell it.
     pub mode: Vec<f64>,
-    /// Passive joints that can move for nothing (neutral, taken out of the verdict).
+    /// Passive joints that can move for nothing (neutral, left out of the stability).
     pub neutral: Vec<String>,
 }
 
@@ -82,7 +82,7 @@ impl ShapeStability {
 
     /// Stable, unstable, or singular.
     #[must_use]
-    pub fn verdict(&self) -> ShapeState {
+    pub fn state(&self) -> ShapeState {
         match self.share_to_buckling {
             Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeState::Singular,
             _ if self.stable => ShapeState::Stable,
@@ -90,11 +90,11 @@ impl ShapeStability {
         }
     }
 
-    /// The verdict and how far it is from changing, for people.
+    /// The state and how far it is from changing, for people.
     #[must_use]
     pub fn description(&self) -> String {
         let mu = self.share_to_buckling.unwrap_or(0.0);
-        match self.verdict() {
+        match self.state() {
             ShapeState::Singular => "stands at its critical load (mu 1)".into(),
             ShapeState::Unstable if mu.is_finite() => {
                 format!("does not keep its shape (mu {mu:.4}; it does below 1)")
@@ -209,7 +209,7 @@ pub fn stability_within(
         .copy_from(&(&hessian - &springs));
     let inertia = inertia(bordered);
 
-    // Neutral passive motions leave the verdict.
+    // Neutral passive motions leave the stability.
     let neutral = neutral_motions(chain, jacobian, &rows, &hessian);
     let units = MaterialUnits::of(chain, &springs);
     let mut taken_out = DMatrix::zeros(n, rank + neutral.ncols());
@@ -252,7 +252,7 @@ pub fn stability_within(
 /// Orthonormal motions of passive joints alone that move nothing that is held and that the loads
 /// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, scaled: those
 /// passive null motions `v` for which `N^T H v = 0` with all null motions `N`. Others of the same
-/// joints may be held or pushed and stay in the verdict. `rows` are independent rows of `jacobian`.
+/// joints may be held or pushed and stay in the stability. `rows` are independent rows of `jacobian`.
 pub(crate) fn neutral_motions(
     chain: &Chain,
     jacobian: &DMatrix<f64>,

@@ -180,7 +180,7 @@ impl System {
             self.kinematics
                 .add_tangents(&self.tangents, &mut self.hessian);
         }
-        // A load without a tangent here has no equilibrium here that could be judged.
+        // A load without a tangent here has no equilibrium here whose stability could be assessed.
         let tangents = self.tangents.iter();
         if tangents
             .flat_map(|t| t.matrix.iter())

@@ -177,7 +177,7 @@ impl ChainSystem<'_, '_> {
         };
         let swept = self
             .equations
-            .swept_verdicts(self.problem.chain, &self.scaling, None)
+            .swept_stiffness_and_stability(self.problem.chain, &self.scaling, None)
             .filter(|(_, s)| self.conservative || s.stable);
         if swept.is_none() && self.equations.sweep.is_some() {
             let dense = self.densely(|own| {

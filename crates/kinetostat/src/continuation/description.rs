@@ -35,7 +35,7 @@ impl<E: CurveEquilibrium> Special<E> {
         match self.kind {
             SpecialKind::LoadLimit => [true, false],
             SpecialKind::DisplacementLimit => [false, true],
-            // The verdict of the point itself is a matter of rounding: it is at the limit of what holds.
+            // The stability of the point itself is a matter of rounding: it is at the limit of what holds.
             _ => [self.point.slope >= 0.0, true],
         }
     }

@@ -101,7 +101,7 @@ pub struct MechanismEquilibrium {
     pub energy: Option<f64>,
     /// All loads on limbs and the dead wrench on the tool (if it is not held) have a potential; if
     /// not, the machine
-    /// may gain energy on a closed path, and stability judged by stiffness is not all of it.
+    /// may gain energy on a closed path, and stability by stiffness is not all of it.
     pub conservative: bool,
     /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
     pub stiffness: CartesianStiffness,
@@ -168,7 +168,7 @@ impl MechanismEquilibrium {
     /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
     /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
     /// negative if the symmetric part of the stiffness lets some force move the tool against itself, infinite
-    /// if no force moves it. It is no verdict: a tool that runs away may yet be moved along every force,
+    /// if no force moves it. It says nothing of stability: a tool that runs away may yet be moved along every force,
     /// see [`Self::stable`].
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
@@ -204,8 +204,10 @@ pub(crate) fn conclude(
         Unknowns::Held => Wrench(-unbalanced[m.tool()].0),
         _ => solver.wrench,
     };
-    let verdicts: Vec<_> = (0..m.limbs().len()).map(|i| solver.verdicts(i)).collect();
-    let limbs = verdicts.into_iter().enumerate();
+    let stiffness_and_stability: Vec<_> = (0..m.limbs().len())
+        .map(|i| solver.stiffness_and_stability(i))
+        .collect();
+    let limbs = stiffness_and_stability.into_iter().enumerate();
     let limbs = limbs.map(|(i, found)| limb_equilibrium(solver, i, found));
     let limbs: Vec<LimbEquilibrium> = limbs.collect::<Result<_>>()?;
     let outside = potential_of_platforms(solver);

@@ -65,7 +65,7 @@ pub fn node_wrenches(problem: &ChainProblem<'_>) -> Vec<(usize, Wrench)> {
     list
 }
 
-/// Closure, torques, forces, energy, tangent and verdicts of a chain's equilibrium.
+/// Closure, torques, forces, energy, tangent and stability of a chain's equilibrium.
 #[track_caller]
 pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
     let chain = problem.chain;
@@ -175,7 +175,7 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
 }
 
 /// Closure, equilibrium of every platform about its own origin, torques of every limb, energy, tangent
-/// and verdicts of a mechanism's equilibrium.
+/// and stability of a mechanism's equilibrium.
 #[track_caller]
 pub fn assert_equilibrium(posture: &Posture, e: &MechanismEquilibrium) {
     let m = posture.mechanism();

@@ -79,7 +79,7 @@ pub fn block_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
     worst.value()
 }
 
-/// As [`block_error`], but each block is judged against the geometric mean of the diagonal blocks:
+/// As [`block_error`], but each block is compared with the geometric mean of the diagonal blocks:
 /// for matrices in which a block may vanish.
 pub fn scaled_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
     let size = |r: usize| b.fixed_view::<3, 3>(r, r).largest_entry().max(1e-300);

@@ -56,10 +56,10 @@ fn straight_columns_fork_at_two_one_minus_cosine() {
             end: press(),
             loads: vec![],
         };
-        for judged in [StabilityOf::Shape, StabilityOf::ShapeAndEnd] {
-            let label = format!("{n} links, {judged:?}");
+        for stability_of in [StabilityOf::Shape, StabilityOf::ShapeAndEnd] {
+            let label = format!("{n} links, {stability_of:?}");
             let limit = CurveSettings::within(0.0, f64::INFINITY);
-            let critical = critical_load_factor(&problem, &pattern, judged, &limit).unwrap();
+            let critical = critical_load_factor(&problem, &pattern, stability_of, &limit).unwrap();
             close(&label, critical.linear.unwrap(), loads[0], 1e-9 * loads[0]);
             let exact = critical.exact.unwrap();
             close(&label, exact.factor, loads[0], 1e-9 * loads[0]);

@@ -67,8 +67,8 @@ fn critical(change: impl Fn(&mut CurveSettings, &mut LoadPattern)) -> Result<Vec
     let (mut settings, mut pattern) = (CurveSettings::within(0.0, 30.0), pattern());
     settings.points = 40;
     change(&mut settings, &mut pattern);
-    let judged = StabilityOf::ShapeAndEnd;
-    let found = critical_load_factor(&problem(&chain), &pattern, judged, &settings)?;
+    let stability_of = StabilityOf::ShapeAndEnd;
+    let found = critical_load_factor(&problem(&chain), &pattern, stability_of, &settings)?;
     Ok([found.reached].into_iter().chain(found.linear).collect())
 }
 

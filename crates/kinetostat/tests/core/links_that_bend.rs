@@ -98,7 +98,7 @@ fn straight(chain: &Chain, force: f64) -> Equilibrium {
     e
 }
 
-/// The verdict by the inertia of the bordered matrix (Sylvester's law), which needs no assumption
+/// Stability by the inertia of the bordered matrix (Sylvester's law), which needs no assumption
 /// about the springs: as many positive eigenvalues as the end has directions.
 pub fn holds(chain: &Chain, force: f64) -> bool {
     straight(chain, force).stability.inertia.positive == 6

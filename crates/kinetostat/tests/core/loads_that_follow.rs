@@ -205,8 +205,8 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let t = straight_stiffness(springs, follower, p.parameter);
                 let Some(awaited) = by_hand(&t) else { continue };
                 let case = format!("{springs:?}, {follower}, {}", p.parameter);
-                let told = (p.dead.stable, p.dead.may_flutter());
-                assert_eq!(told, awaited, "curve, {case}");
+                let reported = (p.dead.stable, p.dead.may_flutter());
+                assert_eq!(reported, awaited, "curve, {case}");
                 let both = t.determinant() > 0.0;
                 seen[match awaited {
                     (true, swings) => usize::from(swings),
@@ -220,8 +220,8 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let push = Wrench(press.0 * dead);
                 let loaded = posture.deflected_by(&push).unwrap();
                 if straight(&loaded.limbs[0].coordinates) {
-                    let told = (loaded.stable(), loaded.may_flutter());
-                    assert_eq!(told, awaited, "deflected, {case}");
+                    let reported = (loaded.stable(), loaded.may_flutter());
+                    assert_eq!(reported, awaited, "deflected, {case}");
                 }
                 let free = EndCondition::wrench(push);
                 let all = posture.equilibria(&free, &few).unwrap();
@@ -231,8 +231,8 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 };
                 for f in all.filter(|f| own(&f.equilibrium.limbs)) {
                     expected[0] += 1;
-                    let told = (f.stable, f.may_flutter);
-                    assert_eq!(told, awaited, "equilibria of the machine, {case}");
+                    let reported = (f.stable, f.may_flutter);
+                    assert_eq!(reported, awaited, "equilibria of the machine, {case}");
                 }
                 let mut one = problem.clone();
                 one.end = free;
@@ -241,8 +241,8 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let all = all.found.iter();
                 for f in all.filter(|f| straight(&f.equilibrium.coordinates)) {
                     expected[1] += 1;
-                    let told = (f.stable, f.may_flutter);
-                    assert_eq!(told, awaited, "equilibria of the chain, {case}");
+                    let reported = (f.stable, f.may_flutter);
+                    assert_eq!(reported, awaited, "equilibria of the chain, {case}");
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Chains long enough to be solved by sweeps along them: judged by the oracle's kinematics and dense
+//! Chains long enough to be solved by sweeps along them: checked by the oracle's kinematics and dense
 //! matrices, by known closed forms, and by differences.
 
 use kinetostat::{chain::Residual, model::LinkConvention, spatial::moved, *};
@@ -248,7 +248,7 @@ fn a_column_of_many_segments_buckles_at_eulers_load() {
         let problem = ChainProblem::new(&chain, end);
         let e = solve_chain(&problem, &Settings::default()).unwrap();
         // Held at both ends against turning about y, hinged about z; the tip held fast for the
-        // verdict of the shape: hinged and clamped in the plane of the hinge, 2.0457 Euler loads.
+        // stability of the shape: hinged and clamped in the plane of the hinge, 2.0457 Euler loads.
         let share_to_buckling = e.stability.share_to_buckling.unwrap();
         let expected = 0.5 / 2.045_748;
         assert!(

@@ -46,7 +46,7 @@ fn truss_force(b: f64, h: f64, k: f64, z: f64) -> f64 {
     2.0 * k * (l - b.hypot(h)) * z / l
 }
 
-/// A truss under a growing force: limits, verdicts and landings by hand, both signs of the load.
+/// A truss under a growing force: limits, stability and landings by hand, both signs of the load.
 /// Worst of force, place of limits and places of landing, as shares of `k h` and `h`.
 pub fn truss_path_apart() -> [f64; 3] {
     let (b, h, k) = (0.5, 0.1, 1e5);
@@ -204,7 +204,7 @@ fn least(hessian: &Matrix6<f64>, directions: &[usize]) -> f64 {
     .min()
 }
 
-/// What a path must keep: the wrench is the energy's gradient, verdicts are those of its Hessian.
+/// What a path must keep: the wrench is the energy's gradient, stability is that of its Hessian.
 /// Returns the largest difference of the wrench as a share of the largest.
 fn against_energy(
     legs: &Legs,
@@ -228,11 +228,11 @@ fn against_energy(
         let gradient = legs.gradient(pose);
         worst.add((gradient - wrench(p)).largest_entry() / size);
         let hessian = legs.hessian(pose);
-        let verdicts = [
+        let stabilities = [
             (p.held.stable, free.to_vec()),
             (p.dead.stable, [driven, free].concat()),
         ];
-        for (found, directions) in verdicts {
+        for (found, directions) in stabilities {
             if directions.is_empty() {
                 continue;
             }

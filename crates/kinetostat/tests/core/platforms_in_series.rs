@@ -151,7 +151,7 @@ fn crossed(machine: &Mechanism, stages: &[Stage], far: f64) -> bool {
 #[test]
 fn platforms_in_series_are_not_singular_because_they_are_in_series() {
     let mut rng = Rng(11);
-    let mut told = 0;
+    let mut reported = 0;
     for count in [2, 2, 2, 2, 3] {
         for extra in [0, 1] {
             let mut stages: Vec<Stage> = (0..count).map(|_| Stage::random(&mut rng)).collect();
@@ -162,12 +162,15 @@ fn platforms_in_series_are_not_singular_because_they_are_in_series() {
             if crossed(&machine, &stages, 1.5 * within) {
                 continue;
             }
-            told += 1;
+            reported += 1;
             let list = at_home(&machine).near_singularities(within).unwrap();
             assert!(list.is_empty(), "{}", list[0].description());
         }
     }
-    assert!(told >= 5, "{told} stacks are far from a singular posture");
+    assert!(
+        reported >= 5,
+        "{reported} stacks are far from a singular posture"
+    );
 }
 
 #[test]
@@ -190,7 +193,7 @@ fn two_hexapods_in_series_are_far_from_singular() {
 #[test]
 fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
     let mut rng = Rng(23);
-    let mut told = 0;
+    let mut reported = 0;
     for _ in 0..6 {
         let (first, second) = (Stage::random(&mut rng), Stage::random(&mut rng));
         for near in [0.0, 0.003, -0.01] {
@@ -212,7 +215,7 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                     "{}",
                     found.description()
                 );
-                told += 1;
+                reported += 1;
                 if near == 0.0 {
                     assert_eq!(found.distance_m, 0.0, "{}", found.description());
                     continue;
@@ -241,5 +244,5 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
             }
         }
     }
-    assert!(told >= 12, "{told}");
+    assert!(reported >= 12, "{reported}");
 }

@@ -80,7 +80,7 @@ fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
 }
 
 #[track_caller]
-fn same_verdict(label: &str, problem: &ChainProblem<'_>, e: &Equilibrium) {
+fn same_stability(label: &str, problem: &ChainProblem<'_>, e: &Equilibrium) {
     let b = brute(problem, e);
     let stable = b.criterion.iter().all(|x| *x < 0.0);
     let s = &e.stability;
@@ -196,14 +196,14 @@ fn a_description_for_every_shape() {
             .unwrap()
             .stability
     };
-    for (p, verdict, word) in [
+    for (p, state, word) in [
         (0.25, ShapeState::Stable, "25.000 %"),
         (-0.5, ShapeState::Stable, "stiffens"),
         (1.0, ShapeState::Singular, "critical"),
         (2.0, ShapeState::Unstable, "does not keep"),
     ] {
         let s = at(p);
-        assert_eq!(s.verdict(), verdict, "{p}: {s:?}");
+        assert_eq!(s.state(), state, "{p}: {s:?}");
         assert!(s.description().contains(word), "{p}: {}", s.description());
     }
 }
@@ -246,7 +246,7 @@ fn straight_columns_buckle_at_two_one_minus_cosine() {
                 "{label}: a straight rigid chain moves along y and about z only"
             );
             assert_eq!(e.stability.inertia.positive, rank + beyond, "{label}");
-            same_verdict(&label, &problem, &e);
+            same_stability(&label, &problem, &e);
         }
     }
 }
@@ -285,7 +285,7 @@ fn three_link_shapes_of_figure_5_7() {
                 3e-8 * 10.0,
             );
             assert_eq!(e.stability.stable, shape == "stable", "{label}");
-            same_verdict(&label, &problem, &e);
+            same_stability(&label, &problem, &e);
             close(
                 &label,
                 shape_criterion(&problem, &e),
@@ -368,7 +368,7 @@ fn all_equilibria_of_the_z_chain() {
             case["stable"].as_bool().unwrap(),
             "{label}"
         );
-        same_verdict(&label, &problem, &e);
+        same_stability(&label, &problem, &e);
     }
 }
 
@@ -395,7 +395,7 @@ fn pinned_columns_of_tr_springs_have_the_stated_critical_loads() {
             .passive("e", MotionKind::Revolute, Vector3::z(), 0.0)
             .build()
             .unwrap();
-        // The share grows with the load: bisect mu = 1 from both verdicts.
+        // The share grows with the load: bisect mu = 1 from both stabilities.
         let share_to_buckling = |p: f64| {
             let problem = pressed(&chain, length, p);
             let e = solve_chain(&problem, &Settings::default()).unwrap();
@@ -403,7 +403,7 @@ fn pinned_columns_of_tr_springs_have_the_stated_critical_loads() {
             if e.stability.share_to_buckling.unwrap().abs() < 0.999
                 || e.stability.share_to_buckling.unwrap() > 1.001
             {
-                same_verdict(&format!("{n} segments at {p}"), &problem, &e);
+                same_stability(&format!("{n} segments at {p}"), &problem, &e);
             }
             (e.stability.share_to_buckling.unwrap(), e.stability.stable)
         };
@@ -447,7 +447,7 @@ fn pinned_columns_of_tr_springs_have_the_stated_critical_loads() {
 proptest! {
     #![proptest_config(cases(32))]
     #[test]
-    fn verdicts_agree_on_random_loaded_chains(seed in any::<u64>()) {
+    fn stability_agrees_on_random_loaded_chains(seed in any::<u64>()) {
         let mut rng = Rng(seed);
         // Soft, so that some shapes are beyond buckling.
         let r = random_chain(&mut rng, &Recipe { stages: 2, passive: 2, k_t: 2e4, k_r: 60.0, preload: 0.0 });
@@ -458,7 +458,7 @@ proptest! {
         ];
         let Ok(e) = solve_chain(&problem, &Settings::default()) else { return Ok(()); };
         assert_chain_equilibrium(&problem, &e);
-        same_verdict("random", &problem, &e);
+        same_stability("random", &problem, &e);
     }
 }
 

@@ -155,7 +155,7 @@ fn what_is_no_matrix_of_numbers_ends_and_says_so() {
     }
 }
 
-/// What else of nalgebra ranks and verdicts rest on: symmetric eigenvalues and vectors, and QR, at
+/// What else of nalgebra ranks and stability rest on: symmetric eigenvalues and vectors, and QR, at
 /// the same clusters.
 #[test]
 fn symmetric_eigenvalues_and_triangles_are_right_at_clusters() {

@@ -135,9 +135,9 @@ fn the_share_to_buckling_is_the_true_shape_criterion_of_table_5_2() {
         close(&label, e.coordinates[0], a, 1e-7);
         close(&label, e.stability.share_to_buckling.unwrap(), mu, 1e-6);
         assert_eq!(e.stability.stable, s_c < 0.0, "{label}");
-        let verdict = e.stability.inertia.positive == 3;
+        let holds = e.stability.inertia.positive == 3;
         assert_eq!(
-            verdict,
+            holds,
             s_c < 0.0,
             "{label}: inertia {:?}",
             e.stability.inertia

@@ -221,7 +221,7 @@ fn an_answer_behind_a_limit_point_is_recognised() {
 /// machine reaches without a snap; beyond it, if any state is reported, the limit is on the way.
 #[test]
 fn a_limit_beyond_the_load_is_not_on_the_way() {
-    let mut told_behind = 0;
+    let mut beyond_limit = 0;
     for (b, slope, k) in [
         (1.0, 0.25, 1e6),
         (0.5, 0.2, 1e5),
@@ -253,11 +253,11 @@ fn a_limit_beyond_the_load_is_not_on_the_way() {
                 let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
                 let snap = snap.unwrap_or_else(|| panic!("{case}: no snap is told"));
                 assert_limit(&snap, b, h, k, push);
-                told_behind += 1;
+                beyond_limit += 1;
             }
         }
     }
-    assert!(told_behind > 0, "no load led behind a limit");
+    assert!(beyond_limit > 0, "no load led behind a limit");
 }
 
 #[test]

@@ -447,8 +447,8 @@ fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
 fn critical(random: &mut Random, problem: &ChainProblem<'_>, pattern: &LoadPattern) {
     let mut settings = CurveSettings::within(0.0, 10.0);
     settings.points = 5;
-    let judged = [StabilityOf::Shape, StabilityOf::ShapeAndEnd][random.below(2)];
-    match critical_load_factor(problem, pattern, judged, &settings) {
+    let stability_of = [StabilityOf::Shape, StabilityOf::ShapeAndEnd][random.below(2)];
+    match critical_load_factor(problem, pattern, stability_of, &settings) {
         Ok(c) => {
             assert!(
                 c.linear.is_none_or(|f| f.is_finite() && f > 0.0),

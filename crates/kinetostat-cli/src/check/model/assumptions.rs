@@ -278,13 +278,13 @@ impl AssumptionsFinding {
         // Less is rounding.
         let error = self.linear_error_percent.filter(|e| *e > 1e-9);
         let error = error.unwrap_or(0.0);
-        let judged = if share <= SMALL {
+        let result = if share <= SMALL {
             "small against the links"
         } else {
             "NOT small against the links: ask `kinetostat deflect`, which solves the bent machine, and do not multiply with the stiffness matrix"
         };
         self.in_words.push(format!(
-            "a load of {} N moves the tool by {} mm, {} % of the natural length: {judged}; the stiffness matrix alone would be {} % off{limit}",
+            "a load of {} N moves the tool by {} mm, {} % of the natural length: {result}; the stiffness matrix alone would be {} % off{limit}",
             load_triple((*case).into()),
             fixed(self.reference_deflection_mm.unwrap_or(0.0), 4),
             number(100.0 * share, 2),
@@ -303,11 +303,11 @@ impl AssumptionsFinding {
     ) {
         let at_rest = InstabilityShares::of(posture, rest);
         let under = loaded.map(|e| InstabilityShares::of(posture, e));
-        let judged = under.as_ref().or((!force_given).then_some(&at_rest));
-        if let Some(judged) = judged {
-            self.largest_share_to_buckling = judged.limb.map(|l| l.share);
-            self.largest_share_of_euler_load = judged.link.map(|l| l.share);
-            self.largest_share_to_instability_of_free_machine = judged.free;
+        let assessed = under.as_ref().or((!force_given).then_some(&at_rest));
+        if let Some(assessed) = assessed {
+            self.largest_share_to_buckling = assessed.limb.map(|l| l.share);
+            self.largest_share_of_euler_load = assessed.link.map(|l| l.share);
+            self.largest_share_to_instability_of_free_machine = assessed.free;
         }
         let worse = at_rest.largest() > NOTICEABLE
             && under

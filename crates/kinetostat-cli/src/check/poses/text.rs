@@ -23,7 +23,7 @@ pub(crate) fn answer_text(a: &PoseComparison) -> String {
     out.push('\n');
     out.push_str(&table(a));
     out.push('\n');
-    out.push_str(&verdict(a));
+    out.push_str(&result_text(a));
     out
 }
 
@@ -53,7 +53,7 @@ fn table(a: &PoseComparison) -> String {
 }
 
 /// Whether the model agrees, and what explains it if not.
-fn verdict(a: &PoseComparison) -> String {
+fn result_text(a: &PoseComparison) -> String {
     let within = format!(
         "{} mm and {} deg",
         short(a.tolerance_mm),

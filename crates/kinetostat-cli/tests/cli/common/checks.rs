@@ -41,7 +41,7 @@ pub fn edited(text: &str, changes: &[(&str, &str)]) -> String {
 /// The warnings of an answer, as `FILE:LINE: message` where they speak of a file. All have one form.
 pub fn warnings(answer: &Value) -> Vec<String> {
     let list = answer["warnings"].as_array().expect("a list");
-    let told = |warning: &Value| {
+    let reported = |warning: &Value| {
         let names: Vec<&String> = warning.as_object().expect("an object").keys().collect();
         assert_eq!(names, ["code", "file", "line", "message"], "{warning}");
         let code = warning["code"].as_str().expect("a word");
@@ -58,7 +58,7 @@ pub fn warnings(answer: &Value) -> Vec<String> {
             }
         }
     };
-    list.iter().map(told).collect()
+    list.iter().map(reported).collect()
 }
 
 pub fn texts(list: &Value) -> Vec<String> {

@@ -81,7 +81,7 @@ fn resized(list: &str, count: usize) -> String {
 }
 
 /// Refuses every list of the text in every wrong length, with its line and column; returns how many there are.
-fn judge(text: &str, arguments: &[&str]) -> usize {
+fn check(text: &str, arguments: &[&str]) -> usize {
     let here = workplace();
     let found = lists(text);
     for span in &found {
@@ -121,7 +121,7 @@ fn every_list_of_a_job_has_its_length() {
     for job in JOBS {
         let text = format!("{head}{job}");
         for command in ["check", "compensate"] {
-            count += judge(&text, &[command, "bad.toml"]);
+            count += check(&text, &[command, "bad.toml"]);
         }
     }
     // 24 lists, by two commands: more keys with lists are to be written above.
@@ -130,7 +130,7 @@ fn every_list_of_a_job_has_its_length() {
 
 #[test]
 fn every_list_of_a_file_of_poses_has_its_length() {
-    let count = judge(POSES, &["check", "orthoglide", "--pose", "bad.toml"]);
+    let count = check(POSES, &["check", "orthoglide", "--pose", "bad.toml"]);
     assert_eq!(count, 4);
 }
 

@@ -47,22 +47,22 @@ fn changed(text: &str, from: &str, to: &str) -> Vec<u8> {
 }
 
 #[track_caller]
-fn judge(case: &Case) {
+fn check(case: &Case) {
     let here = workplace();
     for (name, bytes) in &case.files {
         std::fs::write(here.path().join(name), bytes).expect("a file");
     }
     let before = contents(here.path());
     let said = run(here.path(), &case.arguments);
-    let told = &said.err;
+    let shown = &said.err;
     let name = case.name;
     assert_eq!(said.code, case.code, "{name}: {said:?}");
     for word in case.words {
-        assert!(told.contains(word), "{name}: '{word}' is not in\n{told}");
+        assert!(shown.contains(word), "{name}: '{word}' is not in\n{shown}");
     }
-    assert!(told.starts_with("error"), "{name}: {told}");
+    assert!(shown.starts_with("error"), "{name}: {shown}");
     for never in ["panicked", "RUST_BACKTRACE", "unwrap", "\u{1b}", "\u{7}"] {
-        assert!(!told.contains(never), "{name}: {told}");
+        assert!(!shown.contains(never), "{name}: {shown}");
     }
     assert!(said.out.is_empty(), "{name}: {}", said.out);
     assert_eq!(
@@ -74,12 +74,12 @@ fn judge(case: &Case) {
 
 fn all(cases: Vec<Case>) -> usize {
     for case in &cases {
-        judge(case);
+        check(case);
     }
     cases.len()
 }
 
-/// Read by `cargo xtask figures`; the tables themselves are judged by the tests below.
+/// Read by `cargo xtask figures`; the tables themselves are assessed by the tests below.
 #[test]
 fn figure_wrong_inputs() {
     let count = models().len() + jobs().len() + programs().len() + command_lines().len();

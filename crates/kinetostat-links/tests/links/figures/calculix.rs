@@ -133,10 +133,10 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     // Beam theory with shear; E 210 GPa, nu 0.3. The mesh is stiffer: its ends can neither contract
     // across nor warp.
     let found = by_matrix.stiffness;
-    let judged = judge(&found, SYMMETRIC_TO);
+    let checked = judge(&found, SYMMETRIC_TO);
     assert!(
-        judged.is_definite() && judged.findings.is_empty(),
-        "{judged:?}"
+        checked.is_definite() && checked.findings.is_empty(),
+        "{checked:?}"
     );
     at_most(
         "ccx: meshed beam 40 x 60 x 600 mm against Timoshenko's 6 x 6",

@@ -29,7 +29,7 @@ fn a_feed_is_rounded_by_at_most_one_part_in_ten_thousand() {
 
 #[test]
 fn the_slowest_speed_is_never_nothing_and_never_too_large() {
-    for (share, told) in [
+    for (share, shown) in [
         (0.999, "99"),
         (0.5, "50"),
         (0.058_26, "5.8"),
@@ -38,6 +38,6 @@ fn the_slowest_speed_is_never_nothing_and_never_too_large() {
         (1e-9, "less than 0.001"),
         (0.0, "less than 0.001"),
     ] {
-        assert_eq!(least_percent(share), told, "{share}");
+        assert_eq!(least_percent(share), shown, "{share}");
     }
 }

@@ -466,8 +466,8 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
 pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
-    let judged = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
-    let inertia = judged.inertia;
+    let at_one = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
+    let inertia = at_one.inertia;
     let (mut best, mut off) = lanczos(sweep, ends)?;
     if sweep.unloaded() {
         return Some(SweptStability {
@@ -478,7 +478,7 @@ pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
     }
     // Largest eigenvalue: above `low`, not above `high`.
     let (mut low, mut high) = (best.quotient, f64::INFINITY);
-    if judged.above == 0 {
+    if at_one.above == 0 {
         high = 1.0;
     } else {
         low = low.max(1.0);

@@ -359,6 +359,6 @@ struct Iterate {
     wrench: Wrench,
 }
 
-/// Corrections of less motion than this (rad, natural lengths) are judged by the residual after them,
+/// Corrections of less motion than this (rad, natural lengths) are assessed by the residual after them,
 /// larger ones by the motion that the same tangents still want.
 const SMALL: f64 = 1e-2;

@@ -387,13 +387,13 @@ impl<'m> PlatformSolver<'m> {
     }
 
     /// Stiffness at its tip and stability of its shape of a limb after [`Self::finish`].
-    pub fn verdicts(&mut self, limb: usize) -> (ChainStiffness, ShapeStability) {
+    pub fn stiffness_and_stability(&mut self, limb: usize) -> (ChainStiffness, ShapeStability) {
         let chain = &self.mechanism.limbs()[limb].actual;
         // Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
         let units = self.linear[limb].solution.columns(1, 6).into_owned();
         let system = &self.linear[limb].system;
         let conservative = self.mechanism.loads_conservative(limb);
-        let found = system.swept_verdicts(chain, &self.scales[limb], Some(&units));
+        let found = system.swept_stiffness_and_stability(chain, &self.scales[limb], Some(&units));
         if let Some(found) = found.filter(|(_, s)| conservative || s.stable) {
             return found;
         }

@@ -165,7 +165,7 @@ impl SpringBlock {
     }
 }
 
-/// A stiffness matrix in units in which its diagonal is one: metres and radians are judged alike.
+/// A stiffness matrix in units in which its diagonal is one: metres and radians are compared alike.
 pub(crate) fn scaled(k: &DMatrix<f64>) -> DMatrix<f64> {
     let scale: Vec<f64> = k
         .diagonal()

@@ -19,7 +19,7 @@ fn compliance_of_section_2_4() {
         for i in 0..6 {
             for j in 0..6 {
                 let size = (expected[(i, i)] * expected[(j, j)]).sqrt();
-                // An entry that vanishes is judged by the diagonal.
+                // An entry that vanishes is compared with the diagonal.
                 let own = expected[(i, j)].abs();
                 let unit = if own > 1e-9 * size { own } else { size };
                 exact.add((c[(i, j)] - expected[(i, j)]) / unit);

@@ -442,9 +442,9 @@ fn every_law_holds_a_platform_as_in_the_general_engine() {
                 &own,
                 &Answer::of(&general.tool, &coordinates, &general.stiffness.matrix),
             );
-            let verdict = found.verdict(i).expect(&place);
-            assert_eq!(verdict.stable, general.stable(), "{place}");
-            let shares = (verdict.share_to_buckling, general.share_to_buckling());
+            let stability = found.verdict(i).expect(&place);
+            assert_eq!(stability.stable, general.stable(), "{place}");
+            let shares = (stability.share_to_buckling, general.share_to_buckling());
             let (Some(a), Some(b)) = shares else {
                 panic!("{place}: {shares:?}");
             };

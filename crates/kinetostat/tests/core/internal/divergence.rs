@@ -55,7 +55,7 @@ fn random(state: &mut u64) -> f64 {
 /// Two motions are surely lost where the symmetric part is negative definite or the determinant
 /// negative; else there are masses with which both frequencies are real. The same in all units.
 #[test]
-fn of_two_motions_the_verdict_is_that_of_all_masses_in_all_units() {
+fn of_two_motions_the_stability_is_that_of_all_masses_in_all_units() {
     let mut state = 7;
     let mut seen = [0; 3];
     for case in 0..400 {

@@ -1,5 +1,5 @@
 //! Sweeps against dense matrices and against differences, on random spatial chains, and which of
-//! the two paths a chain takes. (The oracle of the integration tests judges the same from outside.)
+//! the two methods of a chain. (The oracle of the integration tests checks the same from outside.)
 
 use kinetostat_testing::{LargestEntry, Worst, largest_size};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
@@ -349,7 +349,7 @@ fn alignment(a: &[f64], b: &[f64], scales: &[f64]) -> f64 {
 }
 
 #[test]
-fn equilibria_and_verdicts_are_those_of_the_dense_path() {
+fn equilibria_and_stability_are_those_of_the_dense_path() {
     let mut rng = Rng(4);
     let (mut held, mut free) = (0, 0);
     for case in 0..60 {
@@ -414,7 +414,7 @@ fn column(segments: usize, shortening: f64) -> (Chain, EndCondition) {
 }
 
 #[test]
-fn buckled_and_straight_columns_get_the_same_verdict() {
+fn buckled_and_straight_columns_get_the_same_stability() {
     for (segments, share) in [
         (4, -0.5),
         (4, 0.5),

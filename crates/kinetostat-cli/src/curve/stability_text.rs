@@ -7,7 +7,7 @@ use crate::curve::answer::{CurveAnswer, PointAnswer};
 use crate::curve::figures::short;
 
 /// Sentences that answer the question.
-pub(crate) fn verdict(a: &CurveAnswer) -> String {
+pub(crate) fn stability_text(a: &CurveAnswer) -> String {
     let mut text = going_away(a);
     let points = a.branches.first().map_or(&[][..], |b| &b.points);
     let swings = points.iter().filter(|p| p.may_flutter).count();
