@@ -1,4 +1,4 @@
-//! How the tool is held, direction by direction.
+//! Displacement control of the tool, direction by direction.
 
 use kinetostat::{EndCondition, Pose, Prescribed, Wrench, spatial::turn_matrix};
 use nalgebra::{Rotation3, Vector3, Vector6};

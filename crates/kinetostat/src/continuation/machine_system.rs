@@ -209,7 +209,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         let path = self.conditions;
         let own = &self.motions * q;
         let own = path.unbalanced(&Vector6::from_fn(|i, _| own[i]));
-        moved(&path.posture.target, &Twist(own + path.held_at))
+        moved(&path.posture.target, &Twist(own + path.displacement))
     }
 
     /// `V^T K A V` and `V^T P`: what the machine cannot do stays as it is.

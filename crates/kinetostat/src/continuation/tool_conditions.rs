@@ -29,7 +29,7 @@ pub(crate) struct ToolConditions<'p> {
     /// Directions in which the tool is held, base axes, columns.
     pub(crate) held: DMatrix<f64>,
     /// Where it is held there, from the nominal target.
-    pub(crate) held_at: Vector6<f64>,
+    pub(crate) displacement: Vector6<f64>,
     pub(crate) length: f64,
 }
 
@@ -102,13 +102,13 @@ impl<'p> ToolConditions<'p> {
             motions,
             free,
             held,
-            held_at: Vector6::zeros(),
+            displacement: Vector6::zeros(),
             length,
         })
     }
 
     /// For equilibria one by one: held as `end` says at `end.pose`, nothing grows.
-    pub(crate) fn held_at(posture: &'p Posture, end: &EndCondition) -> Result<Self> {
+    pub(crate) fn at_displacement(posture: &'p Posture, end: &EndCondition) -> Result<Self> {
         posture.finite("the pose", end.pose.to_homogeneous().iter())?;
         let nothing = LoadPattern {
             end: Wrench::new(nalgebra::Vector3::x(), nalgebra::Vector3::zeros()),
@@ -117,7 +117,7 @@ impl<'p> ToolConditions<'p> {
         let settings = CurveSettings::within(0.0, 1.0);
         let mut path = Self::new(posture, &Parameter::Load(nothing), end, &settings)?;
         let motion = path.motion(&end.pose);
-        path.held_at = motion - path.freely(&motion);
+        path.displacement = motion - path.freely(&motion);
         Ok(path)
     }
 
@@ -135,14 +135,14 @@ impl<'p> ToolConditions<'p> {
             motions: self.free.clone(),
             free: &self.free * complement(&DMatrix::from_columns(&[inside])),
             held: self.held.clone(),
-            held_at: self.held_at,
+            displacement: self.displacement,
             length: self.length,
         }
     }
 
     /// Where the tool is held, from the nominal target: m, rad.
-    pub(crate) fn held_motion(&self) -> Vector6<f64> {
-        self.held_at
+    pub(crate) fn prescribed_displacement(&self) -> Vector6<f64> {
+        self.displacement
     }
 
     /// The part of a motion (m, rad) in which the tool is free.
@@ -177,7 +177,7 @@ impl<'p> ToolConditions<'p> {
     pub(crate) fn guide(&self, more: Option<(&Vector6<f64>, f64)>) -> Guide {
         let mut rows = self.held.transpose();
         let mut hands = self.held.clone();
-        let mut goals = &rows * self.held_at;
+        let mut goals = &rows * self.displacement;
         if let Some((row, goal)) = more {
             let k = rows.nrows();
             let size = row.norm();

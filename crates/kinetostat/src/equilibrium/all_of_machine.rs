@@ -73,7 +73,7 @@ impl Posture {
         end: &EndCondition,
         settings: &SpreadSettings,
     ) -> Result<Equilibria<MechanismEquilibrium>> {
-        let mut system = MachineSearch::new(ToolConditions::held_at(self, end)?);
+        let mut system = MachineSearch::new(ToolConditions::at_displacement(self, end)?);
         let limits = Limits {
             fruitless: settings.fruitless,
             starts: settings.starts,

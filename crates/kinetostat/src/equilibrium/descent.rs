@@ -49,7 +49,7 @@ impl ToolConditions<'_> {
                 if share * whole < LAST * size {
                     break None;
                 }
-                let next = self.held_beside(&here, &motions, &(&step * share));
+                let next = self.displaced_beside(&here, &motions, &(&step * share));
                 match next.filter(|next| self.gained(&here, next) < 0.0) {
                     Some(next) => break Some(next),
                     None => reach = 0.3 * share * whole,
@@ -74,12 +74,12 @@ impl ToolConditions<'_> {
         modes
             .filter(|(k, _)| **k < 0.0)
             .flat_map(|(_, motion)| [motion * push, motion * -push])
-            .filter_map(|motion| self.held_beside(e, &motions, &motion))
+            .filter_map(|motion| self.displaced_beside(e, &motions, &motion))
             .collect()
     }
 
     /// The machine with its tool held where a motion leads, step by step; as far as it can go there.
-    pub(crate) fn held_at_the_end(
+    pub(crate) fn displaced_to_end(
         &self,
         start: MechanismEquilibrium,
         motion: &Vector6<f64>,
@@ -91,7 +91,7 @@ impl ToolConditions<'_> {
             let motions = self.movable(&here);
             let step =
                 motions.transpose() * DVector::from_column_slice((motion / count).as_slice());
-            match self.held_beside(&here, &motions, &step) {
+            match self.displaced_beside(&here, &motions, &step) {
                 Some(next) => here = next,
                 None => break,
             }
@@ -111,7 +111,7 @@ impl ToolConditions<'_> {
     }
 
     /// The machine with its tool moved by parts of some motions (scaled), and held in these alone.
-    fn held_beside(
+    fn displaced_beside(
         &self,
         here: &MechanismEquilibrium,
         motions: &DMatrix<f64>,

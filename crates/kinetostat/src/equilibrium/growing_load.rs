@@ -201,7 +201,7 @@ impl Posture {
     /// Takes the tool along a motion while the whole load acts, in the direction in which it is pushed, until it needs
     /// no hand.
     fn follow_free_motion(&self, motion: &Twist, wrench: &Wrench) -> FollowedTo {
-        let Ok(free) = ToolConditions::held_at(self, &EndCondition::wrench(*wrench)) else {
+        let Ok(free) = ToolConditions::at_displacement(self, &EndCondition::wrench(*wrench)) else {
             return FollowedTo::Lost(false);
         };
         let path = free.driven(

@@ -80,7 +80,10 @@ impl<'p> MachineSearch<'p> {
         let near = posture.motion_gained(conditions.length);
         first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
         let limbs = posture.mechanism.limbs().iter();
-        let commanded = moved(&posture.target, &Twist(conditions.held_motion()));
+        let commanded = moved(
+            &posture.target,
+            &Twist(conditions.prescribed_displacement()),
+        );
         Self {
             first,
             free: conditions.free_motions(),
@@ -100,14 +103,14 @@ impl<'p> MachineSearch<'p> {
             Some(motion) => path.freely(&motion.0),
             None => spread(&self.free, k, path),
         };
-        let mut pose = moved(&posture.target, &Twist(path.held_motion()));
+        let mut pose = moved(&posture.target, &Twist(path.prescribed_displacement()));
         pose = moved(&pose, &Twist(motion));
         let mut state: MechanismState = posture.rest_state();
         if k.is_multiple_of(2) && motion.norm() > 0.0 {
             let held = match posture.wrench_at(&pose) {
                 Ok(held) => held,
                 // Motions of the tool may be bound to each other.
-                Err(_) => path.held_at_the_end(self.rest.clone()?, &motion)?,
+                Err(_) => path.displaced_to_end(self.rest.clone()?, &motion)?,
             };
             let there = held.state.clone();
             return path.descend(held).or_else(|| path.rest(there, &path.dead));
@@ -132,7 +135,7 @@ impl<'p> MachineSearch<'p> {
             let (joints, commands) = (&state.coordinates[*i], &posture.limbs[*i].commands);
             let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
             state.platforms[tool] = tip * limb.platform_from_tip.inverse();
-            let mut solver = posture.solver(state, Unknowns::Held);
+            let mut solver = posture.solver(state, Unknowns::Displacement);
             let (iterations, norms) = solver.solve(1.0, 0).ok()?;
             let held = conclude(&mut solver, norms.residual(iterations)).ok()?;
             return path.descend(held);

@@ -201,7 +201,7 @@ pub(crate) fn conclude(
     }
     // The unbalanced wrench of a tool under displacement control is what its holder must apply.
     let wrench = match solver.unknowns {
-        Unknowns::Held => Wrench(-unbalanced[m.tool()].0),
+        Unknowns::Displacement => Wrench(-unbalanced[m.tool()].0),
         _ => solver.wrench,
     };
     let stiffness_and_stability: Vec<_> = (0..m.limbs().len())
@@ -216,7 +216,7 @@ pub(crate) fn conclude(
     });
     let conservative = outside.is_some()
         && limbs.iter().all(|l| l.conservative)
-        && (solver.unknowns == Unknowns::Held
+        && (solver.unknowns == Unknowns::Displacement
             || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
     let tool = ToolStiffness::of(solver, tangent, &limbs);
     let (platform, others_hold) = tool.stability(solver, conservative, &limbs);
@@ -361,7 +361,7 @@ impl ToolStiffness {
         let stays = |held| {
             !conservative && none_diverges(tangent, directions, rigid, tool, scale, held, whole)
         };
-        let held = solver.unknowns == Unknowns::Held;
+        let held = solver.unknowns == Unknowns::Displacement;
         let definite = least >= 0.0 && hold(held);
         let stable = definite || stays(held);
         let platform = PlatformStability {
@@ -403,7 +403,7 @@ impl Posture {
         self.finite("the pose", pose.to_homogeneous().iter())?;
         let mut state = self.rest_state();
         state.platforms[self.mechanism.tool()] = *pose;
-        let mut solver = self.solver(state, Unknowns::Held);
+        let mut solver = self.solver(state, Unknowns::Displacement);
         let residual = solver.solve_robustly()?;
         conclude(&mut solver, residual)
     }

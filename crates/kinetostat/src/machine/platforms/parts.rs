@@ -9,8 +9,8 @@ use crate::spatial::{Directions, Pose, Twist, Wrench, hat, pose_residual};
 pub(crate) enum Unknowns {
     /// All platforms move; commands are given.
     Pose,
-    /// The tool is held and its wrench follows; other platforms move.
-    Held,
+    /// Displacement control: the tool is held and its wrench follows; other platforms move.
+    Displacement,
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
     Target(Directions),

@@ -288,7 +288,7 @@ impl<'m> PlatformSolver<'m> {
         }
         for (k, w) in unbalanced.iter().enumerate().skip(1) {
             // Under displacement control, the holder of the tool supplies its unbalanced wrench.
-            if self.unknowns != Unknowns::Held || k != m.tool() {
+            if self.unknowns != Unknowns::Displacement || k != m.tool() {
                 force = larger(force, size(w));
                 merit += size(w).powi(2);
             }

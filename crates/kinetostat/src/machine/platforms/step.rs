@@ -243,7 +243,7 @@ impl PlatformSolver<'_> {
     ) -> Option<PlatformStep> {
         let m = self.mechanism;
         let p = m.platforms().len() - 1;
-        if self.unknowns == Unknowns::Held && p == 1 {
+        if self.unknowns == Unknowns::Displacement && p == 1 {
             return Some(PlatformStep {
                 motions: vec![Twist::zero()],
                 target: Twist::zero(),
@@ -261,7 +261,7 @@ impl PlatformSolver<'_> {
             a.add(0, tool + k, &by_target.column(k));
         }
         let mut conditions = self.conditions(at, exchanged);
-        if self.unknowns == Unknowns::Held {
+        if self.unknowns == Unknowns::Displacement {
             self.hold_tool(&mut a, &mut b, &mut conditions);
         }
         let count = conditions.rigid.count();

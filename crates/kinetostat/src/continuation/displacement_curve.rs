@@ -15,7 +15,7 @@ use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 /// One point of a curve.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct HeldPoint {
+pub struct DisplacementPoint {
     /// Along the direction from the nominal target, in units of the direction.
     pub along: f64,
     /// Component of the holding wrench in the direction, N (if the direction moves by 1 m), without
@@ -31,12 +31,12 @@ pub struct HeldPoint {
 /// A curve of holding wrenches.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct HeldCurve {
+pub struct DisplacementCurve {
     /// Points in their order.
-    pub points: Vec<HeldPoint>,
+    pub points: Vec<DisplacementPoint>,
     /// Where the force has a maximum or minimum: under a dead load of that size and direction the
     /// tool snaps through.
-    pub limits: Vec<HeldPoint>,
+    pub limits: Vec<DisplacementPoint>,
     /// Why it ended early.
     pub ended: Option<crate::error::Error>,
 }
@@ -59,7 +59,7 @@ impl Posture {
         let tool = self.mechanism.tool();
         let from = start.platforms[tool];
         let motion = pose_residual(pose, &from);
-        let mut solver = self.solver(start, Unknowns::Held);
+        let mut solver = self.solver(start, Unknowns::Displacement);
         let (mut share, mut step, mut spent) = (0.0_f64, 1.0_f64, 0);
         loop {
             let next = (share + step).min(1.0);
@@ -121,8 +121,8 @@ impl Posture {
         direction: &Twist,
         distances: &[f64],
         start: Option<MechanismState>,
-    ) -> Result<HeldCurve> {
-        self.curve(&Drive::Held(*direction), distances, start)
+    ) -> Result<DisplacementCurve> {
+        self.curve(&Drive::Displacement(*direction), distances, start)
     }
 
     /// The force that holds the tool's origin at the `distances` (m, from the nominal target)
@@ -138,7 +138,7 @@ impl Posture {
         distances: &[f64],
         dead: &Wrench,
         start: Option<MechanismState>,
-    ) -> Result<HeldCurve> {
+    ) -> Result<DisplacementCurve> {
         self.finite("the wrench", dead.0.iter())?;
         self.finite("the direction", direction.iter())?;
         let Some(direction) = direction.try_normalize(1e-12) else {
@@ -155,12 +155,12 @@ impl Posture {
         kind: &Drive,
         distances: &[f64],
         start: Option<MechanismState>,
-    ) -> Result<HeldCurve> {
+    ) -> Result<DisplacementCurve> {
         if let Some(start) = &start {
             check_state(&self.mechanism, start)?;
         }
         self.finite("a distance along the path", distances.iter())?;
-        let mut curve = HeldCurve {
+        let mut curve = DisplacementCurve {
             points: Vec::with_capacity(distances.len()),
             limits: Vec::new(),
             ended: None,
@@ -169,7 +169,7 @@ impl Posture {
             let point = match (curve.points.last(), &start, kind) {
                 (Some(last), ..) => self.next(kind, along, Some(last), &last.equilibrium.state),
                 (None, Some(state), _) => self.next(kind, along, None, state),
-                (None, None, Drive::Held(direction)) => {
+                (None, None, Drive::Displacement(direction)) => {
                     let pose = moved(&self.target, &Twist(direction.0 * along));
                     self.wrench_at(&pose).map(|e| kind.point(along, e))
                 }
@@ -201,11 +201,11 @@ impl Posture {
         &self,
         kind: &Drive,
         along: f64,
-        last: Option<&HeldPoint>,
+        last: Option<&DisplacementPoint>,
         state: &MechanismState,
-    ) -> Result<HeldPoint> {
+    ) -> Result<DisplacementPoint> {
         let equilibrium = match kind {
-            Drive::Held(direction) => {
+            Drive::Displacement(direction) => {
                 let pose = moved(&self.target, &Twist(direction.0 * along));
                 self.wrench_at_from(&pose, state.clone())?
             }
@@ -270,7 +270,12 @@ impl Posture {
     }
 
     /// Zero of the slope, by false position with halving (Illinois).
-    fn limit_between(&self, kind: &Drive, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
+    fn limit_between(
+        &self,
+        kind: &Drive,
+        a: &DisplacementPoint,
+        b: &DisplacementPoint,
+    ) -> Option<DisplacementPoint> {
         let (mut a, mut b) = (a.clone(), b.clone());
         let (mut fa, mut fb) = (a.slope, b.slope);
         let range = (b.along - a.along).abs();
@@ -298,15 +303,15 @@ impl Posture {
 
 /// How the tool is taken along.
 enum Drive {
-    Held(Twist),
+    Displacement(Twist),
     Pushed(Vector3<f64>, Wrench),
 }
 
 impl Drive {
-    fn point(&self, along: f64, equilibrium: MechanismEquilibrium) -> HeldPoint {
+    fn point(&self, along: f64, equilibrium: MechanismEquilibrium) -> DisplacementPoint {
         let k = &equilibrium.stiffness.matrix;
         let (force, slope) = match self {
-            Self::Held(direction) => (
+            Self::Displacement(direction) => (
                 direction.dot(&equilibrium.wrench),
                 direction.0.dot(&(k * direction.0)),
             ),
@@ -318,7 +323,7 @@ impl Drive {
                 )
             }
         };
-        HeldPoint {
+        DisplacementPoint {
             along,
             force,
             slope,
