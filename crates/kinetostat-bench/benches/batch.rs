@@ -1,4 +1,4 @@
-//! Every work on one thread: postures together, and one in each call.
+//! Every benchmark case on one thread: many postures in one call, and one in each call.
 //!
 //! ```sh
 //! cargo bench -p kinetostat-bench --bench batch
@@ -10,13 +10,13 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kinetostat_bench::Results;
-use kinetostat_bench::machines::{WORKS, work};
+use kinetostat_bench::machines::{CASES, work};
 
 /// What one thread takes at a time: no other one helps.
 const POSTURES: usize = 256;
 
 fn batch(c: &mut Criterion) {
-    for name in WORKS {
+    for name in CASES {
         let count = if name == "W5" { 8 } else { POSTURES };
         let task = work(name, count).expect("a work");
         let mut group = c.benchmark_group(name);

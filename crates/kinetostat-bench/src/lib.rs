@@ -1,4 +1,4 @@
-//! Many postures of a machine from a model file, asked again and again: what is timed.
+//! Many postures of a machine from a model file, solved again and again: what is timed.
 //!
 //! The same [`Task`] is used by `cargo xtask bench-vs-numpy` through Python (feature `python`), so that
 //! numpy and this project run in one process, and by the tables of the program `table`.
@@ -10,4 +10,4 @@ mod task;
 #[cfg(feature = "python")]
 mod python;
 
-pub use task::{Answers, Places, Results, Task, Work};
+pub use task::{Answers, Places, Quantity, Results, Task};

@@ -1,4 +1,4 @@
-//! The works and the other machines as tasks on model files.
+//! The benchmark cases and the other machines as tasks on model files.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use kinetostat::Pose;
 
-use crate::{Places, Task, Work, sample};
+use crate::{Places, Quantity, Task, sample};
 
 /// A machine and its range of commands.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +54,7 @@ pub const PUU3: BenchMachine = BenchMachine {
     serial: false,
 };
 
-/// All machines: those of the works, then shapes that no work has.
+/// All machines: those of the benchmark cases, then shapes that no case has.
 pub const ALL: [BenchMachine; 6] = [
     ARM,
     HEXAPOD,
@@ -85,24 +85,24 @@ pub const ALL: [BenchMachine; 6] = [
     },
 ];
 
-/// Names of the works.
-pub const WORKS: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
+/// Names of the benchmark cases.
+pub const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 
-/// A work by its name, on so many postures that are the same in every run.
+/// A benchmark case by its name, on so many postures that are the same in every run.
 ///
 /// # Errors
-/// If there is no such work, or its model cannot be read.
+/// If there is no such case, or its model cannot be read.
 pub fn work(name: &str, count: usize) -> Result<Task> {
     match name {
-        "W1" => ARM.task(Work::StiffnessAndJacobian, count, false),
-        "W2" => HEXAPOD.task(Work::Stiffness, count, false),
-        "W3" => ARM.task(Work::Equilibrium, count, false),
-        "W3+K" => ARM.task(Work::EquilibriumAndStiffness, count, false),
-        "W4" => PUU3.task(Work::Equilibrium, count, false),
+        "W1" => ARM.task(Quantity::StiffnessAndJacobian, count, false),
+        "W2" => HEXAPOD.task(Quantity::Stiffness, count, false),
+        "W3" => ARM.task(Quantity::Equilibrium, count, false),
+        "W3+K" => ARM.task(Quantity::EquilibriumAndStiffness, count, false),
+        "W4" => PUU3.task(Quantity::Equilibrium, count, false),
         "W5" => {
             let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
             let across = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0].repeat(count);
-            Task::open(&path("rod"), Work::Equilibrium, home, &across)
+            Task::open(&path("rod"), Quantity::Equilibrium, home, &across)
         }
         other => bail!("no work is called {other}"),
     }
@@ -120,9 +120,12 @@ impl BenchMachine {
     ///
     /// # Errors
     /// If its model cannot be read.
-    pub fn task(&self, work: Work, count: usize, bowing: bool) -> Result<Task> {
+    pub fn task(&self, work: Quantity, count: usize, bowing: bool) -> Result<Task> {
         let end = if bowing { "_bowing" } else { "" };
-        let loaded = matches!(work, Work::Equilibrium | Work::EquilibriumAndStiffness);
+        let loaded = matches!(
+            work,
+            Quantity::Equilibrium | Quantity::EquilibriumAndStiffness
+        );
         let wrenches = match loaded {
             true => sample::wrenches(0..count, self.load.0, self.load.1),
             false => Vec::new(),
@@ -138,10 +141,10 @@ impl BenchMachine {
 
     /// The quantities of an unloaded machine: with its Jacobian where it has one.
     #[must_use]
-    pub fn unloaded(&self) -> Work {
+    pub fn unloaded(&self) -> Quantity {
         match self.serial {
-            true => Work::StiffnessAndJacobian,
-            false => Work::Stiffness,
+            true => Quantity::StiffnessAndJacobian,
+            false => Quantity::Stiffness,
         }
     }
 }

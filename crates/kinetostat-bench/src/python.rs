@@ -16,7 +16,7 @@ mod kinetostat_bench {
     use pyo3::prelude::*;
     use pyo3::types::{PyBytes, PyDict};
 
-    use crate::{Places, Results, Task as Own, Work};
+    use crate::{Places, Quantity, Results, Task as Own};
 
     fn refused(error: impl std::fmt::Display) -> PyErr {
         PyValueError::new_err(format!("{error:#}"))
@@ -45,10 +45,10 @@ mod kinetostat_bench {
             wrenches: Option<&[u8]>,
         ) -> PyResult<Self> {
             let work = match work {
-                "stiffness" => Work::Stiffness,
-                "stiffness+jacobian" => Work::StiffnessAndJacobian,
-                "equilibrium" => Work::Equilibrium,
-                "equilibrium+stiffness" => Work::EquilibriumAndStiffness,
+                "stiffness" => Quantity::Stiffness,
+                "stiffness+jacobian" => Quantity::StiffnessAndJacobian,
+                "equilibrium" => Quantity::Equilibrium,
+                "equilibrium+stiffness" => Quantity::EquilibriumAndStiffness,
                 other => return Err(refused(format!("'{other}' is no work"))),
             };
             let places = match (joints, poses) {
@@ -73,7 +73,7 @@ mod kinetostat_bench {
         }
 
         /// A dictionary of bytes: tool, coordinates, stiffness, jacobian; and the numbers of postures
-        /// that were found together and not at all.
+        /// that were solved vectorised and not at all.
         fn answers<'py>(&self, py: Python<'py>, block: usize) -> PyResult<Bound<'py, PyDict>> {
             let all = self.0.answers(block).map_err(refused)?;
             let bytes = |numbers: &[f64]| {

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 /// The quantities requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Work {
+pub enum Quantity {
     /// Unloaded stiffness of the tool.
     Stiffness,
     /// Unloaded stiffness and Jacobian of a serial machine.
@@ -59,7 +59,7 @@ pub struct Task {
     batch: Batch,
     places: Places,
     wrenches: Vec<Wrench>,
-    work: Work,
+    work: Quantity,
     actuators: usize,
 }
 
@@ -89,11 +89,11 @@ pub struct Results {
 
 impl Task {
     /// A task on a model file. Wrenches (N, N m, base axes, about the tool's origin), one per
-    /// posture, are for loaded works only.
+    /// posture, are for loaded cases only.
     ///
     /// # Errors
     /// If the file is no model or the numbers do not fit the machine.
-    pub fn open(path: &Path, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+    pub fn open(path: &Path, work: Quantity, places: Places, wrenches: &[f64]) -> Result<Self> {
         let model = kinetostat_model::read_model(path)
             .with_context(|| format!("cannot read the model {}", path.display()))?;
         Self::of_model(&model, work, places, wrenches)
@@ -103,7 +103,12 @@ impl Task {
     ///
     /// # Errors
     /// If the numbers do not fit the machine.
-    pub fn of_model(model: &Model, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+    pub fn of_model(
+        model: &Model,
+        work: Quantity,
+        places: Places,
+        wrenches: &[f64],
+    ) -> Result<Self> {
         Self::new(model.mechanism.clone(), work, places, wrenches)
     }
 
@@ -111,7 +116,12 @@ impl Task {
     ///
     /// # Errors
     /// If the numbers do not fit the machine.
-    pub fn new(machine: Mechanism, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+    pub fn new(
+        machine: Mechanism,
+        work: Quantity,
+        places: Places,
+        wrenches: &[f64],
+    ) -> Result<Self> {
         let numbers = wrenches.len();
         let wrenches: Vec<Wrench> = wrenches
             .chunks_exact(6)
@@ -166,13 +176,16 @@ impl Task {
     }
 
     fn loaded(&self) -> bool {
-        matches!(self.work, Work::Equilibrium | Work::EquilibriumAndStiffness)
+        matches!(
+            self.work,
+            Quantity::Equilibrium | Quantity::EquilibriumAndStiffness
+        )
     }
 
     fn ask(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
-        let jacobian = self.work == Work::StiffnessAndJacobian;
+        let jacobian = self.work == Quantity::StiffnessAndJacobian;
         let details = match self.work {
-            Work::EquilibriumAndStiffness => Details::Stiffness,
+            Quantity::EquilibriumAndStiffness => Details::Stiffness,
             _ => Details::Rest,
         };
         let (batch, unloaded, loaded) = (&self.batch, &mut out.unloaded, &mut out.loaded);

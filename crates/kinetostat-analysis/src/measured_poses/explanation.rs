@@ -11,10 +11,10 @@ pub enum Frame {
     Tool(Pose),
 }
 
-/// Where the model's tool is for what the pendant shows (m, rad).
+/// Where the model's tool is for what the controller shows (m, rad).
 pub type Forward<'a> = dyn Fn(&[f64]) -> Option<Pose> + 'a;
 
-/// An axis of the pendant, as the file declares it; m and rad.
+/// An axis of the controller, as the file declares it; m and rad.
 #[derive(Clone, Debug)]
 pub struct Axis {
     /// It turns; if not, it slides.
@@ -56,7 +56,7 @@ pub enum Coupling {
     },
 }
 
-/// What the pendant is taken to show instead: `s x + o`, one axis with a share of another; and a frame.
+/// What the controller is taken to show instead: `s x + o`, one axis with a share of another; and a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
     /// Axes whose sign is the other one.
@@ -70,7 +70,7 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// What the pendant would show if the machine were as the file declares it. The machine shows
+    /// What the controller would show if the machine were as the file declares it. The machine shows
     /// `x = s a q + k c p + z` for its joint `q` and the coupled joint `p`, the file says
     /// `a q + c p + z`: that is `s (x - z) + z + (1 - s k) c p`.
     pub(crate) fn applied(&self, joints: &[f64], axes: &[Axis]) -> Vec<f64> {

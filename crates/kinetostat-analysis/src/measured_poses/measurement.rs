@@ -3,10 +3,10 @@
 use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// A pose that was measured: joints as the pendant shows them (m, rad) and the tool's place.
+/// A pose that was measured: joints as the controller shows them (m, rad) and the tool's place.
 #[derive(Clone, Debug)]
 pub struct MeasuredPose {
-    /// Joints as the pendant shows them, m or rad.
+    /// Joints as the controller shows them, m or rad.
     pub joints: Vec<f64>,
     /// Position of the tool in the base, m.
     pub position: Vector3<f64>,

@@ -1,5 +1,5 @@
 //! What `cargo xtask counts` counts the instructions of, by valgrind, and compares with
-//! `benches/counts.json`: without a word it prints the names of the works, with a name it does that one.
+//! `benches/counts.json`: without a word it prints the names of the cases, with a name it does that one.
 //!
 //! Valgrind knows no AVX-512, so that the kernels' AVX2 is counted, on every processor that has it.
 
@@ -11,9 +11,9 @@ use kinetostat_bench::machines::{path, work};
 use kinetostat_bench::{Results, Task, sample};
 use nalgebra::Vector6;
 
-/// Works by their names in `counts.json` and in the benches, with a number of postures for one call and
+/// Cases by their names in `counts.json` and in the benches, with a number of postures for one call and
 /// for one by one: so few that no other thread is called.
-const WORKS: [(&str, &str, usize, usize); 6] = [
+const CASES: [(&str, &str, usize, usize); 6] = [
     ("w1", "W1", 64, 16),
     ("w2", "W2", 64, 16),
     ("w3", "W3", 64, 16),
@@ -40,7 +40,7 @@ fn main() -> ExitCode {
 
 #[allow(clippy::print_stdout)] // this is the output that was requested
 fn names() {
-    for (name, ..) in WORKS {
+    for (name, ..) in CASES {
         println!("together {name}");
         println!("one_by_one {name}");
     }
@@ -62,7 +62,7 @@ fn counted(name: &str) -> Option<()> {
     let (kind, of) = name.split_once(' ')?;
     match kind {
         "together" | "one_by_one" => {
-            let (_, work, all, few) = WORKS.into_iter().find(|w| w.0 == of)?;
+            let (_, work, all, few) = CASES.into_iter().find(|w| w.0 == of)?;
             let (count, block) = if kind == "together" {
                 (all, 64)
             } else {

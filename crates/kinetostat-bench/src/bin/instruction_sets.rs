@@ -9,7 +9,7 @@ use kinetostat_bench::machines::work;
 use kinetostat_bench::{Answers, Task};
 
 /// Works of the benches, as many postures of each as leave the last register of eight half full.
-const WORKS: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
+const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 const POSTURES: usize = 13;
 
 fn main() -> ExitCode {
@@ -28,7 +28,7 @@ fn compare() -> Result<()> {
         sets.contains(&InstructionSet::Widest),
         "this build has no wide kernels: it is not optimised"
     );
-    for name in WORKS {
+    for name in CASES {
         let task = work(name, POSTURES)?;
         let one_by_one = bits(&task, InstructionSet::Single, 1)?;
         ensure!(!one_by_one.is_empty(), "{name}: no numbers");
@@ -41,7 +41,7 @@ fn compare() -> Result<()> {
             }
         }
     }
-    eprintln!("{sets:?}: the same bits, {}", WORKS.join(", "));
+    eprintln!("{sets:?}: the same bits, {}", CASES.join(", "));
     Ok(())
 }
 

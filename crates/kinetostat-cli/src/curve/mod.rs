@@ -40,7 +40,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         tool_length_mm: args.tool_length_mm,
         outputs: &args.outputs,
     };
-    let about = |query: &PlaceQuery| -> Answer<Work<CurveAnswer>> {
+    let work_of = |query: &PlaceQuery| -> Answer<Work<CurveAnswer>> {
         let length = query.mechanism.size();
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
     };
     answer_query(
         &command,
-        about,
+        work_of,
         |answer| &mut answer.warnings,
         |heading, answer| {
             Ok(Shown {

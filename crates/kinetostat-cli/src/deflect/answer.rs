@@ -159,7 +159,7 @@ pub(crate) fn answer(
         rotation_vector_deg: turn.into(),
         rotation_size_deg: turn.norm(),
         actuators: actuators(&query.mechanism, posture, &loaded.actuator_forces()),
-        pendant: query.on_pendant(posture),
+        pendant: query.in_controller_coordinates(posture),
         limbs: loaded
             .limbs
             .iter()

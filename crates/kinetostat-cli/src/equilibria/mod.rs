@@ -32,7 +32,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
         tool_length_mm: args.tool_length_mm,
         outputs: &args.outputs,
     };
-    let about = |query: &PlaceQuery| -> Answer<Work<EquilibriaAnswer>> {
+    let work_of = |query: &PlaceQuery| -> Answer<Work<EquilibriaAnswer>> {
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
     };
     answer_query(
         &command,
-        about,
+        work_of,
         |answer| &mut answer.warnings,
         |heading, answer| {
             Ok(Shown {

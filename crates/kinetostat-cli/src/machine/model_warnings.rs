@@ -6,7 +6,7 @@ use kinetostat_model::Model;
 
 use crate::ui::failure::Failure;
 
-/// A run that has no answer, with what smells in its model: that is most likely why.
+/// A run that has no answer, with what is implausible in its model: that is most likely why.
 pub(crate) fn with_model_warning(failure: Failure, model: &Model) -> Failure {
     let mut warnings = of_model(model);
     match warnings.next() {

@@ -19,7 +19,7 @@ pub(crate) struct PlaceArgs {
     /// that are not named stay at home
     #[arg(long, num_args = 1.., value_name = "JOINT=VALUE", value_delimiter = ',', conflicts_with = "at")]
     pub(crate) joints: Vec<String>,
-    /// The same by what the controller's pendant shows, as in J1=10 J2=31.324; the model declares it
+    /// The same by what the controller shows, as in J1=10 J2=31.324; the model declares it
     /// in its section controller
     #[arg(long, num_args = 1.., value_name = "AXIS=VALUE", value_delimiter = ',', conflicts_with_all = ["at", "joints"])]
     pub(crate) pendant: Vec<String>,

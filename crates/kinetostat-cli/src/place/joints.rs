@@ -1,4 +1,4 @@
-//! Joint values on the command line and in answers: the model's, and what the pendant shows.
+//! Joint values on the command line and in answers: the model's, and what the controller shows.
 
 use kinetostat::{Mechanism, MotionKind};
 use kinetostat_model::schema::ControllerUnit;
@@ -50,12 +50,15 @@ pub(crate) fn of_model(m: &Mechanism, commands: &[f64]) -> Vec<JointValue> {
         .collect()
 }
 
-/// Commands as the pendant shows them; nothing where no controller is declared.
-pub(crate) fn on_pendant(controller: Option<&Controller>, commands: &[f64]) -> Vec<JointValue> {
+/// Commands as the controller shows them; nothing where no controller is declared.
+pub(crate) fn in_controller_coordinates(
+    controller: Option<&Controller>,
+    commands: &[f64],
+) -> Vec<JointValue> {
     let Some(controller) = controller else {
         return Vec::new();
     };
-    let shown = controller.pendant(commands).unwrap_or_default();
+    let shown = controller.coordinates(commands).unwrap_or_default();
     let axes = controller.axes().iter();
     axes.zip(shown)
         .map(|(axis, value)| JointValue {
@@ -95,12 +98,12 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
     }
     let Some(controller) = &model.controller else {
         return Err(Failure::input(
-            "--pendant: the model has no [controller] that says what the pendant shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
+            "--pendant: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
         ));
     };
     let axes = controller.axes();
     let names = on_axes(controller);
-    let shown = controller.pendant(&commands).unwrap_or_default();
+    let shown = controller.coordinates(&commands).unwrap_or_default();
     let start = shown.iter().zip(axes).map(|(x, a)| x * a.unit.in_si());
     let shown = read("--pendant", &place.pendant, &names, start.collect())?;
     let shown: Vec<f64> = shown
@@ -114,7 +117,7 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
 /// A joint, its kind, and m or rad in one of its usual unit.
 pub(crate) type Named = (String, MotionKind, f64);
 
-/// The axes of the pendant.
+/// The axes of the controller.
 pub(crate) fn on_axes(controller: &Controller) -> Vec<Named> {
     let kind = |unit| match unit {
         ControllerUnit::Mm | ControllerUnit::M => MotionKind::Prismatic,

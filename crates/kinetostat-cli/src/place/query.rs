@@ -184,9 +184,9 @@ impl PlaceQuery {
         near_singular(&self.standing().ok()?)
     }
 
-    /// What the pendant shows there; nothing where no controller is declared.
-    pub(crate) fn on_pendant(&self, posture: &Posture) -> Vec<JointValue> {
-        joints::on_pendant(self.controller.as_ref(), &posture.commands())
+    /// What the controller shows there; nothing where no controller is declared.
+    pub(crate) fn in_controller_coordinates(&self, posture: &Posture) -> Vec<JointValue> {
+        joints::in_controller_coordinates(self.controller.as_ref(), &posture.commands())
     }
 
     pub(crate) fn answer(&self) -> PlaceAnswer {

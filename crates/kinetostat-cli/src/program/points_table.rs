@@ -185,7 +185,7 @@ fn lines(
         row.extend(point.actuator_correction.iter().map(|x| decimals(*x, 6)));
         if let Some(controller) = &listing.controller {
             let shown = controller
-                .pendant(&in_si(run_inputs, point))
+                .coordinates(&in_si(run_inputs, point))
                 .unwrap_or_default();
             row.extend(shown.iter().map(|x| decimals(*x, 5)));
         }

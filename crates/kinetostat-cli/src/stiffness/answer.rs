@@ -137,7 +137,7 @@ pub(crate) fn answer(
         tool: query.tool_words.clone(),
         place: query.answer(),
         joints: joints::of_model(&query.mechanism, &posture.commands()),
-        pendant: query.on_pendant(posture),
+        pendant: query.in_controller_coordinates(posture),
         loaded,
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),

@@ -781,7 +781,7 @@ fn angles_in_radians_under_degrees_smell_in_every_command() {
     }
 }
 
-/// What is beyond its limits by far is refused before the program is solved everywhere, with what smells in the
+/// What is beyond its limits by far is refused before the program is solved everywhere, with what is implausible in the
 /// model; a place is questioned as a program is.
 #[test]
 fn a_hopeless_program_is_refused_with_what_smells_in_the_model() {
@@ -841,8 +841,8 @@ fn a_machine_that_its_own_weight_folds_is_told_as_that() {
 fn an_origin_in_metres_smells_in_every_command() {
     let here = workplace();
     std::fs::write(here.path().join("arm.toml"), arm()).expect("a model");
-    let smell = "check the unit of part_origin_mm";
-    for (origin, smells) in [
+    let advice = "check the unit of part_origin_mm";
+    for (origin, implausible) in [
         ("[1.05, 0, 1.0]", true),
         ("[1.05, -0.03, 0.9]", true),
         ("[0, 0, 0.5]", true),
@@ -860,8 +860,8 @@ fn an_origin_in_metres_smells_in_every_command() {
             let said = run(here.path(), &words);
             let text = format!("{} {}", said.out, said.err);
             let flat: Vec<&str> = text.split_whitespace().collect();
-            let reported = flat.join(" ").contains(smell);
-            assert_eq!(reported, smells, "{origin} {words:?}: {said:?}");
+            let reported = flat.join(" ").contains(advice);
+            assert_eq!(reported, implausible, "{origin} {words:?}: {said:?}");
         }
     }
 }

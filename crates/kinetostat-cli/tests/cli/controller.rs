@@ -1,4 +1,4 @@
-//! Controller coordinates on the command line: places by what the pendant shows, poses jogged on the
+//! Controller coordinates on the command line: places by what the controller shows, poses jogged on the
 //! machine, two models of one machine. Poses come from a product written out here.
 
 use crate::common::{Said, run, workplace};
@@ -77,7 +77,7 @@ const POSES: [[f64; 6]; 3] = [
     [71.0, 33.0, 12.0, 27.0, 66.0, 19.0],
 ];
 
-/// A table of the poses: `shown` says what the pendant shows, `seen` where the tool is measured.
+/// A table of the poses: `shown` says what the controller shows, `seen` where the tool is measured.
 fn table(
     names: [&str; 6],
     shown: impl Fn([f64; 6]) -> [f64; 6],
@@ -204,7 +204,7 @@ fn poses_that_agree_are_told_to_agree() {
             "{pose}"
         );
     }
-    // In the pendant's coordinates too.
+    // In the controller's coordinates too.
     let shown = |q: [f64; 6]| [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
     let axes = ["J1", "J2", "J3", "J4", "J5", "J6"];
     let (said, json) = compared(&model(plain, CONTROLLER), &table(axes, shown, same));
@@ -286,7 +286,7 @@ fn couplings_that_are_declared_wrongly_are_told_with_what_to_write() {
         (
             CONTROLLER.to_owned(),
             absent,
-            "J3 is declared to be coupled with 'joint_2', but the pendant shows it without (in the section [controller], remove 'joint_2' from 'coupled' of J3)",
+            "J3 is declared to be coupled with 'joint_2', but the controller shows it without (in the section [controller], remove 'joint_2' from 'coupled' of J3)",
         ),
         (
             none,

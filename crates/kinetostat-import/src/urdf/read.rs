@@ -496,7 +496,7 @@ impl Reader<'_> {
             );
             return None;
         }
-        let (most, smell) = match motion {
+        let (most, message) = match motion {
             MotionKind::Revolute => (
                 12.6,
                 "limits are more than two turns away: angles of a URDF are radians; are these degrees?",
@@ -507,7 +507,7 @@ impl Reader<'_> {
             ),
         };
         if low.abs().max(high.abs()) > most {
-            self.log.notice(&at, smell, "check the unit");
+            self.log.notice(&at, message, "check the unit");
         }
         Some((Some((low, high)), Some(at)))
     }

@@ -21,7 +21,7 @@ fn near(a: f64, b: f64, tolerance: f64) -> bool {
 }
 
 #[track_caller]
-fn same_as_alone(task: &MapTask<'_>) -> Vec<PlaceState> {
+fn same_as_scalar(task: &MapTask<'_>) -> Vec<PlaceState> {
     let places = all(task);
     assert_eq!(places.len(), task.grid.len());
     for place in &places {
@@ -133,7 +133,7 @@ fn every_place_is_what_the_general_engine_says() {
                 orientation_follows: false,
                 load,
             };
-            let states = same_as_alone(&task);
+            let states = same_as_scalar(&task);
             assert!(states.contains(&PlaceState::Regular), "{name}: {states:?}");
         }
     }
@@ -155,7 +155,7 @@ fn a_singular_machine_has_no_stiffness_in_its_free_direction() {
         orientation_follows: false,
         load: None,
     };
-    assert_eq!(same_as_alone(&task), [PlaceState::Singular]);
+    assert_eq!(same_as_scalar(&task), [PlaceState::Singular]);
 }
 
 #[test]

@@ -304,7 +304,7 @@ fn the_load_description_names_the_machine_s_own_weight() {
     }
 }
 
-/// Points are solved many at once; each is what the general engine says of it alone.
+/// Points are solved many at once; each is what the scalar engine gives.
 #[test]
 fn points_of_a_run_are_those_of_the_general_engine() {
     let arm = Model::preset("heavy_6r").expect("preset").mechanism;
@@ -346,17 +346,17 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             for point in run.points.iter().step_by(11) {
                 let wrench = Wrench::new(point.force_n.into(), Vector3::zeros());
                 let wanted = task.placement.tool_pose(&point.position_mm.into());
-                let alone = |commanded: &Pose| {
+                let scalar = |commanded: &Pose| {
                     let posture = mechanism.posture(commanded).expect("a posture");
                     let e = posture.deflected_by(&wrench).expect("an equilibrium");
                     let off = e.tool.translation.vector - wanted.translation.vector;
                     (posture.commands(), off * 1e3, e)
                 };
                 let near = |a: &[f64; 3], b: &Vector3<f64>| (Vector3::from(*a) - b).norm() < 1e-8;
-                let (nominal, before, _) = alone(&wanted);
+                let (nominal, before, _) = scalar(&wanted);
                 assert!(near(&point.error_before_mm, &before), "{point:?} {before}");
                 let there = Vector3::from(point.position_mm) + Vector3::from(point.correction_mm);
-                let (commands, after, e) = alone(&task.placement.tool_pose(&there));
+                let (commands, after, e) = scalar(&task.placement.tool_pose(&there));
                 assert!(near(&point.error_after_mm, &after), "{point:?} {after}");
                 let moved = commands.iter().zip(&nominal).map(|(a, b)| a - b);
                 let reported = point.actuator_correction.iter().zip(moved);

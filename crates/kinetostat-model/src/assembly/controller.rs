@@ -50,7 +50,7 @@ impl Controller {
     /// [`kinetostat::Mechanism::actuator_names`]): one number per axis, in the axis' unit. `None` if
     /// there are not as many values as actuators.
     #[must_use]
-    pub fn pendant(&self, joints: &[f64]) -> Option<Vec<f64>> {
+    pub fn coordinates(&self, joints: &[f64]) -> Option<Vec<f64>> {
         if joints.len() != self.axes.len() {
             return None;
         }
@@ -60,14 +60,14 @@ impl Controller {
     }
 
     /// The model's joint values, m and rad, for what the controller shows (one number per axis, in the
-    /// axis' unit): the inverse of [`pendant`](Self::pendant). `None` if there are not as many values
+    /// axis' unit): the inverse of [`coordinates`](Self::coordinates). `None` if there are not as many values
     /// as axes.
     #[must_use]
-    pub fn joints(&self, pendant: &[f64]) -> Option<Vec<f64>> {
-        if pendant.len() != self.axes.len() {
+    pub fn joints(&self, shown: &[f64]) -> Option<Vec<f64>> {
+        if shown.len() != self.axes.len() {
             return None;
         }
-        let units = pendant.iter().zip(&self.axes);
+        let units = shown.iter().zip(&self.axes);
         let shown: Vec<f64> = units.map(|(x, axis)| x * axis.unit.in_si()).collect();
         let joints = &self.inverse * (DVector::from_vec(shown) - &self.offset);
         Some(joints.iter().copied().collect())
@@ -127,9 +127,9 @@ pub(crate) fn controller(
     if let Some(missing) = (0..names.len()).find(|j| rows.axes.iter().all(|a| a.joint != *j)) {
         findings.error(
             &place,
-            format!("no axis of the pendant belongs to '{}'", names[missing]),
+            format!("no axis of the controller belongs to '{}'", names[missing]),
             format!(
-                "write {{ name = \"{}{}\", joint = \"{}\" }} in 'axis': the pendant has an axis for every actuator",
+                "write {{ name = \"{}{}\", joint = \"{}\" }} in 'axis': the controller has an axis for every actuator",
                 "J",
                 missing + 1,
                 names[missing]
@@ -153,10 +153,10 @@ pub(crate) fn controller(
             findings.error(
                 &place.key("axis"),
                 format!(
-                    "the pendant cannot tell the joints apart: {} can move together and it shows no change",
+                    "the controller cannot tell the joints apart: {} can move together and it shows no change",
                     moving.join(" and ")
                 ),
-                "check the couplings; every motion of the joints must show on the pendant",
+                "check the couplings; every motion of the joints must show on the controller",
             );
             None
         }
@@ -196,7 +196,7 @@ fn rows(
         if axes.iter().any(|a| a.name == axis.name) {
             findings.error(
                 &place.key("name"),
-                format!("the pendant has an axis '{}' already", axis.name),
+                format!("the controller has an axis '{}' already", axis.name),
                 "rename one of them",
             );
         }
@@ -297,7 +297,7 @@ fn own(place: &KeyPath, axis: &ControllerAxisTable, kind: MotionKind) -> ReadRes
         return Err(Finding::new(
             &place.key("ratio"),
             format!("the ratio is {ratio}, a number above zero is needed"),
-            "write reversed = true where the pendant counts the other way",
+            "write reversed = true where the controller counts the other way",
         ));
     }
     let offset = by_kind(

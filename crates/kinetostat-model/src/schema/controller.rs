@@ -3,13 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the controller counts: its pendant shows a linear map of the model's joints.
+/// How the controller counts: it shows a linear map of the model's joints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ControllerTable {
     /// Which controller, in a few words.
     pub name: Option<String>,
-    /// The axes in the order of the pendant, one for every actuator, external axes included.
+    /// The axes in the order of the controller, one for every actuator, external axes included.
     #[schemars(length(min = 1, max = 1000))]
     pub axis: Vec<ControllerAxisTable>,
     /// Where the figures come from.
@@ -18,41 +18,41 @@ pub struct ControllerTable {
     pub assumption: Option<String>,
 }
 
-/// One axis of the pendant: ratio times its joint, plus shares of other joints, plus an offset.
+/// One axis of the controller: ratio times its joint, plus shares of other joints, plus an offset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ControllerAxisTable {
-    /// Name as on the pendant: A1, J1, E1.
+    /// Name as on the controller: A1, J1, E1.
     pub name: String,
     /// Its actuator; in a machine of several limbs LIMB.ACTUATOR.
     pub joint: String,
-    /// true: the pendant counts against the model's joint.
+    /// true: the controller counts against the model's joint.
     pub reversed: Option<bool>,
-    /// Motion on the pendant per motion of the joint, above zero; 1 if not given.
+    /// Motion on the controller per motion of the joint, above zero; 1 if not given.
     pub ratio: Option<f64>,
-    /// What the pendant shows while the model's joints are at zero, mm.
+    /// What the controller shows while the model's joints are at zero, mm.
     pub zero_offset_mm: Option<f64>,
-    /// What the pendant shows while the model's joints are at zero, m.
+    /// What the controller shows while the model's joints are at zero, m.
     pub zero_offset_m: Option<f64>,
-    /// What the pendant shows while the model's joints are at zero, degrees.
+    /// What the controller shows while the model's joints are at zero, degrees.
     pub zero_offset_deg: Option<f64>,
-    /// What the pendant shows while the model's joints are at zero, rad.
+    /// What the controller shows while the model's joints are at zero, rad.
     pub zero_offset_rad: Option<f64>,
-    /// Unit that the pendant shows; mm for a joint that slides, deg for one that turns if not given.
+    /// Unit that the controller shows; mm for a joint that slides, deg for one that turns if not given.
     pub unit: Option<ControllerUnit>,
-    /// Other joints that move this axis on the pendant, with their signs.
+    /// Other joints that move this axis on the controller, with their signs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub coupled: Vec<ControllerCoupling>,
 }
 
-/// The share of another joint in an axis of the pendant.
+/// The share of another joint in an axis of the controller.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ControllerCoupling {
     /// The other actuator, of the model.
     pub joint: String,
-    /// Motion on the pendant per motion of that joint, both of one kind: -1 where the pendant shows
+    /// Motion on the controller per motion of that joint, both of one kind: -1 where the controller shows
     /// the difference.
     pub ratio: Option<f64>,
     /// For an axis that slides and a joint that turns.
@@ -61,7 +61,7 @@ pub struct ControllerCoupling {
     pub ratio_deg_per_mm: Option<f64>,
 }
 
-/// Unit of an axis of the pendant.
+/// Unit of an axis of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerUnit {

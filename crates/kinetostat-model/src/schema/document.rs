@@ -49,7 +49,7 @@ pub struct Document {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 2000))]
     pub deviation: Vec<Deviation>,
-    /// What the controller's pendant shows instead of the model's joint values.
+    /// What the controller shows instead of the model's joint values.
     pub controller: Option<ControllerTable>,
 }
 

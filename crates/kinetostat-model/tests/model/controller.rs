@@ -1,4 +1,4 @@
-//! Controller coordinates: what the pendant shows of the model's joints, and back.
+//! Controller coordinates: what the controller shows of the model's joints, and back.
 
 use kinetostat_model::{Model, ModelError};
 use kinetostat_testing::largest_size;
@@ -56,7 +56,7 @@ fn refused(controller: &str) -> String {
 }
 
 /// ros-industrial/fanuc_experimental#17: J2 31.324 and J3 -2.018 deg of the model are J3 -33.342 deg
-/// on the pendant.
+/// on the controller.
 #[test]
 fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
     let model = read(FANUC).unwrap_or_else(|e| panic!("{e}"));
@@ -72,7 +72,7 @@ fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
         deg(-7.0),
         deg(20.0),
     ];
-    let shown = controller.pendant(&joints).expect("seven values");
+    let shown = controller.coordinates(&joints).expect("seven values");
     let expected = [10.0, 31.324, -33.342, -5.0, -7.0, 160.0, 1250.0];
     for (found, expected) in shown.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-11, "{shown:?}");
@@ -81,7 +81,7 @@ fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
     for (found, expected) in back.iter().zip(joints) {
         assert!((found - expected).abs() < 1e-14, "{back:?}");
     }
-    assert!(controller.pendant(&joints[1..]).is_none());
+    assert!(controller.coordinates(&joints[1..]).is_none());
     assert!(controller.joints(&shown[1..]).is_none());
     let names = model.mechanism.actuator_names();
     assert_eq!(controller.description(2, &names), "joint_3 - joint_2");
@@ -95,7 +95,7 @@ fn figures_of_the_pendant() {
     let controller = read(FANUC).expect("a model").controller.expect("declared");
     let mut joints = [0.0; 7];
     (joints[2], joints[3]) = (31.324_f64.to_radians(), -2.018_f64.to_radians());
-    let shown = controller.pendant(&joints).expect("seven values");
+    let shown = controller.coordinates(&joints).expect("seven values");
     let apart = (shown[2] + 33.342).abs();
     let back = controller.joints(&shown).expect("seven axes");
     assert_eq!(back.len(), joints.len());
@@ -146,7 +146,7 @@ fn couplings_between_slides_and_turns_carry_their_units() {
     let controller = model.controller.expect("a controller");
     let mut joints = [0.0; 7];
     (joints[0], joints[4]) = (0.4, 30_f64.to_radians());
-    let shown = controller.pendant(&joints).expect("shown");
+    let shown = controller.coordinates(&joints).expect("shown");
     // 2 * 400 mm - 100 mm + 15 mm, shown in m; -100 deg shown in rad.
     assert!((shown[6] - 0.715).abs() < 1e-15, "{shown:?}");
     assert!((shown[0] + 100_f64.to_radians()).abs() < 1e-14, "{shown:?}");
@@ -183,7 +183,7 @@ fn mistakes_are_named_with_their_line() {
         (
             "{ name = \"J5\", joint = \"joint_5\" },\n",
             "\n",
-            &["no axis of the pendant belongs to 'joint_5'"],
+            &["no axis of the controller belongs to 'joint_5'"],
         ),
         (
             "joint = \"joint_5\"",
@@ -193,7 +193,7 @@ fn mistakes_are_named_with_their_line() {
         (
             "name = \"J5\"",
             "name = \"J1\"",
-            &["the pendant has an axis 'J1' already"],
+            &["the controller has an axis 'J1' already"],
         ),
         (
             "joint = \"joint_5\"",
@@ -257,7 +257,7 @@ fn joints_of_several_limbs_are_called_by_both_names() {
     let model = Model::from_toml(&format!("{text}{controller}"), "puu3.toml")
         .unwrap_or_else(|e| panic!("{e}"));
     let controller = model.controller.expect("a controller");
-    let shown = controller.pendant(&[0.1, 0.2, 0.3]).expect("three");
+    let shown = controller.coordinates(&[0.1, 0.2, 0.3]).expect("three");
     for (found, expected) in shown.iter().zip([107.0, 207.0, 307.0]) {
         assert!((found - expected).abs() < 1e-12, "{shown:?}");
     }

@@ -64,24 +64,24 @@ fn apart(own: &[f64], other: &[f64]) -> f64 {
     largest_size(own.iter().zip(other).map(|(a, b)| a - b)) / size.max(f64::MIN_POSITIVE)
 }
 
-/// Number of postures that have an answer, one by one or together.
+/// Number of postures that have an answer, scalar or vectorised.
 fn solved(found: &[Status]) -> usize {
     found.iter().filter(|f| f.is_solved()).count()
 }
 
-fn together(found: &[Status]) -> usize {
+fn vectorised(found: &[Status]) -> usize {
     found.iter().filter(|f| **f == Status::Vectorised).count()
 }
 
 /// Largest differences of stiffness, forces, softness and share to buckling.
-fn errors_of(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
+fn errors_of(all: &BatchEquilibrium, i: usize, scalar: &MechanismEquilibrium) -> [f64; 4] {
     let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
-    let matrix = alone.stiffness.matrix;
+    let matrix = scalar.stiffness.matrix;
     let forces: Vec<f64> = all.actuator_forces.row(i).collect();
     let stability = all.verdict(i).expect("asked for");
-    assert_eq!(stability.stable, alone.stable());
-    let soft = alone.stiffness_against_force();
-    let share_to_buckling = match (stability.share_to_buckling, alone.share_to_buckling()) {
+    assert_eq!(stability.stable, scalar.stable());
+    let soft = scalar.stiffness_against_force();
+    let share_to_buckling = match (stability.share_to_buckling, scalar.share_to_buckling()) {
         (Some(a), Some(b)) if a == b => 0.0,
         (Some(a), Some(b)) => (a - b).abs(),
         (None, None) => 0.0,
@@ -94,7 +94,7 @@ fn errors_of(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> 
     };
     [
         (own - matrix).largest_entry() / matrix.largest_entry(),
-        apart(&forces, &alone.actuator_forces()),
+        apart(&forces, &scalar.actuator_forces()),
         softness,
         share_to_buckling,
     ]
@@ -114,17 +114,17 @@ fn every_preset_has_the_same_tangent_alone_and_together() {
         let mut worst = Worst::new();
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
-            let alone = posture.and_then(|p| p.deflected_by(&wrenches[i]));
-            assert_eq!(alone.is_ok(), all.status[i].is_solved(), "{}", preset.name);
-            let Ok(alone) = alone else { continue };
-            let matrix = alone.stiffness.matrix;
+            let scalar = posture.and_then(|p| p.deflected_by(&wrenches[i]));
+            assert_eq!(scalar.is_ok(), all.status[i].is_solved(), "{}", preset.name);
+            let Ok(scalar) = scalar else { continue };
+            let matrix = scalar.stiffness.matrix;
             let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
             worst.add((own - matrix).largest_entry() / matrix.largest_entry());
         }
         if solved(&all.status) == 0 {
             without.push(preset.name);
         }
-        let (found, worst) = (together(&all.status), worst.of_all(solved(&all.status)));
+        let (found, worst) = (vectorised(&all.status), worst.of_all(solved(&all.status)));
         println!(
             "{}: {found} of {count} together, apart {worst:.0e}",
             preset.name
@@ -148,18 +148,18 @@ fn every_preset_has_the_same_stability_scalar_and_vectorised() {
         let mut worst = <[Worst; 4]>::default();
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
-            let alone = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
+            let scalar = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
             assert_eq!(
-                alone.is_ok(),
+                scalar.is_ok(),
                 all.status[i] != Status::Unsolved,
                 "{}",
                 preset.name
             );
-            let Ok((alone, commands)) = alone else {
+            let Ok((scalar, commands)) = scalar else {
                 assert!(all.verdict(i).is_none());
                 continue;
             };
-            for (w, x) in worst.iter_mut().zip(errors_of(&all, i, &alone)) {
+            for (w, x) in worst.iter_mut().zip(errors_of(&all, i, &scalar)) {
                 w.add(x);
             }
             let own: Vec<f64> = all.commands.row(i).collect();
@@ -168,7 +168,7 @@ fn every_preset_has_the_same_stability_scalar_and_vectorised() {
         if solved(&all.status) == 0 {
             without.push(preset.name);
         }
-        let found = together(&all.status);
+        let found = vectorised(&all.status);
         let worst = worst.map(|w| w.of_all(solved(&all.status)));
         println!(
             "{}: {found} of {count} together, apart {worst:?}",
@@ -201,18 +201,18 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                 .expect("sizes");
             let (mut worst, mut off) = (Worst::new(), Worst::new());
             for i in 0..count {
-                let alone = mechanism.posture(&poses[i]).and_then(|near| {
+                let scalar = mechanism.posture(&poses[i]).and_then(|near| {
                     let rest = near.rest_state();
                     target_under_load(&near, &poses[i], &wrenches[i], directions, rest)
                 });
                 assert_eq!(
-                    alone.is_ok(),
+                    scalar.is_ok(),
                     all.equilibrium.status[i] != Status::Unsolved,
                     "{} {i}",
                     preset.name
                 );
-                let Ok((alone, _)) = alone else { continue };
-                let between = pose_residual(&all.targets[i], alone.target());
+                let Ok((scalar, _)) = scalar else { continue };
+                let between = pose_residual(&all.targets[i], scalar.target());
                 worst.add(between.linear().norm() / length(mechanism));
                 worst.add(between.angular().norm());
                 let left = pose_residual(&all.equilibrium.tool_pose(i), &poses[i]);
@@ -221,7 +221,7 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                     off.add(left.angular().norm());
                 }
             }
-            let found = together(&all.equilibrium.status);
+            let found = vectorised(&all.equilibrium.status);
             let compared = solved(&all.equilibrium.status);
             // All six directions are not to be had with fewer than six drives.
             if compared == 0 && !directions[3] {

@@ -37,7 +37,7 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 #[test]
 fn every_preset_gives_the_same_alone_and_together() {
     let count = 19;
-    let (mut together, mut without) = (0, Vec::new());
+    let (mut vectorised, mut without) = (0, Vec::new());
     for preset in preset_names() {
         let model = Model::preset(preset.name).expect("a preset");
         let mechanism = &model.mechanism;
@@ -51,27 +51,27 @@ fn every_preset_gives_the_same_alone_and_together() {
         let (mut worst, mut worst_loaded) = (Worst::new(), Worst::new());
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
-            let alone = posture.as_ref().ok().and_then(|p| p.stiffness().ok());
+            let scalar = posture.as_ref().ok().and_then(|p| p.stiffness().ok());
             assert_eq!(
-                alone.is_some(),
+                scalar.is_some(),
                 found.status[i] != Status::Unsolved,
                 "{}",
                 preset.name
             );
-            if let Some(alone) = alone {
-                let k = alone.cartesian.matrix;
+            if let Some(scalar) = scalar {
+                let k = scalar.cartesian.matrix;
                 let mine = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
                 worst.add((k - mine).largest_entry() / k.largest_entry());
             }
             if loaded.status[i] == Status::Vectorised {
                 let posture = posture.expect("a posture");
-                let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
+                let scalar = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
                 let p = Vector3::from_fn(|k, _| loaded.tool.get(i, 9 + k));
                 // Of the machine's size: the general engine closes its loops to 1e-12 of it.
                 let length = mechanism.limbs()[0].nominal.scale().length;
-                let apart = (p - alone.tool.translation.vector).norm();
+                let apart = (p - scalar.tool.translation.vector).norm();
                 worst_loaded.add(apart / length);
-                together += 1;
+                vectorised += 1;
             }
         }
         let of = |found: &[Status]| found.iter().filter(|f| **f == Status::Vectorised).count();
@@ -94,6 +94,6 @@ fn every_preset_gives_the_same_alone_and_together() {
         assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
         assert!(worst_loaded < 3e-12, "{}: {worst_loaded:e}", preset.name);
     }
-    assert!(together > 0);
+    assert!(vectorised > 0);
     assert_eq!(without, OUT_OF_REACH);
 }

@@ -261,7 +261,7 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
         .iter()
         .map(|b| b.ends.map(|p| paper.at(&p)))
         .collect();
-    let spots: Vec<Point> = scene.blobs.iter().map(|b| paper.at(&b.at)).collect();
+    let centres: Vec<Point> = scene.blobs.iter().map(|b| paper.at(&b.at)).collect();
     let plates: Vec<Vec<Point>> = scene
         .plates
         .iter()
@@ -272,7 +272,7 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
         })
         .collect();
     let mut things: Vec<Thing> = ends.iter().map(|e| Thing::Line(*e)).collect();
-    for (blob, at) in scene.blobs.iter().zip(&spots) {
+    for (blob, at) in scene.blobs.iter().zip(&centres) {
         let half = blob.half * paper.scale;
         things.push(match blob.kind {
             BlobKind::Sleeve if half > 20.0 => {
@@ -287,11 +287,11 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
     for index in painting_order(&things) {
         if index < ends.len() {
             bar(svg, scene.bars[index].kind, &ends[index]);
-        } else if index < ends.len() + spots.len() {
+        } else if index < ends.len() + centres.len() {
             let k = index - ends.len();
-            blob(svg, &scene.blobs[k], &spots[k], paper);
+            blob(svg, &scene.blobs[k], &centres[k], paper);
         } else {
-            let k = index - ends.len() - spots.len();
+            let k = index - ends.len() - centres.len();
             let class = if scene.plates[k].base {
                 "base"
             } else {
@@ -308,7 +308,7 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
         };
         names.line(&[Some(flat(&e[0])), Some(flat(&e[1]))], half);
     }
-    for (blob, at) in scene.blobs.iter().zip(&spots) {
+    for (blob, at) in scene.blobs.iter().zip(&centres) {
         let along = paper.direction(&blob.axis) * (blob.half * paper.scale);
         let (from, to) = (flat(&(at - along)), flat(&(at + along)));
         match blob.kind {

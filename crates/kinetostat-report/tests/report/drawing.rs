@@ -115,7 +115,7 @@ fn check_labels(name: &str, svg: &Document<'_>, wanted: &[&str]) {
         assert!(found, "{name}: no '{want}' in {texts:?}");
     }
     // Symbols of joints and drives are round or straight: each corner and, of circles, the middle.
-    let spots = paths(svg, "joint").into_iter().map(|data| {
+    let joints = paths(svg, "joint").into_iter().map(|data| {
         let n = numbers(data);
         Vector2::new(n[0] + n[2], n[1])
     });
@@ -131,7 +131,7 @@ fn check_labels(name: &str, svg: &Document<'_>, wanted: &[&str]) {
         });
     let frame = texts.iter().filter(|t| t.what != "passive joint");
     let frame: Vec<&Area> = frame.collect();
-    for at in spots.chain(corners) {
+    for at in joints.chain(corners) {
         for text in &frame {
             let inside = (at - text.low).min() > 0.5 && (text.high - at).min() > 0.5;
             assert!(!inside, "{name}: {text:?} on a symbol at {at:?}");

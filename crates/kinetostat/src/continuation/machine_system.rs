@@ -58,7 +58,7 @@ const LARGEST_TURN: f64 = 3.0;
 const CONVERGED: f64 = 1e-9;
 
 /// An equilibrium with its tool held at a state.
-struct Held {
+struct Solved {
     z: DVector<f64>,
     equilibrium: MechanismEquilibrium,
 }
@@ -77,7 +77,7 @@ pub(crate) struct MachineSystem<'q, 'p> {
     /// Where the curve starts.
     first: DVector<f64>,
     /// What was evaluated last.
-    here: Held,
+    here: Solved,
     /// From where the next equilibrium is looked for, and the load factor there.
     near: (MechanismState, Wrench, f64),
     family: Option<Arc<Family>>,
@@ -90,7 +90,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         first: &MechanismEquilibrium,
         factor: f64,
     ) -> (Self, DVector<f64>) {
-        let here = Held {
+        let here = Solved {
             z: DVector::zeros(0),
             equilibrium: first.clone(),
         };
@@ -162,7 +162,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         let last = self.motions.ncols() - 1;
         let v = self.motions.column(last);
         let path = self.conditions;
-        path.displacement(&path.unbalanced(&Vector6::from_fn(|i, _| v[i])))
+        path.displacement(&path.unscaled(&Vector6::from_fn(|i, _| v[i])))
     }
 
     /// Position of the load factor among the unknowns.
@@ -208,7 +208,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
     fn pose(&self, q: &DVector<f64>) -> Pose {
         let path = self.conditions;
         let own = &self.motions * q;
-        let own = path.unbalanced(&Vector6::from_fn(|i, _| own[i]));
+        let own = path.unscaled(&Vector6::from_fn(|i, _| own[i]));
         moved(&path.posture.target, &Twist(own + path.displacement))
     }
 
@@ -223,7 +223,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         let k = v.transpose() * path.scaled_stiffness(e) * by_turn * v;
         let n = v.ncols();
         let rigid = DMatrix::identity(n, n) - &possible;
-        let push = v.transpose() * path.unbalanced(&path.pattern.0);
+        let push = v.transpose() * path.unscaled(&path.pattern.0);
         (
             &possible * k * &possible + rigid * stiff,
             &possible * DVector::from_column_slice(push.as_slice()),
@@ -249,7 +249,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         let path = self.conditions;
         let over = e.wrench.0 - path.dead.0 - path.pattern.0 * factor;
         let own = self.motions.transpose() * path.possible(e, &self.motions);
-        let over = self.motions.transpose() * path.unbalanced(&over);
+        let over = self.motions.transpose() * path.unscaled(&over);
         let over = &own * (own.transpose() * over);
         let residual = &self.rows * over;
         let norms = ResidualNorms {
@@ -283,7 +283,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
             }
             let found = path.converge(state, self.near.1, guide, false).ok();
             let (equilibrium, _) = found?;
-            self.here = Held {
+            self.here = Solved {
                 z: z.clone(),
                 equilibrium,
             };
@@ -460,7 +460,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         let (_, norms) = self.residual(&equilibrium, factor);
         let matrix = self.whole(self.matrix(&equilibrium));
         self.near = (equilibrium.state.clone(), equilibrium.wrench, factor);
-        self.here = Held {
+        self.here = Solved {
             z: z.clone(),
             equilibrium,
         };
@@ -480,7 +480,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
     fn motion(&self, direction: &DVector<f64>) -> Vec<f64> {
         let own = &self.motions * self.physical(direction).0;
         let own = Vector6::from_fn(|i, _| own[i]);
-        self.conditions.unbalanced(&own).iter().copied().collect()
+        self.conditions.unscaled(&own).iter().copied().collect()
     }
 
     fn size_of_motion(&self, motion: &DVector<f64>) -> f64 {
@@ -519,7 +519,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
             row[self.load_at()] = self.load;
             return row;
         }
-        let push = self.motions.transpose() * path.unbalanced(&path.pattern.0);
+        let push = self.motions.transpose() * path.unscaled(&path.pattern.0);
         for i in 0..n {
             row[self.motion_at(i)] = push[i] * self.length;
         }
@@ -565,7 +565,7 @@ fn motions_of(path: &ToolConditions<'_>) -> DMatrix<f64> {
     let inside = path.motions.transpose() * &path.free;
     let mut driven = &path.motions * complement(&inside);
     let first = Vector6::from_fn(|i, _| driven[(i, 0)]);
-    if path.displacement(&path.unbalanced(&first)) < 0.0 {
+    if path.displacement(&path.unscaled(&first)) < 0.0 {
         driven *= -1.0;
     }
     let k = path.free.ncols();

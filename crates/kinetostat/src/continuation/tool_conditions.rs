@@ -155,7 +155,7 @@ impl<'p> ToolConditions<'p> {
         Vector6::from_fn(|i, _| motion[i] * self.unit(i))
     }
 
-    pub(crate) fn unbalanced(&self, motion: &Vector6<f64>) -> Vector6<f64> {
+    pub(crate) fn unscaled(&self, motion: &Vector6<f64>) -> Vector6<f64> {
         Vector6::from_fn(|i, _| motion[i] / self.unit(i))
     }
 

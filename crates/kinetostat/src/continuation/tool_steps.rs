@@ -127,7 +127,7 @@ impl ToolConditions<'_> {
         let (along, rate) = &from.tangent;
         let mut state = from.equilibrium.state.clone();
         let tool = self.posture.mechanism.tool();
-        let motion = self.unbalanced(along) * by;
+        let motion = self.unscaled(along) * by;
         let row = Vector6::from_fn(|i, _| along[i] * self.unit(i));
         let goal = row.dot(&self.motion(&state.platforms[tool])) + by;
         state.platforms[tool] = moved(&state.platforms[tool], &Twist(motion));
@@ -161,7 +161,7 @@ impl ToolConditions<'_> {
         let (least, most) = self.settings.conjugate_range;
         let change = (self.settings.largest_change).unwrap_or(0.05 * (high - low));
         let rate = |p: &ToolPoint| {
-            let along = self.displacement(&self.unbalanced(&p.tangent.0));
+            let along = self.displacement(&self.unscaled(&p.tangent.0));
             let by = if self.by_motion { along } else { p.tangent.1 };
             by.abs()
         };

@@ -31,7 +31,7 @@ impl ToolConditions<'_> {
             if motions.is_empty() {
                 break;
             }
-            let residual = self.unheld(&here, &motions);
+            let residual = self.unbalanced_force(&here, &motions);
             let k = motions.transpose() * self.scaled_stiffness(&here) * &motions;
             let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
             let most = own.eigenvalues.amax();
@@ -106,8 +106,8 @@ impl ToolConditions<'_> {
     }
 
     /// What holds the tool along motions besides the dead wrench, scaled.
-    fn unheld(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
-        motions.transpose() * self.unbalanced(&(e.wrench.0 - self.dead.0))
+    fn unbalanced_force(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
+        motions.transpose() * self.unscaled(&(e.wrench.0 - self.dead.0))
     }
 
     /// The machine with its tool moved by parts of some motions (scaled), and held in these alone.
@@ -118,7 +118,7 @@ impl ToolConditions<'_> {
         parts: &DVector<f64>,
     ) -> Option<MechanismEquilibrium> {
         let motion = motions * parts;
-        let motion = self.unbalanced(&Vector6::from_fn(|i, _| motion[i]));
+        let motion = self.unscaled(&Vector6::from_fn(|i, _| motion[i]));
         let mut state = here.state.clone();
         let tool = self.posture.mechanism.tool();
         state.platforms[tool] = moved(&here.tool, &Twist(motion));

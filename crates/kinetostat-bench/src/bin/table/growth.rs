@@ -5,7 +5,7 @@ use kinetostat::{
     ActuatorSpec, BeamSection, Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose,
     model::LinkConvention,
 };
-use kinetostat_bench::{Places, Task, Work, sample};
+use kinetostat_bench::{Places, Quantity, Task, sample};
 use nalgebra::Vector3;
 
 use crate::{BLOCK, at_most, exponent, median};
@@ -35,23 +35,23 @@ fn line<const N: usize>(
     tasks: impl Fn(usize) -> Result<Task>,
 ) -> Result<()> {
     print!("{size:<10}");
-    let (mut lonely, mut not_found) = (0, 0);
+    let (mut scalar_counts, mut not_found) = (0, 0);
     for (k, rows) in rows.iter_mut().enumerate() {
         let task = tasks(k)?;
         let time = median(&task, BLOCK)?;
-        let (alone, not) = task.not_vectorised(BLOCK)?;
-        (lonely, not_found) = (lonely + alone, not_found + not);
+        let (scalar, not) = task.not_vectorised(BLOCK)?;
+        (scalar_counts, not_found) = (scalar_counts + scalar, not_found + not);
         print!("{time:>16.3}");
         rows.push((size, time));
     }
-    println!("{lonely:>8}{not_found:>11}");
+    println!("{scalar_counts:>8}{not_found:>11}");
     Ok(())
 }
 
 fn heading(size: &str, names: &[&str]) {
     print!("{size:<10}");
     names.iter().for_each(|name| print!("{name:>16}"));
-    println!("{:>8}{:>11}", "alone", "not found");
+    println!("{:>8}{:>11}", "scalar", "not found");
 }
 
 /// Chains of 6 to 6000 spring coordinates.
@@ -59,21 +59,21 @@ pub fn springs() -> Result<()> {
     println!("Growth with the springs of one chain, us per posture");
     let names = ["K_C", "equilibrium", "equil. and K_C"];
     heading("springs", &names);
-    let works = [
-        Work::Stiffness,
-        Work::Equilibrium,
-        Work::EquilibriumAndStiffness,
+    let quantities = [
+        Quantity::Stiffness,
+        Quantity::Equilibrium,
+        Quantity::EquilibriumAndStiffness,
     ];
     let mut rows = [const { Vec::new() }; 3];
     for pieces in [1, 3, 10, 30, 100, 300, 1000] {
         let count = (1000 / pieces).clamp(16, 256);
         line(6 * pieces, &mut rows, |k| {
-            let wrenches = match works[k] {
-                Work::Stiffness => Vec::new(),
+            let wrenches = match quantities[k] {
+                Quantity::Stiffness => Vec::new(),
                 _ => sample::wrenches(0..count, 20.0, 5.0),
             };
             let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
-            Task::new(cantilever(pieces)?, works[k], home, &wrenches)
+            Task::new(cantilever(pieces)?, quantities[k], home, &wrenches)
         })?;
     }
     report(&rows, &names, "springs, 60 to 6000", 2);
@@ -132,10 +132,10 @@ pub fn limbs() -> Result<()> {
             let home = Places::Poses(vec![Pose::translation(0.0, 0.0, 1.0); BLOCK]);
             let machine = table_on_legs(legs)?;
             match k {
-                0 => Task::new(machine, Work::Stiffness, home, &[]),
+                0 => Task::new(machine, Quantity::Stiffness, home, &[]),
                 _ => {
                     let wrenches = sample::wrenches(0..BLOCK, 300.0, 10.0);
-                    Task::new(machine, Work::Equilibrium, home, &wrenches)
+                    Task::new(machine, Quantity::Equilibrium, home, &wrenches)
                 }
             }
         })?;
@@ -149,10 +149,10 @@ pub fn postures() -> Result<()> {
     println!("Growth with the number of postures (arm, blocks of {BLOCK}), us per posture");
     let names = ["J and K_C", "equilibrium"];
     heading("postures", &names);
-    let works = [Work::StiffnessAndJacobian, Work::Equilibrium];
+    let quantities = [Quantity::StiffnessAndJacobian, Quantity::Equilibrium];
     let mut rows = [const { Vec::new() }; 2];
     for count in [1, 10, 100, 1000, 10_000, 100_000, 1_000_000] {
-        line(count, &mut rows, |k| ARM.task(works[k], count, false))?;
+        line(count, &mut rows, |k| ARM.task(quantities[k], count, false))?;
     }
     // The time of all postures grows with their number, so that of one must stay.
     for rows in &mut rows {

@@ -1,13 +1,13 @@
 //! Machines of different shapes in one table, with plain and with bowing links.
 
 use anyhow::{Result, ensure};
-use kinetostat_bench::Work;
+use kinetostat_bench::Quantity;
 
 use crate::{BLOCK, median};
 use kinetostat_bench::machines::ALL;
 
 const POSTURES: usize = 1024;
-/// A machine whose postures are solved one by one is asked fewer of them.
+/// A machine whose postures are solved one by one gets fewer of them.
 const FEW: usize = 16;
 
 pub fn table() -> Result<()> {
@@ -15,7 +15,7 @@ pub fn table() -> Result<()> {
         "One thread, blocks of {BLOCK} postures; us of processor time per posture, and ns per posture and spring"
     );
     println!(
-        "{:<34}{:>8}{:>12}{:>8}{:>14}{:>8}{:>16}{:>8}  alone",
+        "{:<34}{:>8}{:>12}{:>8}{:>14}{:>8}{:>16}{:>8}  scalar",
         "machine (and with bowing links)",
         "springs",
         "K_C (and J)",
@@ -29,28 +29,28 @@ pub fn table() -> Result<()> {
         for bowing in [false, true] {
             let name = if bowing { "  bowing" } else { machine.what };
             print!("{name:<34}{:>8}", machine.springs);
-            let works = [
+            let quantities = [
                 machine.unloaded(),
-                Work::Equilibrium,
-                Work::EquilibriumAndStiffness,
+                Quantity::Equilibrium,
+                Quantity::EquilibriumAndStiffness,
             ];
-            let mut lonely = Vec::new();
-            for (work, width) in works.into_iter().zip([12, 14, 16]) {
-                let most_alone =
+            let mut scalar_counts = Vec::new();
+            for (work, width) in quantities.into_iter().zip([12, 14, 16]) {
+                let mostly_scalar =
                     machine.task(work, FEW, bowing)?.not_vectorised(BLOCK)?.0 > FEW / 2;
-                let count = if most_alone { FEW } else { POSTURES };
+                let count = if mostly_scalar { FEW } else { POSTURES };
                 let task = machine.task(work, count, bowing)?;
                 let time = median(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");
-                let (alone, not_found) = task.not_vectorised(BLOCK)?;
+                let (scalar, not_found) = task.not_vectorised(BLOCK)?;
                 ensure!(
                     not_found == 0,
                     "{not_found} postures of {name} are not found"
                 );
-                lonely.push(format!("{alone}/{count}"));
+                scalar_counts.push(format!("{scalar}/{count}"));
             }
-            println!("  {}", lonely.join(" "));
+            println!("  {}", scalar_counts.join(" "));
         }
     }
     println!();

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::Result;
-use kinetostat_bench::{Results, Work};
+use kinetostat_bench::{Quantity, Results};
 
 use crate::{BLOCK, at_least, at_most, median, pass};
 use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
@@ -12,20 +12,20 @@ use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
 /// other programs leave both cores alone now and then.
 const PASS: f64 = 4000.0;
 
-const WORKS: [(&str, BenchMachine, Work); 5] = [
-    ("W1", ARM, Work::StiffnessAndJacobian),
-    ("W2", HEXAPOD, Work::Stiffness),
-    ("W3", ARM, Work::Equilibrium),
-    ("W3+K", ARM, Work::EquilibriumAndStiffness),
-    ("W4", PUU3, Work::Equilibrium),
+const CASES: [(&str, BenchMachine, Quantity); 5] = [
+    ("W1", ARM, Quantity::StiffnessAndJacobian),
+    ("W2", HEXAPOD, Quantity::Stiffness),
+    ("W3", ARM, Quantity::Equilibrium),
+    ("W3+K", ARM, Quantity::EquilibriumAndStiffness),
+    ("W4", PUU3, Quantity::Equilibrium),
 ];
 
-/// What one posture costs that is asked alone.
+/// What one posture costs that is solved by itself.
 pub fn single() -> Result<()> {
     println!("One posture in each call, us");
     println!("{:<8}{:>10}{:>10}{:>8}", "work", "batch", "single", "ratio");
     let mut figures = Vec::new();
-    for (name, machine, work) in &WORKS {
+    for (name, machine, work) in &CASES {
         let batch = median(&machine.task(*work, 2 * BLOCK, false)?, BLOCK)?;
         let single = median(&machine.task(*work, 64, false)?, 1)?;
         println!(
@@ -52,7 +52,7 @@ pub fn two() -> Result<()> {
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pools = (pool(1)?, pool(2)?);
     let mut figures = Vec::new();
-    for (name, machine, work) in &WORKS {
+    for (name, machine, work) in &CASES {
         let each = median(&machine.task(*work, BLOCK, false)?, BLOCK)?;
         let many = ((PASS / each / BLOCK as f64) as usize).clamp(4, 32) * BLOCK;
         let task = machine.task(*work, many, false)?;

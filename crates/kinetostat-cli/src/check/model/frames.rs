@@ -30,7 +30,7 @@ pub(crate) struct Frames {
     joints: Vec<JointDirection>,
     /// What the controller shows at home, in the order of its axes.
     pendant_at_home: Vec<JointValue>,
-    pendant: Vec<PendantAxis>,
+    pendant: Vec<ControllerAxis>,
 }
 
 /// The tool's motion by a small positive motion of one joint, the others held, at home.
@@ -48,9 +48,9 @@ struct JointDirection {
     axis_through_mm: Option<[f64; 3]>,
 }
 
-/// An axis of the pendant by the model's joints.
+/// An axis of the controller by the model's joints.
 #[derive(Serialize)]
-struct PendantAxis {
+struct ControllerAxis {
     name: String,
     unit: &'static str,
     follows: String,
@@ -135,22 +135,25 @@ pub(crate) fn frames(model: &Model) -> Frames {
             (Ok(commands), true) => directions(m, &tool.home, commands),
             _ => Vec::new(),
         },
-        pendant_at_home: joints::on_pendant(
+        pendant_at_home: joints::in_controller_coordinates(
             model.controller.as_ref(),
             at_home.as_deref().unwrap_or(&commands),
         ),
         pendant: model
             .controller
             .iter()
-            .flat_map(|c| pendant(m, c))
+            .flat_map(|c| controller_axes(m, c))
             .collect(),
     }
 }
 
-fn pendant(m: &Mechanism, controller: &kinetostat_model::Controller) -> Vec<PendantAxis> {
+fn controller_axes(
+    m: &Mechanism,
+    controller: &kinetostat_model::Controller,
+) -> Vec<ControllerAxis> {
     let names = m.actuator_names();
     let axes = controller.axes().iter().enumerate();
-    axes.map(|(i, axis)| PendantAxis {
+    axes.map(|(i, axis)| ControllerAxis {
         name: axis.name.clone(),
         unit: axis.unit.word(),
         follows: controller.description(i, &names),

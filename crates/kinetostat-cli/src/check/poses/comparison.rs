@@ -5,8 +5,8 @@ use std::path::Path;
 use kinetostat::MotionKind;
 use kinetostat::number::larger;
 use kinetostat_analysis::measured_poses::{
-    Difference, Explained, Explanation, MeasuredPose, Pendant, Tolerance, difference, explain,
-    remaining_differences,
+    ControllerCoordinates, Difference, Explained, Explanation, MeasuredPose, Tolerance, difference,
+    explain, remaining_differences,
 };
 use kinetostat_model::Model;
 use serde::Serialize;
@@ -25,7 +25,7 @@ pub(crate) struct PoseComparison {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) poses_file: String,
-    /// Whether the joints of the file are those of the pendant or of the model.
+    /// Whether the joints of the file are those of the controller or of the model.
     pub(crate) joints_are: &'static str,
     pub(crate) tolerance_mm: f64,
     pub(crate) tolerance_deg: f64,
@@ -56,7 +56,7 @@ pub(crate) struct Nearest {
     pub(crate) difference_deg: Option<f64>,
 }
 
-/// The joints of the file: the pendant's axes, or the model's actuators.
+/// The joints of the file: the controller's axes, or the model's actuators.
 pub(crate) fn axes(model: &Model) -> Vec<Named> {
     match &model.controller {
         Some(controller) => joints::on_axes(controller),
@@ -89,18 +89,18 @@ pub(crate) fn compare(
     tolerance: Tolerance,
     tolerance_mm: f64,
 ) -> Answer<PoseComparison> {
-    let pendant = Pendant::of(model);
-    let poses = findings(&pendant, rows).map_err(|f| f.within(&file.display().to_string()))?;
+    let controller = ControllerCoordinates::of(model);
+    let poses = findings(&controller, rows).map_err(|f| f.within(&file.display().to_string()))?;
     let kinds: Vec<MotionKind> = names.iter().map(|n| n.1).collect();
-    let axes = pendant.axes(&kinds);
+    let axes = controller.axes(&kinds);
     let words = ExplanationText {
         names,
         axes: &axes,
         joints: &joints_of(model),
     };
     let measured: Vec<MeasuredPose> = rows.iter().map(|p| p.measured.clone()).collect();
-    let forward = |shown: &[f64]| pendant.tool(shown);
-    let explained = explain(&forward, &measured, &axes, pendant.is_quick(), tolerance);
+    let forward = |shown: &[f64]| controller.tool(shown);
+    let explained = explain(&forward, &measured, &axes, controller.is_quick(), tolerance);
     let agrees = explained.fitting.first() == Some(&Explanation::default());
     let explanations: Vec<String> = match agrees {
         true => Vec::new(),
@@ -126,13 +126,13 @@ pub(crate) fn compare(
         agrees,
         ambiguous: explanations.len() > 1,
         explanations,
-        nearest: nearest(&explained, &pendant, &measured, &words),
+        nearest: nearest(&explained, &controller, &measured, &words),
     })
 }
 
-fn findings(pendant: &Pendant<'_>, rows: &[PoseRow]) -> Answer<Vec<PoseFinding>> {
+fn findings(controller: &ControllerCoordinates<'_>, rows: &[PoseRow]) -> Answer<Vec<PoseFinding>> {
     let each = rows.iter().map(|row| {
-        let computed = pendant
+        let computed = controller
             .pose(&row.measured.joints)
             .map_err(|reason| Failure::input(format!("line {}: {reason}", row.line)))?;
         let off = difference(&row.measured, &computed);
@@ -151,7 +151,7 @@ fn findings(pendant: &Pendant<'_>, rows: &[PoseRow]) -> Answer<Vec<PoseFinding>>
 /// What comes nearest, if it is worth a word.
 fn nearest(
     explained: &Explained,
-    pendant: &Pendant<'_>,
+    controller: &ControllerCoordinates<'_>,
     measured: &[MeasuredPose],
     words: &ExplanationText<'_>,
 ) -> Option<Nearest> {
@@ -160,7 +160,7 @@ fn nearest(
         return None;
     }
     let (distance, angle) = largest(differences);
-    let forward = |shown: &[f64]| pendant.tool(shown);
+    let forward = |shown: &[f64]| controller.tool(shown);
     let unexplained = Explanation::default();
     let before = remaining_differences(&forward, measured, words.axes, &unexplained)?;
     if distance > 0.5 * largest(&before).0 {

@@ -111,7 +111,7 @@ impl ExplanationText<'_> {
             }
             Coupling::Absent { axis, other } => {
                 let text = format!(
-                    "{} is declared to be coupled with '{}', but the pendant shows it without",
+                    "{} is declared to be coupled with '{}', but the controller shows it without",
                     name(axis),
                     self.joints[other]
                 );

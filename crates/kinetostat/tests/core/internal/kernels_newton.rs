@@ -110,10 +110,11 @@ fn an_elastica_is_found_together() {
         }
         let residual = unbalanced.norm() / torque.norm();
         assert!(residual < 1e-10, "{residual:e}");
-        let alone = machine.posture(&home).expect("home");
-        let alone = alone.deflected_by(&load).expect("an equilibrium");
-        assert!(alone.stable());
-        let apart = alone.tool.translation.vector - Vector3::from_fn(|k, _| one.tool.get(0, 9 + k));
+        let scalar = machine.posture(&home).expect("home");
+        let scalar = scalar.deflected_by(&load).expect("an equilibrium");
+        assert!(scalar.stable());
+        let apart =
+            scalar.tool.translation.vector - Vector3::from_fn(|k, _| one.tool.get(0, 9 + k));
         assert!(apart.norm() < 1e-9, "{:e}", apart.norm());
         // The same bits beside others, which need fewer steps, more, or no iteration at all.
         let loads: Vec<Wrench> = [0.1, 10.0, 3.0, -20.0, 1.0, 10.0, 17.0, 0.0, -10.0]
@@ -186,19 +187,19 @@ fn heavily_loaded_arms_are_found_together() {
     let all = batch
         .equilibrium_at_joints(&commands, &wrenches, Details::Rest)
         .expect("sizes");
-    let (mut together, mut far) = (0, 0);
+    let (mut vectorised, mut far) = (0, 0);
     for i in 0..count {
         let posture = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
-        let Ok(alone) = posture.deflected_by(&wrenches[i]) else {
+        let Ok(scalar) = posture.deflected_by(&wrenches[i]) else {
             assert_eq!(all.status[i], Status::Unsolved);
             continue;
         };
-        println!("{i} {:?} {}", all.status[i], alone.stable());
+        println!("{i} {:?} {}", all.status[i], scalar.stable());
         if all.status[i] == Status::Vectorised {
-            together += 1;
-            assert!(alone.stable());
+            vectorised += 1;
+            assert!(scalar.stable());
         }
-        let own = alone.limbs.iter().flat_map(|l| &l.coordinates);
+        let own = scalar.limbs.iter().flat_map(|l| &l.coordinates);
         let mut most = Worst::new();
         for (a, b) in all.coordinates.row(i).zip(own) {
             assert!((a - b).abs() < 1e-9, "posture {i}: {a} {b}");
@@ -208,8 +209,8 @@ fn heavily_loaded_arms_are_found_together() {
             far += 1;
         }
     }
-    println!("{together} of {count} together, {far} of them far from rest");
-    assert!(together > count / 2 && far > count / 4);
+    println!("{vectorised} of {count} together, {far} of them far from rest");
+    assert!(vectorised > count / 2 && far > count / 4);
 }
 
 #[test]
@@ -225,18 +226,18 @@ fn a_column_beyond_its_buckling_load_is_as_alone() {
     assert_eq!(found.status[0], Status::Vectorised);
     let posture = machine.posture(&home).expect("home");
     for i in 0..4 {
-        let alone = posture.deflected_by(&loads[i]).expect("an equilibrium");
+        let scalar = posture.deflected_by(&loads[i]).expect("an equilibrium");
         let tip = Vector3::from_fn(|k, _| found.tool.get(i, 9 + k));
         println!(
             "{} {:?} {tip:?} {}",
             loads[i].0[0],
             found.status[i],
-            alone.stable()
+            scalar.stable()
         );
         assert!(
-            (tip - alone.tool.translation.vector).norm() < 1e-9,
+            (tip - scalar.tool.translation.vector).norm() < 1e-9,
             "load {i}"
         );
-        assert!(found.status[i] != Status::Vectorised || alone.stable());
+        assert!(found.status[i] != Status::Vectorised || scalar.stable());
     }
 }

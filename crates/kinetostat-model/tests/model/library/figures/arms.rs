@@ -69,7 +69,7 @@ fn arms_stand_where_their_urdfs_say() {
     let mut random = Random(4);
     for _ in 0..50 {
         let q = commands(mechanism, &mut random, 0.5);
-        // The crank's angle is the pendant's J3: joint 3 of the URDF less joint 2.
+        // The crank's angle is the controller's J3: joint 3 of the URDF less joint 2.
         let target = robot.tool(&[q[0], q[1], q[2] + q[1], q[3], q[4], q[5]]);
         let found = mechanism.posture(&target).expect("reachable").commands();
         for (a, b) in found.iter().zip(&q) {

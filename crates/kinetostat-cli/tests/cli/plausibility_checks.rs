@@ -1,4 +1,4 @@
-//! `kinetostat check`: what smells of a wrong unit, with the line to which it points.
+//! `kinetostat check`: plausibility checks that find a wrong unit, with the line to which it points.
 #![allow(clippy::print_stdout)] // figures
 
 use crate::common::MODEL;
@@ -8,12 +8,12 @@ const HEAVY_6R: &str = include_str!("../../../kinetostat-model/models/heavy_6r.t
 
 const KUKA: &str = include_str!("../../../kinetostat-model/models/kuka_kr270_like.toml");
 
-/// What smells: model, edits, what is said, and the line's text to which it points.
-type Smell<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
+/// An implausible figure: model, edits, what is said, and the line's text to which it points.
+type PlausibilityCase<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
 
 #[test]
 fn figure_wrong_units_smell_and_the_line_is_named() {
-    let list: &[Smell<'_>] = &[
+    let list: &[PlausibilityCase<'_>] = &[
         (
             ARM,
             &[("[0, 0, -9.81]", "[0, 0, -9810]")],

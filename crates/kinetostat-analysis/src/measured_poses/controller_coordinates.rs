@@ -1,4 +1,4 @@
-//! What a pendant shows, and where the model's tool is then.
+//! What a controller shows, and where the model's tool is then.
 
 use kinetostat::{MotionKind, Pose, PostureRequest};
 use kinetostat_model::Model;
@@ -6,17 +6,17 @@ use kinetostat_model::Model;
 use crate::forward::ForwardKinematics;
 use crate::measured_poses::explanation::Axis;
 
-/// The pendant of a model: the axes of its controller, or else its actuators.
+/// The controller of a model: the axes of its controller, or else its actuators.
 #[derive(Clone, Copy, Debug)]
-pub struct Pendant<'m> {
+pub struct ControllerCoordinates<'m> {
     model: &'m Model,
     forward: ForwardKinematics<'m>,
 }
 
-/// Why the model has no pose for what a pendant shows.
+/// Why the model has no pose for what a controller shows.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum PendantPoseError {
+pub enum ControllerPoseError {
     /// Another number of values than axes.
     #[error("the number of joints does not fit")]
     JointCount,
@@ -25,8 +25,8 @@ pub enum PendantPoseError {
     Posture(#[from] kinetostat::Error),
 }
 
-impl<'m> Pendant<'m> {
-    /// The pendant of a model.
+impl<'m> ControllerCoordinates<'m> {
+    /// The controller of a model.
     #[must_use]
     pub fn of(model: &'m Model) -> Self {
         Self {
@@ -56,7 +56,7 @@ impl<'m> Pendant<'m> {
         };
         let (axes, map) = (controller.axes(), controller.map());
         let zeros = controller
-            .pendant(&vec![0.0; axes.len()])
+            .coordinates(&vec![0.0; axes.len()])
             .unwrap_or_else(|| vec![0.0; axes.len()]);
         let plain = |i: usize| (0..axes.len()).all(|j| j == axes[i].joint || map[(i, j)] == 0.0);
         let declared = axes.iter().enumerate().map(|(i, axis)| Axis {
@@ -71,24 +71,26 @@ impl<'m> Pendant<'m> {
         declared.collect()
     }
 
-    /// Commands of the model, m or rad, for what the pendant shows, m or rad.
+    /// Commands of the model, m or rad, for what the controller shows, m or rad.
     fn commands(&self, shown: &[f64]) -> Option<Vec<f64>> {
         match &self.model.controller {
             None => Some(shown.to_vec()),
             Some(controller) => {
                 let in_units = shown.iter().zip(controller.axes());
-                let pendant: Vec<f64> = in_units.map(|(x, a)| x / a.unit.in_si()).collect();
-                controller.joints(&pendant)
+                let shown: Vec<f64> = in_units.map(|(x, a)| x / a.unit.in_si()).collect();
+                controller.joints(&shown)
             }
         }
     }
 
-    /// The tool in the base for what the pendant shows, m or rad.
+    /// The tool in the base for what the controller shows, m or rad.
     ///
     /// # Errors
     /// The number of values is another one, or the machine cannot stand there.
-    pub fn pose(&self, shown: &[f64]) -> Result<Pose, PendantPoseError> {
-        let commands = self.commands(shown).ok_or(PendantPoseError::JointCount)?;
+    pub fn pose(&self, shown: &[f64]) -> Result<Pose, ControllerPoseError> {
+        let commands = self
+            .commands(shown)
+            .ok_or(ControllerPoseError::JointCount)?;
         Ok(*self
             .model
             .mechanism
