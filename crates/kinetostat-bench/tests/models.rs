@@ -252,7 +252,7 @@ fn the_rod_is_that_of_w5() {
 /// Four legs on a platform that three could hold brace each other: their inner forces are known no
 /// better than a residual of rounding times their stiffness, and no lane may wait for more.
 #[test]
-fn legs_that_brace_each_other_are_found_together() {
+fn legs_that_brace_each_other_are_solved_vectorised() {
     let count = 256;
     for name in ["puu4", "puu4_bowing"] {
         let machine = kinetostat_model::read_model(&model(name)).expect("a model");

@@ -665,7 +665,7 @@ fn figure_one_figure_in_a_wrong_unit_never_passes_in_silence() {
 
 /// An analysis answers loads that a program would be refused for, and says so; at a place as on a map.
 #[test]
-fn a_load_beyond_the_limits_is_told_wherever_it_is_asked() {
+fn a_load_beyond_the_limits_is_reported_wherever_it_is_given() {
     let here = workplace();
     let place: &[&[&str]] = &[
         &["deflect", "hexapod"],
@@ -729,7 +729,7 @@ fn a_map_without_an_equilibrium_blames_the_load() {
 
 /// Angles of a job that are shares of pi are most likely radians, whatever the key.
 #[test]
-fn angles_in_radians_under_degrees_smell_in_every_command() {
+fn angles_in_radians_under_degrees_are_implausible_in_every_command() {
     let here = workplace();
     let at = "[placement]\n";
     for (key, list, odd) in [
@@ -784,7 +784,7 @@ fn angles_in_radians_under_degrees_smell_in_every_command() {
 /// What is beyond its limits by far is refused before the program is solved everywhere, with what is implausible in the
 /// model; a place is questioned as a program is.
 #[test]
-fn a_hopeless_program_is_refused_with_what_smells_in_the_model() {
+fn a_hopeless_program_is_refused_with_what_is_implausible_in_the_model() {
     let here = workplace();
     let soft = arm().replace(
         "stiffness_n_m_per_rad = 4.7e5",
@@ -817,7 +817,7 @@ fn a_hopeless_program_is_refused_with_what_smells_in_the_model() {
 
 /// Where the machine's own loads have no equilibrium, the load on the tool is not blamed.
 #[test]
-fn a_machine_that_its_own_weight_folds_is_told_as_that() {
+fn a_machine_that_its_own_weight_folds_is_reported_as_that() {
     let here = workplace();
     let heavy = HEAVY.replace("[0, 0, -9.81]", "[0, 0, -9.81e6]");
     assert_ne!(heavy, HEAVY);
@@ -838,7 +838,7 @@ fn a_machine_that_its_own_weight_folds_is_told_as_that() {
 
 /// An origin of the part in metres puts a large machine's base into the part.
 #[test]
-fn an_origin_in_metres_smells_in_every_command() {
+fn an_origin_in_metres_is_implausible_in_every_command() {
     let here = workplace();
     std::fs::write(here.path().join("arm.toml"), arm()).expect("a model");
     let advice = "check the unit of part_origin_mm";

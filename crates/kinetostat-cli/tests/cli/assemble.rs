@@ -275,7 +275,7 @@ fn a_determinate_machine_says_that_nothing_is_locked_in() {
 }
 
 #[test]
-fn without_deviations_only_the_over_constraint_is_told() {
+fn without_deviations_only_the_over_constraint_is_reported() {
     let here = workplace();
     let said = run(here.path(), &["assemble", "orthoglide"]).answered();
     for needle in ["no deviations", "3 independent ways", "moment about"] {

@@ -132,7 +132,7 @@ fn explanations(json: &Value) -> Vec<String> {
 }
 
 #[test]
-fn a_place_is_given_by_joints_of_the_model_or_of_the_pendant() {
+fn a_place_is_given_by_joints_of_the_model_or_of_the_controller() {
     let here = workplace();
     std::fs::write(here.path().join("arm.toml"), model(plain, CONTROLLER)).expect("written");
     let q = [10.0, 31.324, -2.018, 40.0, -50.0, 60.0];
@@ -194,7 +194,7 @@ fn a_place_is_given_by_joints_of_the_model_or_of_the_pendant() {
 }
 
 #[test]
-fn poses_that_agree_are_told_to_agree() {
+fn poses_that_agree_are_reported_to_agree() {
     let (said, json) = compared(&model(plain, ""), &table(NAMES, |q| q, same));
     assert_eq!(json["agrees"], true, "{}", said.err);
     for pose in json["poses"].as_array().expect("poses") {
@@ -262,7 +262,7 @@ fn three_poses_tell_signs_zeros_and_couplings() {
 
 /// The coupling that the file declares may be wrong too: its sign, or that there is one at all.
 #[test]
-fn couplings_that_are_declared_wrongly_are_told_with_what_to_write() {
+fn couplings_that_are_declared_wrongly_are_reported_with_what_to_write() {
     let axes = ["J1", "J2", "J3", "J4", "J5", "J6"];
     // As FANUC arms count, and as CONTROLLER says.
     let right: fn([f64; 6]) -> [f64; 6] = |q| [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
@@ -314,7 +314,7 @@ fn couplings_that_are_declared_wrongly_are_told_with_what_to_write() {
 }
 
 #[test]
-fn frames_that_are_elsewhere_are_told_with_their_place() {
+fn frames_that_are_elsewhere_are_reported_with_their_place() {
     let base = Isometry3::new(vector![100.0, -50.0, 300.0], vector![0.0, 0.2, 0.4]);
     let (said, json) = compared(&model(plain, ""), &table(NAMES, |q| q, |pose| base * pose));
     let found = explanations(&json);
@@ -340,7 +340,7 @@ fn frames_that_are_elsewhere_are_told_with_their_place() {
 
 /// The first joint's zero and a base turned about its axis cannot be distinguished, and are not.
 #[test]
-fn what_the_poses_do_not_decide_is_told_so() {
+fn what_the_poses_do_not_decide_is_reported_so() {
     let shown = |q: [f64; 6]| [q[0] - 25.0, q[1], q[2], q[3], q[4], q[5]];
     let (said, json) = compared(&model(plain, ""), &table(NAMES, shown, same));
     assert_eq!(json["ambiguous"], true, "{}", said.err);
@@ -636,7 +636,7 @@ fn arms_of_real_files_are_compared() {
 
 /// The table of points: joint values as commanded, pendant values by the declared map, and few bytes a cell.
 #[test]
-fn the_table_of_points_shows_what_the_pendant_shows() {
+fn the_table_of_points_has_controller_coordinates() {
     let here = workplace();
     let at = [10.0, 20.0, 30.0, 15.0, -40.0, 25.0];
     let pose = tool(at);

@@ -37,7 +37,7 @@ fn every_preset_is_drawn_at_home_moved_and_bent() {
 }
 
 #[test]
-fn a_free_motion_is_told_by_limb_and_joint() {
+fn a_free_motion_is_reported_by_limb_and_joint() {
     let here = workplace();
     let line = "model draw stewart_gough_a --motion --out free.svg";
     let said = run(here.path(), &words(line)).answered();

@@ -90,7 +90,7 @@ fn the_summary_is_json_and_the_model_can_go_to_the_standard_output() {
 
 /// Limits of the URDF hold in the model: a pose that needs more is refused with the joint and its limits.
 #[test]
-fn limits_are_checked_when_a_pose_is_asked_for() {
+fn limits_are_checked_when_a_pose_is_requested() {
     let here = workplace();
     std::fs::write(here.path().join("crane.urdf"), URDF).expect("a file");
     let line = "import urdf crane.urdf --tip trolley --joint-stiffness 1e6 -o crane.toml";

@@ -135,7 +135,7 @@ fn a_flat_truss_sags_and_goes_together() {
 }
 
 #[test]
-fn a_limit_on_the_way_is_told() {
+fn a_limit_on_the_path_is_reported() {
     let push = ["--force", "0", "0", "-151"];
     let said = ask(
         &truss(100.0, 0.0, ""),
@@ -240,7 +240,7 @@ axes = "node"
 /// A moment turns the tip by `2 - P` rad/(N m), a force across moves it by `5 - 2 P` m/N: beyond, against
 /// itself, which is no stiffness. Nothing buckles under a jet alone.
 #[test]
-fn what_a_jet_takes_from_the_stiffness_is_told_and_called_no_buckling() {
+fn what_a_jet_takes_from_the_stiffness_is_reported_and_called_no_buckling() {
     for jet in [0.0, 0.5, 1.0, 1.7, 1.9, 2.1, 2.4, 2.6, 3.0, 7.0] {
         let said = ask(&column(jet), &["check", "M", "--json"]).answered();
         let found: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");

@@ -28,7 +28,7 @@ fn over_constraint_is_counted_and_the_fighting_directions_named() {
 }
 
 #[test]
-fn limbs_alike_are_told_once() {
+fn limbs_alike_are_reported_once() {
     let (found, text) = preset("stewart_gough_b", &[]);
     assert_eq!(found["limbs"].as_array().map(Vec::len), Some(6));
     assert!(
@@ -182,7 +182,7 @@ fn the_scale_of_stiffness_is_that_of_the_compliance() {
 }
 
 #[test]
-fn large_deflections_and_loads_near_buckling_are_told() {
+fn large_deflections_and_loads_near_buckling_are_reported() {
     let (found, text) = preset("orthoglide", &["--force", "0", "0", "-60000"]);
     assert!(
         flat(&text).contains("NOT small against the links"),
@@ -208,7 +208,7 @@ fn large_deflections_and_loads_near_buckling_are_told() {
 }
 
 #[test]
-fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
+fn a_singular_posture_near_an_answer_is_reported_with_distance_and_direction() {
     let here = workplace();
     // Two bars of 1 m: stretched at 2 m.
     for (line, key) in [
@@ -286,7 +286,7 @@ fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
 }
 
 #[test]
-fn a_program_near_a_singular_posture_is_told_on_screen_in_json_and_in_the_report() {
+fn a_program_near_a_singular_posture_is_reported_on_screen_in_json_and_in_the_report() {
     let here = workplace();
     std::fs::write(here.path().join("part.ngc"), PROGRAM).expect("a file");
     let run_at = |x: &str| {
@@ -371,7 +371,7 @@ fn root_of_hinge(ratio: f64) -> f64 {
 }
 
 #[test]
-fn a_free_machine_near_buckling_is_told_against_closed_forms() {
+fn a_free_machine_near_buckling_is_reported_against_closed_forms() {
     let rigidity = |d: f64| 210e9 * std::f64::consts::PI * d.powi(4) / 64.0;
     // Held fast at its foot, by pi^2 E I / (4 L^2); on a drive that gives way.
     let fast = rigidity(0.02) * std::f64::consts::FRAC_PI_2.powi(2);

@@ -12,7 +12,7 @@ const KUKA: &str = include_str!("../../../kinetostat-model/models/kuka_kr270_lik
 type PlausibilityCase<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
 
 #[test]
-fn figure_wrong_units_smell_and_the_line_is_named() {
+fn figure_wrong_units_are_implausible_and_the_line_is_named() {
     let list: &[PlausibilityCase<'_>] = &[
         (
             ARM,

@@ -85,7 +85,7 @@ fn the_page_is_written_and_not_overwritten() {
 }
 
 #[test]
-fn an_unknown_name_is_told_with_the_nearest_and_the_list() {
+fn an_unknown_name_is_reported_with_the_nearest_and_the_list() {
     let here = tempfile::tempdir().expect("directory");
     let said = run(
         here.path(),

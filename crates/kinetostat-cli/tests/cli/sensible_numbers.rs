@@ -149,7 +149,7 @@ fn messages_have_numbers_that_people_read() {
 
 /// A target beside the plane that a machine moves in is told to be that, with the nearest place.
 #[test]
-fn a_place_outside_the_plane_of_a_machine_is_told_to_be_that() {
+fn a_place_outside_the_plane_of_a_machine_is_reported_to_be_that() {
     let here = workplace();
     let here = here.path();
     std::fs::write(here.join("five.toml"), FIVE_BARS).expect("a model");

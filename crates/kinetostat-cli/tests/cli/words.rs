@@ -500,7 +500,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
 
 /// One of something is reported as one, in summaries, reports and warnings.
 #[test]
-fn one_is_not_told_in_the_plural() {
+fn one_is_not_written_in_the_plural() {
     const MANY: [&str; 24] = [
         "blocks",
         "lines",

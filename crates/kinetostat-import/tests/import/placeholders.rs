@@ -68,7 +68,7 @@ fn inertials_that_were_never_meant() {
 }
 
 #[test]
-fn units_that_smell() {
+fn implausible_units() {
     let none = arm(["", "", ""]);
     for (from, to, needle) in [
         ("xyz='0.5 0 0'", "xyz='500 0 0'", "are these millimetres?"),

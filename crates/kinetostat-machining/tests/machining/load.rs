@@ -80,7 +80,7 @@ fn the_load_turns_gradually_at_gentle_corners_and_at_once_at_sharp_ones() {
 }
 
 #[test]
-fn a_constant_wrench_is_meant_in_the_axes_asked_for() {
+fn a_constant_wrench_is_meant_in_the_axes_requested() {
     let path = path("G21 G90\nG0 X0 Y0 Z0\nG1 X0 Y50 F100\n");
     let wrench = Wrench::new(vector![10.0, 20.0, 30.0], vector![1.0, 2.0, 3.0]);
     let place = Placement {

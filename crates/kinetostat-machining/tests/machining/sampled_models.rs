@@ -262,7 +262,7 @@ fn the_noise_of_a_cam_system_makes_no_corner() {
 
 /// The two readings of the load at corners: the same bytes, the claims exchanged.
 #[test]
-fn the_claim_at_corners_is_told_by_both_readings() {
+fn the_claim_at_corners_is_reported_by_both_readings() {
     let machine = Model::preset("orthoglide").expect("preset").mechanism;
     let machine = machine.with_tool(&straight_tool(0.1));
     let place = Placement::at(vector![0.0, 0.0, 0.1]);

@@ -91,7 +91,7 @@ fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
 
 /// For `cargo xtask figures`.
 #[test]
-fn figures_of_the_pendant() {
+fn figures_of_controller_coordinates() {
     let controller = read(FANUC).expect("a model").controller.expect("declared");
     let mut joints = [0.0; 7];
     (joints[2], joints[3]) = (31.324_f64.to_radians(), -2.018_f64.to_radians());

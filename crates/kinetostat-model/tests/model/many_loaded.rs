@@ -101,7 +101,7 @@ fn errors_of(all: &BatchEquilibrium, i: usize, scalar: &MechanismEquilibrium) ->
 }
 
 #[test]
-fn every_preset_has_the_same_tangent_alone_and_together() {
+fn every_preset_has_the_same_tangent_scalar_and_vectorised() {
     let (count, mut without) = (11, Vec::new());
     for preset in preset_names() {
         let model = Model::preset(preset.name).expect("a preset");
@@ -188,7 +188,7 @@ fn every_preset_has_the_same_stability_scalar_and_vectorised() {
 }
 
 #[test]
-fn every_preset_is_compensated_the_same_alone_and_together() {
+fn every_preset_is_compensated_the_same_scalar_and_vectorised() {
     let (count, mut without) = (11, Vec::new());
     for preset in preset_names() {
         let model = Model::preset(preset.name).expect("a preset");

@@ -35,7 +35,7 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 }
 
 #[test]
-fn every_preset_gives_the_same_alone_and_together() {
+fn every_preset_gives_the_same_scalar_and_vectorised() {
     let count = 19;
     let (mut vectorised, mut without) = (0, Vec::new());
     for preset in preset_names() {

@@ -117,7 +117,7 @@ fn an_imported_table_is_read() {
 }
 
 #[test]
-fn what_is_wrong_is_told() {
+fn what_is_wrong_is_reported() {
     let steel = "material = \"steel\"\n";
     for (link, keys, needle) in [
         (BOOM, "round = { diameter_mm = 50 }\nmaterial = \"steal\"".to_owned(), "did you mean 'steel'"),

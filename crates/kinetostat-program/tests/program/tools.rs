@@ -211,7 +211,7 @@ proptest! {
 }
 
 #[test]
-fn a_fault_of_the_whole_program_is_told_once() {
+fn a_fault_of_the_whole_program_is_reported_once() {
     // No units, no motion word, tool length: found in every block, told in one.
     let no_units = faults("G1 X1 F100\nX2\nX3\n".as_bytes(), &ReadOptions::default());
     assert_eq!(

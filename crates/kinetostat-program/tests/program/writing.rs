@@ -221,7 +221,7 @@ fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
 }
 
 #[test]
-fn smaller_jumps_than_asked_for_get_no_step_and_are_accounted_for() {
+fn smaller_jumps_than_requested_get_no_step_and_are_accounted_for() {
     let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
     let writing = WriteOptions {
         corner_step_mm: Some(0.025),
@@ -474,7 +474,7 @@ fn the_header_is_in_the_files_own_style_below_tape_mark_and_number() {
 }
 
 #[test]
-fn a_marked_program_is_refused_unless_asked_for_again() {
+fn a_marked_program_is_refused_unless_requested_again() {
     let text = "(kinetostat: compensated program)\nG21\nG0 X1\n";
     let program = Program::read(text).unwrap();
     assert!(program.is_marked_compensated());
@@ -703,7 +703,7 @@ fn a_tool_length_is_followed_when_a_rapid_states_the_height_again() {
 }
 
 #[test]
-fn blocks_marked_for_deletion_are_run_or_skipped_as_told() {
+fn blocks_marked_for_deletion_are_run_or_skipped_as_set() {
     let text = "G21 G90\nG0 X0\n/G0 X50 (optional)\nG91\nG0 X1\n";
     let (run, result) = written_with(text, &shift, &at_origin(), &bare());
     assert_eq!(

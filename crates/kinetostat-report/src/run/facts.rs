@@ -292,7 +292,7 @@ fn file(file: &FileRead) -> String {
 }
 
 /// What was requested and how the program was written.
-pub(crate) fn asked(result: &Shown<'_>) -> Vec<Value> {
+pub(crate) fn inputs_of_run(result: &Shown<'_>) -> Vec<Value> {
     let (summary, run_inputs) = (&result.summary, &result.run_inputs);
     let deviations: Vec<String> = run_inputs
         .model_deviations

@@ -57,7 +57,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         warnings_left_out => warnings.len().saturating_sub(MOST_WARNINGS),
         warning_count => warnings.len(),
         warnings => warnings.into_iter().take(MOST_WARNINGS).collect::<Vec<_>>(),
-        asked => facts::asked(result),
+        inputs_of_run => facts::inputs_of_run(result),
         caption => facts::caption(result),
         missing => MISSING,
     })

@@ -261,7 +261,7 @@ fn a_column_of_many_segments_buckles_at_eulers_load() {
 }
 
 #[test]
-fn answers_settle_as_the_same_bar_gets_more_segments() {
+fn answers_converge_as_the_same_bar_gets_more_segments() {
     let at = |segments: usize| {
         let chain = Chain::builder("bar")
             .link_with("bar", &LinkSpec::beam(bar(), 1.0).segments(segments))

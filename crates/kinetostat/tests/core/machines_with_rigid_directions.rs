@@ -97,7 +97,7 @@ fn the_compliance_of_a_planar_machine_is_the_derivative_of_its_motion() {
 }
 
 #[test]
-fn rigid_and_free_motions_are_told_along_the_axes_where_they_lie_there() {
+fn rigid_and_free_motions_are_reported_along_the_axes_where_they_lie_there() {
     let machine = planar(UnitQuaternion::identity());
     let posture = machine.posture(&machine.platforms()[1].home).unwrap();
     let words: Vec<String> = posture

@@ -191,7 +191,7 @@ fn two_hexapods_in_series_are_far_from_singular() {
 }
 
 #[test]
-fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
+fn a_stage_of_a_stack_near_its_singular_posture_is_reported() {
     let mut rng = Rng(23);
     let mut reported = 0;
     for _ in 0..6 {

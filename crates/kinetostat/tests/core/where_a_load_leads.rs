@@ -176,7 +176,7 @@ fn assert_limit(found: &LoadLimit, b: f64, h: f64, k: f64, push: f64) {
 }
 
 #[test]
-fn a_load_beyond_a_limit_point_is_told_with_the_limit() {
+fn a_load_beyond_a_limit_point_is_reported_with_the_limit() {
     let (b, h, k) = (0.5, 0.1, 1e5);
     let machine = truss(b, h, k);
     let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();

@@ -136,7 +136,7 @@ fn every_list_of_a_file_of_poses_has_its_length() {
 
 /// What follows from a refused value is not told as another fault.
 #[test]
-fn an_orientation_where_a_word_stands_is_told_once() {
+fn an_orientation_where_a_word_stands_is_reported_once() {
     let here = workplace();
     for value in [
         "{ a_b_c_kuka_deg = [0, 180, 0] }",

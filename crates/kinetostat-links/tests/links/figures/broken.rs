@@ -180,7 +180,7 @@ fn broken_files_are_refused_in_words() {
 }
 
 #[test]
-fn questions_that_the_matrix_cannot_answer() {
+fn requests_that_the_matrix_cannot_answer() {
     let body = "1,1,1,1,5.0\n1,2,1,2,5.0\n1,3,1,3,5.0\n2,1,2,1,5.0\n2,2,2,2,5.0\n2,3,2,3,5.0\n3,1,3,1,-1.0\n";
     let k = read_superelement(&Text::new("k", body).expect("text"), None, None).expect("matrix");
     let ask = |interface: &[u64], fixed: &[u64]| {

@@ -63,7 +63,7 @@ fn a_list_of_any_place_has_its_length() {
 }
 
 #[test]
-fn where_a_word_is_needed_the_words_are_told() {
+fn where_a_word_is_needed_the_words_are_listed() {
     for value in ["3", "1.5", "true", "['one']", "{}", "{ one = 1, two = 2 }"] {
         let error = exact_toml::<Everything>(&format!("word = {value}")).unwrap_err();
         assert_eq!(

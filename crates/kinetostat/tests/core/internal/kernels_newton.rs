@@ -82,7 +82,7 @@ fn force(x: f64, y: f64, z: f64) -> Wrench {
 }
 
 #[test]
-fn an_elastica_is_found_together() {
+fn an_elastica_is_solved_vectorised() {
     let mut errors = Vec::new();
     for segments in [50, 100] {
         let machine = cantilever(segments);
@@ -171,7 +171,7 @@ fn soft_arm() -> Mechanism {
 }
 
 #[test]
-fn heavily_loaded_arms_are_found_together() {
+fn heavily_loaded_arms_are_solved_vectorised() {
     let machine = soft_arm();
     let batch = Batch::new(&machine);
     assert_eq!(batch.engine(), Engine::Vectorised);
@@ -214,7 +214,7 @@ fn heavily_loaded_arms_are_found_together() {
 }
 
 #[test]
-fn a_column_beyond_its_buckling_load_is_as_alone() {
+fn a_column_beyond_its_buckling_load_is_as_scalar() {
     let machine = cantilever(20);
     let batch = Batch::new(&machine);
     let home = machine.platforms()[1].home;
