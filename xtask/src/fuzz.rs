@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: random chains under random loads through every question, struts, stiffness ratios and
+//! `cargo xtask fuzz`: random chains under random loads through every query, struts, stiffness ratios and
 //! stiff links with known answers, and random programs under ridged tables of corrections, for a stated time.
 
 use anyhow::{Context, Result, bail};
@@ -50,7 +50,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     absurd_units()
 }
 
-/// Chains under loads, through every question.
+/// Chains under loads, through every query.
 fn chains(words: &[&str]) -> Result<()> {
     let mut command = cargo();
     command.args(["run", "--quiet", "--release", "--package", "kinetostat"]);

@@ -35,7 +35,7 @@ pub struct RigidRank {
 /// A rigid motion fitted to displacements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidFit {
-    /// `[d; phi]` at the point asked for, m and rad.
+    /// `[d; phi]` at the point requested, m and rad.
     pub motion: Vector6<f64>,
     /// Covariance of `motion`, from the residual.
     pub covariance: Matrix6<f64>,

@@ -56,7 +56,7 @@ impl Grid {
     }
 }
 
-/// What is asked.
+/// The query.
 #[derive(Clone, Debug)]
 pub struct MapTask<'a> {
     /// Machine with its tool.

@@ -1,4 +1,4 @@
-//! What a run is asked, who watches it, and why it may have no answer.
+//! The task of a run, who watches it, and why it may have no answer.
 
 use kinetostat::{Error, Mechanism, MotionKind, number};
 use kinetostat_program::{Path, Program, ReadOptions, WriteError, WriteOptions};

@@ -1,4 +1,4 @@
-//! What can be wrong with a program, a map or a writing, told so that a person can mend it.
+//! What can be wrong with a program, a map or a writing, reported so that a person can mend it.
 
 use std::ops::Range;
 
@@ -73,7 +73,7 @@ pub enum WriteError {
         line: usize,
         /// Share of the block's length, 0 at its start, 1 at its end.
         share: f64,
-        /// The point asked for, in mm, part axes.
+        /// The point requested, in mm, part axes.
         position_mm: Vector3<f64>,
         /// What the field said.
         message: String,

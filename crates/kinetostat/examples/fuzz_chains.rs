@@ -1,4 +1,4 @@
-//! Random chains under random loads through every question, struts, stiffness ratios and stiff links with
+//! Random chains under random loads through every query, struts, stiffness ratios and stiff links with
 //! known answers, for a stated time: `cargo xtask fuzz`.
 //!
 //! `fuzz_chains MINUTES SEED [COUNT]`, or `fuzz_chains case SEED` to repeat one case and show it.

@@ -3,7 +3,7 @@
 //!
 //! Every explanation is a small change of what the controller is taken to show, or one constant frame. All
 //! small changes are tried in the order of their number, so that a simpler one is found first, and all
-//! that fit equally are reported: three poses settle the usual cases, but not every set of three.
+//! that fit equally are reported: three poses decide the usual cases, but not every set of three.
 
 mod changes;
 mod controller_coordinates;

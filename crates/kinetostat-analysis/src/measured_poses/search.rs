@@ -40,7 +40,7 @@ pub fn remaining_differences(
     each.collect()
 }
 
-/// Rows that screen an explanation before all are asked.
+/// Rows that screen an explanation before all are computed.
 const SCREEN: usize = 8;
 
 /// Tries explanations of the differences between measured poses and those of a model.

@@ -8,7 +8,7 @@ use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
 use kinetostat::number::larger;
 
-/// Rows of a list that is not asked for as a whole.
+/// Rows of a list that is not requested as a whole.
 const SHOWN: usize = 12;
 
 /// The question, one sentence, and tables.

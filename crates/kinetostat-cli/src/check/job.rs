@@ -1,4 +1,4 @@
-//! `kinetostat check job.toml`: what a job asks, and whether it can be asked so. The program is read
+//! `kinetostat check job.toml`: what a job requests, and whether it makes sense. The program is read
 //! and its ends are put into the machine; nothing is solved along it and nothing is written.
 
 use std::path::Path;

@@ -39,7 +39,7 @@ struct MapResult<'a> {
     within_tolerance_before: bool,
     /// How the written program stands to its tolerance, as for a model.
     tolerance: ToleranceResult,
-    /// Places of the written program at which the table was asked again.
+    /// Places of the written program at which the table was evaluated again.
     places_checked: usize,
     /// Largest distance between where the program goes as it is and where the table wants it.
     max_position_error_before_mm: f64,

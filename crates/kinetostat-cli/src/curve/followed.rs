@@ -81,7 +81,7 @@ pub(crate) fn add_shapes_off_the_curve<E>(
 }
 
 impl<E: CurveEquilibrium> Followed<E> {
-    /// Why branches end where they were not asked to, and which were not followed.
+    /// Why branches end before the requested end, and which were not followed.
     pub(crate) fn what_is_missing(&self, q: &CurveQuery) -> Vec<Warning> {
         let early = self.branches.iter().enumerate().flat_map(|(k, branch)| {
             let ends = branch.ends.into_iter().filter(|end| end.may_go_on());

@@ -66,7 +66,7 @@ pub(crate) struct PlacementTable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum OrientationWord {
-    /// The orientation asked for, everywhere
+    /// The requested orientation, everywhere
     Held,
     /// The nearest to it that the machine can have
     Follows,

@@ -19,7 +19,7 @@ pub(crate) fn not_finite(value: &Spanned<DeValue<'_>>, found: &mut Vec<Range<usi
     }
 }
 
-/// Takes out what stands at a place and notes it, and the table that lacks it now; false where nothing is there.
+/// Takes out what stands at a place and notes it, and the table without it; false where nothing is there.
 pub(crate) fn take(
     table: &mut DeTable<'_>,
     span: Range<usize>,

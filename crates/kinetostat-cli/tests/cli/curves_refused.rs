@@ -229,7 +229,7 @@ fn the_words_say_how_far_a_branch_was_followed() {
         let said = run(here.path(), &list).answered().out;
         said.split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    // A tiny part of what was requested is still told in numbers.
+    // A tiny part of what was requested is still given in numbers.
     let said = pushed("1e12", &["--points", "40", "--branches", "1"]);
     assert!(said.contains("was followed only from 0 to "), "{said}");
     assert!(said.contains("as many points as --points allows"), "{said}");

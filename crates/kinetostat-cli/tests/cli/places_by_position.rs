@@ -97,7 +97,7 @@ fn every_command_takes_a_position() {
     let text =
         format!("deflect rpp.toml --at 300 450 20 --rotation rotation_vector_deg=0,0,{closed}");
     ask(here, &text).answered();
-    // Machines that hold their orientation are not asked to turn.
+    // Machines that hold their orientation are not required to turn.
     let answer = json(here, "deflect orthoglide --at 20 10 30 --json");
     assert!(answer["place"].get("tool_turn_deg").is_none());
 }

@@ -147,7 +147,7 @@ fn messages_have_numbers_that_people_read() {
     assert!(seen > 300, "{seen} numbers");
 }
 
-/// A target beside the plane that a machine moves in is told to be that, with the nearest place.
+/// A target beside the plane that a machine moves in is reported to be that, with the nearest place.
 #[test]
 fn a_place_outside_the_plane_of_a_machine_is_reported_to_be_that() {
     let here = workplace();

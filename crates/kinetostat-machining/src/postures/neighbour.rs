@@ -15,7 +15,7 @@ use crate::postures::orientation::Orientation;
 /// Points that share a chain of starting values.
 pub(crate) const CHUNK: usize = 64;
 
-/// Posture and state of the last point solved in a chunk, one memory per kind of question.
+/// Posture and state of the last point solved in a chunk, one memory per kind of query.
 #[derive(Default)]
 pub(crate) struct Neighbour {
     last: Option<(Posture, MechanismState)>,

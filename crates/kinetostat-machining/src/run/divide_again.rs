@@ -1,6 +1,6 @@
 //! Blocks divided again where the last check finds the tool farther off than the written program claims.
 //!
-//! The division rests on an assumption about the model between the places that it asks ([`Course::Smooth`]);
+//! The division rests on an assumption about the model between the places that it evaluates ([`Course::Smooth`]);
 //! the check looks at places of its own. A place that it finds off becomes one at which the block is divided
 //! in any case, the program is written once more, and checked as before in every place. What is off for
 //! another reason (an axis that the program never states, a corner) is not divided again: it would not help.
@@ -32,7 +32,7 @@ pub(crate) struct Again {
     worst: Option<(usize, f64)>,
 }
 
-/// A model's field that is to be asked in some more places.
+/// A model's field that is to be evaluated in some more places.
 pub(crate) struct Refined<'a> {
     field: &'a ModelField<'a>,
     breaks: &'a BTreeMap<usize, Vec<f64>>,

@@ -19,7 +19,7 @@ const SEED: u64 = 3;
 /// Irregular places on every stretch between two breaks of the field.
 const PLACES: u64 = 2;
 
-/// Places asked in one call of the field.
+/// Places evaluated in one call of the field.
 const BATCH: usize = 8192;
 
 /// The place of a program that is farthest from where path and field want it.

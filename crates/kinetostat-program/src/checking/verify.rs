@@ -51,7 +51,7 @@ pub struct Verification {
 ///   chords and rounding), looked at in places that follow no pattern;
 /// - the speed along the part is the programmed one within 0.1 %, or slower where the feed was held to
 ///   its largest, and the other axes reach what the input wanted;
-/// - what is not a coordinate is there byte for byte, numbers are fixed-point with the decimals asked
+/// - what is not a coordinate is there byte for byte, numbers are fixed-point with the decimals requested
 ///   for, no line is too long, the header is ASCII and marks the file;
 /// - the blocks of the input are all accounted for.
 ///

@@ -1,4 +1,4 @@
-//! Fields of corrections: what is asked at a place of the path and what is answered, and a field from a table.
+//! Fields of corrections: queries at places of the path and their answers, and a field from a table.
 
 pub(crate) mod map;
 pub(crate) mod request;

@@ -1,4 +1,4 @@
-//! What a field of corrections is asked, and what it answers.
+//! Queries to a field of corrections, and its answers.
 
 use nalgebra::Vector3;
 
@@ -57,7 +57,7 @@ impl FieldFailure {
 /// work on them in parallel. The answer has one entry for each request, in order. Equal requests must
 /// get equal answers, or the output would not be reproducible.
 pub trait CorrectionField: Sync {
-    /// Corrections in mm, part axes, to be added to the positions asked for.
+    /// Corrections in mm, part axes, to be added to the positions of the query.
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>>;
 
     /// Whether the field knows what happens inside a corner step ([`Request::turning`]). Otherwise
@@ -76,7 +76,7 @@ pub trait CorrectionField: Sync {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Structure {
     /// Shares of the move, between 0 and 1 and in any order, at which the correction or its slope may
-    /// jump. Each of them is asked, and what lies between two is looked at by itself.
+    /// jump. Each of them is evaluated, and what lies between two is looked at by itself.
     pub breaks: Vec<f64>,
     /// What the correction is between two of them.
     pub course: Course,

@@ -67,7 +67,7 @@ pub struct ReadOptions {
     /// states is taken as zero and never written.
     pub start_position_mm: Option<Vector3<f64>>,
     /// Largest difference of an arc's radii at start and end, in mm; 0.005 by default, as common
-    /// controllers have it. Within it the radius is led evenly from one to the other.
+    /// controllers have it. Within it the radius changes evenly from one to the other.
     pub arc_tolerance_mm: f64,
     /// Whether blocks marked with `/` are run.
     pub block_delete: BlockDelete,

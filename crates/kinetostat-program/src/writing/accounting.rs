@@ -29,7 +29,7 @@ pub struct Accounting {
     pub bytes_out: usize,
     /// Lines of the header.
     pub header_lines: usize,
-    /// How often the field was asked.
+    /// How often the field was evaluated.
     pub evaluations: usize,
     /// Largest correction, before rounding.
     pub largest_correction_mm: f64,

@@ -5,7 +5,7 @@
 //! tolerance; the whole vector is compared, so the bound holds along the path too.
 //!
 //! The field says where `c` or its slope may jump ([`Structure::breaks`]): those places are ends of
-//! stretches before anything else. Arcs are divided by their chords as well. A stretch is then asked in
+//! stretches before anything else. Arcs are divided by their chords as well. A stretch is then evaluated in
 //! its middle, in the quarters where that does not decide it, and there at a place that follows no
 //! pattern too. It is good if
 //!
@@ -16,7 +16,7 @@
 //! - at the irregular place the polynomial agrees with the field.
 //!
 //! Otherwise it is halved. Neighbouring pieces are joined again where the same bound allows it
-//! ([`crate::writing::merge`]). All blocks are divided together, in rounds, so that the field is asked in large batches.
+//! ([`crate::writing::merge`]). All blocks are divided together, in rounds, so that the field is evaluated in large batches.
 
 use nalgebra::Vector3;
 
@@ -46,7 +46,7 @@ pub(crate) struct Division {
 /// Seed of the irregular places of a division; a check takes another.
 const SEED: u64 = 1;
 
-/// Part of the tolerance that may be unknown between the places asked.
+/// Part of the tolerance that may be unknown between the places evaluated.
 const UNKNOWN: f64 = 0.1;
 
 /// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
@@ -94,7 +94,7 @@ impl Stretch {
     }
 
     fn irregular_part(&self) -> f64 {
-        // Not near the places that are asked anyway.
+        // Not near the places that are evaluated anyway.
         let place = irregular(SEED, self.move_index as u64, self.share[0].to_bits());
         0.25 * ((4.0 * place).floor() + 0.2 + 0.6 * (4.0 * place).fract())
     }

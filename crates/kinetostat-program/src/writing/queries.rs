@@ -1,4 +1,4 @@
-//! Questions to a field of corrections, in large batches, with a count of its evaluations.
+//! Queries to a field of corrections, in large batches, with a count of its evaluations.
 
 use nalgebra::Vector3;
 
@@ -77,5 +77,5 @@ impl FieldQueries<'_> {
     }
 }
 
-/// Points asked for in one call of the field.
+/// Points queried in one call of the field.
 const BATCH: usize = 8192;

@@ -164,7 +164,7 @@ fn bad_maps_are_refused_with_line_reason_and_remedy() {
     assert!(error.to_string().contains("UTF-8"), "{error}");
 }
 
-/// All faults of a table in one run, in the order of its lines, and never more than asked for.
+/// All faults of a table in one run, in the order of its lines, and never more than requested.
 #[test]
 fn every_wrong_row_of_a_table_is_found_at_once() {
     use proptest::prelude::*;

@@ -18,7 +18,7 @@ fn reading() -> ReadOptions {
     }
 }
 
-/// A random field: waves, and steps where it is asked to jump.
+/// A random field: waves, and steps where it is to jump.
 #[derive(Debug, Clone)]
 struct Waves {
     size_mm: f64,

@@ -145,7 +145,7 @@ fn a_move_passes_planes_where_its_points_say_so() {
     assert!(crossed > 150, "{crossed}");
 }
 
-/// A closure of which nothing is known, with a wave of 40 mm: asked often enough.
+/// A closure of which nothing is known, with a wave of 40 mm: evaluated often enough.
 #[test]
 fn a_wave_that_is_zero_in_every_round_place_is_seen() {
     let field = |request: &Request| {

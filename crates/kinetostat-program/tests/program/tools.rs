@@ -212,7 +212,7 @@ proptest! {
 
 #[test]
 fn a_fault_of_the_whole_program_is_reported_once() {
-    // No units, no motion word, tool length: found in every block, told in one.
+    // No units, no motion word, tool length: found in every block, reported in one.
     let no_units = faults("G1 X1 F100\nX2\nX3\n".as_bytes(), &ReadOptions::default());
     assert_eq!(
         no_units.iter().map(|fault| fault.line).collect::<Vec<_>>(),

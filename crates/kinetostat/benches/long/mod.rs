@@ -53,7 +53,7 @@ pub fn arm(coordinates: usize) -> Chain {
     builder.build().expect("an arm can be built")
 }
 
-/// What is asked of an end.
+/// Conditions on an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// A dead force bends the chain: force given, motion sought.

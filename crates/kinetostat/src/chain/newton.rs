@@ -145,7 +145,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
 
     /// Change of the closure (base axes) with the motion of the end. Where all rotations are held
     /// the closure vanishes, and with it what differs from one; where some are free, the rotation
-    /// vector of what is lacking stays large and does not change by the motion alone.
+    /// vector of the residual stays large and does not change by the motion alone.
     fn closure_rate(&self) -> Option<Matrix6<f64>> {
         let held = |k: usize| self.problem.end.prescribed[k] == Prescribed::Pose;
         let some = (3..6).any(held) && !(3..6).all(held);

@@ -158,7 +158,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         self.guessed.as_ref().and_then(|(_, z)| z.clone())
     }
 
-    /// Closes the chain from a start and estimates the reactions that balance it best.
+    /// Closes the chain from a start and estimates the reactions nearest to equilibrium.
     fn guess(&mut self, x: &[f64]) -> Option<DVector<f64>> {
         let (r, m) = (self.system.reactions(), self.system.count());
         let chain = self.system.problem.chain;

@@ -287,7 +287,7 @@ fn potential_of_platforms(solver: &PlatformSolver<'_>) -> Option<f64> {
         -p.mass * m.gravity().dot(&centre.coords)
     });
     let weights: f64 = weights.sum();
-    // A dead force has a potential; a dead moment is not asked for one here.
+    // A dead force has a potential; a dead moment is not required to have one here.
     let dead = solver.others.iter().map(|(platform, wrench)| {
         let place = poses[*platform].translation.vector;
         (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))

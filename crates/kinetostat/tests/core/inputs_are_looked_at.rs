@@ -49,7 +49,7 @@ fn solved(change: impl Fn(&mut ChainProblem<'_>, &mut Settings)) -> Result<Vec<f
     Ok([e.coordinates, matrix(&e.stiffness.cartesian.matrix)].concat())
 }
 
-/// What each input is called in messages, and a question with it.
+/// What each input is called in messages, and a query with it.
 fn inputs() -> Vec<(&'static str, Ask)> {
     let section = |change: fn(&mut BeamSection, f64)| -> Ask {
         Box::new(move |x| {

@@ -1,4 +1,4 @@
-//! Places asked for by position only, against closed forms: the orientation follows.
+//! Targets that prescribe the position only, against closed forms: the orientation follows.
 
 use kinetostat::{
     ActuatorSpec, Chain, ChainBuilder, Directions, Error, Mechanism, MotionKind, Platform, Pose,
@@ -226,7 +226,7 @@ proptest! {
         let wrench = Wrench::new(Vector3::from(force), vector![3.0, -4.0, 5.0]);
         let start = near.rest_state();
         let c = compensate_following(&near, &position, &wanted, &wrench, start).unwrap();
-        // The general engine, asked anew for the modified target.
+        // The general engine, solved anew for the modified target.
         let again = machine
             .posture(PostureRequest::position(&c.posture.target().translation.vector, &wanted))
             .unwrap()

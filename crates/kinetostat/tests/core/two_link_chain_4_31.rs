@@ -184,7 +184,7 @@ fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_t
                 t -= f / (0.5 * force * (0.5 * t).cos() + 1.0);
             }
             let (s, c) = (0.5 * t).sin_cos();
-            // From the closed form: the way there is not asked for.
+            // From the closed form: the path there does not matter.
             let wrench = Wrench::new(way * force, Vector3::zeros());
             let mut state = unloaded.clone();
             state.coordinates[0] = vec![turn + 0.5 * t, -t, 0.5 * t - turn];

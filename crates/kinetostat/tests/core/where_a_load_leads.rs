@@ -217,7 +217,7 @@ fn an_answer_behind_a_limit_point_is_recognised() {
     }
 }
 
-/// Whatever the share of the limit: below it the state told is the one in front of it, which the
+/// Whatever the share of the limit: below it the state found is the one in front of it, which the
 /// machine reaches without a snap; beyond it, if any state is reported, the limit is on the way.
 #[test]
 fn a_limit_beyond_the_load_is_not_on_the_way() {

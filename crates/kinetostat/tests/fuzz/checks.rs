@@ -1,4 +1,4 @@
-//! What must hold for every answer, whatever was asked. Statics are computed again here: by the
+//! What must hold for every answer, whatever was requested. Statics are computed again here: by the
 //! oracle's kinematics and by differences of energies written down anew.
 
 use kinetostat::{

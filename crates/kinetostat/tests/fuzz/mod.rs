@@ -1,4 +1,4 @@
-//! Random cases from a seed, each through every question that a chain can be asked.
+//! Random cases from a seed, each through every query of a chain.
 
 pub mod cases;
 pub mod checks;

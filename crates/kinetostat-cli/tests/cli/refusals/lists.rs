@@ -134,7 +134,7 @@ fn every_list_of_a_file_of_poses_has_its_length() {
     assert_eq!(count, 4);
 }
 
-/// What follows from a refused value is not told as another fault.
+/// What follows from a refused value is not reported as another fault.
 #[test]
 fn an_orientation_where_a_word_stands_is_reported_once() {
     let here = workplace();

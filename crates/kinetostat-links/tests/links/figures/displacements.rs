@@ -91,7 +91,7 @@ fn an_exact_table_gives_the_truth() {
     assert!(found.antisymmetric_share < 1e-12 && found.notices.is_empty() && found.rank.rank == 6);
 }
 
-/// 200 experiments with noise: the truth lies within the told confidence as often as it should, and the
+/// 200 experiments with noise: the truth lies within the stated confidence as often as it should, and the
 /// anti-symmetric share is what the residuals explain.
 #[test]
 fn noise_gives_honest_confidence() {

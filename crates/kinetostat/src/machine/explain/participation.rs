@@ -11,7 +11,7 @@ use crate::spatial::{Pose, Twist};
 impl UnloadedStiffness {
     /// Joints and springs that move when the tool of the posture (the one that this is the
     /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
-    /// `limb: joint`, the most first. Only limbs that run from the base to the tool are asked.
+    /// `limb: joint`, the most first. Only limbs that run from the base to the tool are listed.
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};

@@ -112,7 +112,7 @@ pub fn check_tangents(
     Ok(worst)
 }
 
-/// Refuses loads that do not fit a chain: nodes it lacks, numbers that are not finite.
+/// Refuses loads that do not fit a chain: nodes it does not have, numbers that are not finite.
 pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Result<()> {
     let place = || chain.place();
     let (values, nodes) = match load {

@@ -17,7 +17,7 @@ use crate::linalg::derivatives::Number;
 /// `q2` is the one of the commanded posture: the block's matrix is constant while the machine
 /// bends about that posture.
 ///
-/// Unloaded the link is its two bars exactly. Displaced, it lacks the part of the bars' geometric
+/// Unloaded the link is its two bars exactly. Displaced, it is without the part of the bars' geometric
 /// stiffness that tells two bars from one: they incline by different angles when the far beam turns
 /// (by `-+ psi d sin(q2) / (2 L)` for a turn `psi` about the pivots' axis, which under a tension `N`
 /// stiffens that turn by `N d^2 sin^2(q2) / (4 L)`), and carry different axial forces on ends that

@@ -158,9 +158,9 @@ fn what_is_not_symmetric_in_the_stiffness() {
 #[test]
 fn energy_minus_work() {
     let (mut chains, mut machine, mut found) = (Worst::new(), Worst::new(), 0);
-    for balance in seeds().filter_map(balance_of_chain) {
+    for energy in seeds().filter_map(balance_of_chain) {
         found += 1;
-        chains.add(balance.error());
+        chains.add(energy.error());
     }
     (0..5).for_each(|index| machine.add(balance_of_machine(index).error()));
     let mut f = Figures::new();

@@ -209,7 +209,7 @@ fn heavily_loaded_arms_are_solved_vectorised() {
             far += 1;
         }
     }
-    println!("{vectorised} of {count} together, {far} of them far from rest");
+    println!("{vectorised} of {count} vectorised, {far} of them far from rest");
     assert!(vectorised > count / 2 && far > count / 4);
 }
 
