@@ -10,4 +10,4 @@ mod task;
 #[cfg(feature = "python")]
 mod python;
 
-pub use task::{Answers, Places, Quantity, Results, Task};
+pub use task::{Answers, BenchQuantity, Places, Results, Task};

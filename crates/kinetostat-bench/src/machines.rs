@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use kinetostat::Pose;
 
-use crate::{Places, Quantity, Task, sample};
+use crate::{BenchQuantity, Places, Task, sample};
 
 /// A machine and its range of commands.
 #[derive(Clone, Copy, Debug)]
@@ -94,15 +94,15 @@ pub const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 /// If there is no such case, or its model cannot be read.
 pub fn work(name: &str, count: usize) -> Result<Task> {
     match name {
-        "W1" => ARM.task(Quantity::StiffnessAndJacobian, count, false),
-        "W2" => HEXAPOD.task(Quantity::Stiffness, count, false),
-        "W3" => ARM.task(Quantity::Equilibrium, count, false),
-        "W3+K" => ARM.task(Quantity::EquilibriumAndStiffness, count, false),
-        "W4" => PUU3.task(Quantity::Equilibrium, count, false),
+        "W1" => ARM.task(BenchQuantity::StiffnessAndJacobian, count, false),
+        "W2" => HEXAPOD.task(BenchQuantity::Stiffness, count, false),
+        "W3" => ARM.task(BenchQuantity::Equilibrium, count, false),
+        "W3+K" => ARM.task(BenchQuantity::EquilibriumAndStiffness, count, false),
+        "W4" => PUU3.task(BenchQuantity::Equilibrium, count, false),
         "W5" => {
             let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
             let across = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0].repeat(count);
-            Task::open(&path("rod"), Quantity::Equilibrium, home, &across)
+            Task::open(&path("rod"), BenchQuantity::Equilibrium, home, &across)
         }
         other => bail!("no work is called {other}"),
     }
@@ -120,11 +120,11 @@ impl BenchMachine {
     ///
     /// # Errors
     /// If its model cannot be read.
-    pub fn task(&self, work: Quantity, count: usize, bowing: bool) -> Result<Task> {
+    pub fn task(&self, work: BenchQuantity, count: usize, bowing: bool) -> Result<Task> {
         let end = if bowing { "_bowing" } else { "" };
         let loaded = matches!(
             work,
-            Quantity::Equilibrium | Quantity::EquilibriumAndStiffness
+            BenchQuantity::Equilibrium | BenchQuantity::EquilibriumAndStiffness
         );
         let wrenches = match loaded {
             true => sample::wrenches(0..count, self.load.0, self.load.1),
@@ -141,10 +141,10 @@ impl BenchMachine {
 
     /// The quantities of an unloaded machine: with its Jacobian where it has one.
     #[must_use]
-    pub fn unloaded(&self) -> Quantity {
+    pub fn unloaded(&self) -> BenchQuantity {
         match self.serial {
-            true => Quantity::StiffnessAndJacobian,
-            false => Quantity::Stiffness,
+            true => BenchQuantity::StiffnessAndJacobian,
+            false => BenchQuantity::Stiffness,
         }
     }
 }

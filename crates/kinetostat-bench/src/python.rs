@@ -16,7 +16,7 @@ mod kinetostat_bench {
     use pyo3::prelude::*;
     use pyo3::types::{PyBytes, PyDict};
 
-    use crate::{Places, Quantity, Results, Task as Own};
+    use crate::{BenchQuantity, Places, Results, Task as Own};
 
     fn refused(error: impl std::fmt::Display) -> PyErr {
         PyValueError::new_err(format!("{error:#}"))
@@ -45,10 +45,10 @@ mod kinetostat_bench {
             wrenches: Option<&[u8]>,
         ) -> PyResult<Self> {
             let work = match work {
-                "stiffness" => Quantity::Stiffness,
-                "stiffness+jacobian" => Quantity::StiffnessAndJacobian,
-                "equilibrium" => Quantity::Equilibrium,
-                "equilibrium+stiffness" => Quantity::EquilibriumAndStiffness,
+                "stiffness" => BenchQuantity::Stiffness,
+                "stiffness+jacobian" => BenchQuantity::StiffnessAndJacobian,
+                "equilibrium" => BenchQuantity::Equilibrium,
+                "equilibrium+stiffness" => BenchQuantity::EquilibriumAndStiffness,
                 other => return Err(refused(format!("'{other}' is no work"))),
             };
             let places = match (joints, poses) {

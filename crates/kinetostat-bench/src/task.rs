@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 /// The quantities requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum BenchQuantity {
     /// Unloaded stiffness of the tool.
     Stiffness,
     /// Unloaded stiffness and Jacobian of a serial machine.
@@ -59,7 +59,7 @@ pub struct Task {
     batch: Batch,
     places: Places,
     wrenches: Vec<Wrench>,
-    work: Quantity,
+    work: BenchQuantity,
     actuators: usize,
 }
 
@@ -93,7 +93,12 @@ impl Task {
     ///
     /// # Errors
     /// If the file is no model or the numbers do not fit the machine.
-    pub fn open(path: &Path, work: Quantity, places: Places, wrenches: &[f64]) -> Result<Self> {
+    pub fn open(
+        path: &Path,
+        work: BenchQuantity,
+        places: Places,
+        wrenches: &[f64],
+    ) -> Result<Self> {
         let model = kinetostat_model::read_model(path)
             .with_context(|| format!("cannot read the model {}", path.display()))?;
         Self::of_model(&model, work, places, wrenches)
@@ -105,7 +110,7 @@ impl Task {
     /// If the numbers do not fit the machine.
     pub fn of_model(
         model: &Model,
-        work: Quantity,
+        work: BenchQuantity,
         places: Places,
         wrenches: &[f64],
     ) -> Result<Self> {
@@ -118,7 +123,7 @@ impl Task {
     /// If the numbers do not fit the machine.
     pub fn new(
         machine: Mechanism,
-        work: Quantity,
+        work: BenchQuantity,
         places: Places,
         wrenches: &[f64],
     ) -> Result<Self> {
@@ -178,14 +183,14 @@ impl Task {
     fn loaded(&self) -> bool {
         matches!(
             self.work,
-            Quantity::Equilibrium | Quantity::EquilibriumAndStiffness
+            BenchQuantity::Equilibrium | BenchQuantity::EquilibriumAndStiffness
         )
     }
 
     fn ask(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
-        let jacobian = self.work == Quantity::StiffnessAndJacobian;
+        let jacobian = self.work == BenchQuantity::StiffnessAndJacobian;
         let details = match self.work {
-            Quantity::EquilibriumAndStiffness => Details::Stiffness,
+            BenchQuantity::EquilibriumAndStiffness => Details::Stiffness,
             _ => Details::Rest,
         };
         let (batch, unloaded, loaded) = (&self.batch, &mut out.unloaded, &mut out.loaded);

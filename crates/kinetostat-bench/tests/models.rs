@@ -10,14 +10,14 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::Wrench;
 use kinetostat::batch::{Batch, Status};
-use kinetostat_bench::{Answers, Places, Quantity, Task, sample};
+use kinetostat_bench::{Answers, BenchQuantity, Places, Task, sample};
 use kinetostat_testing::largest_size;
 
 fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../benches/models/{name}.toml"))
 }
 
-fn answers(name: &str, work: Quantity, places: Places, wrench: &[f64]) -> Answers {
+fn answers(name: &str, work: BenchQuantity, places: Places, wrench: &[f64]) -> Answers {
     let task = Task::open(&model(name), work, places, wrench).expect("a task");
     let answers = task.answers(1).expect("answers");
     assert_eq!(answers.not_found, 0, "{name}");
@@ -81,7 +81,7 @@ fn the_arm_is_that_of_w1() {
     ];
     for name in ["arm", "arm_bowing"] {
         let places = Places::Joints(JOINTS.to_vec());
-        let found = answers(name, Quantity::StiffnessAndJacobian, places, &[]);
+        let found = answers(name, BenchQuantity::StiffnessAndJacobian, places, &[]);
         assert!(apart(&upper(&found.stiffness), &expected) < 1e-12, "{name}");
         // Drive of joint 1 and its link in the first row; the last link, which turns about the tool's own
         // place, in the second.
@@ -151,7 +151,7 @@ fn the_hexapod_is_that_of_w2() {
     ]);
     for name in ["hexapod", "hexapod_bowing"] {
         let places = Places::from_numbers(&pose).expect("a pose");
-        let found = answers(name, Quantity::Stiffness, places, &[]);
+        let found = answers(name, BenchQuantity::Stiffness, places, &[]);
         assert!(apart(&upper(&found.stiffness), &expected) < 1e-11, "{name}");
     }
 }
@@ -159,7 +159,12 @@ fn the_hexapod_is_that_of_w2() {
 #[test]
 fn the_arm_is_that_of_w3() {
     let places = Places::Joints(JOINTS.to_vec());
-    let found = answers("arm", Quantity::EquilibriumAndStiffness, places, &WRENCH);
+    let found = answers(
+        "arm",
+        BenchQuantity::EquilibriumAndStiffness,
+        places,
+        &WRENCH,
+    );
     let tip = [2.3040364266999003, -0.1326764034643904, 0.5688503861190235];
     assert!(apart(&found.tool[9..], &tip) < 1e-12);
     let drives = [
@@ -229,7 +234,7 @@ fn the_three_legs_are_those_of_w4() {
         0.08578305728306747,
     ];
     let places = Places::from_numbers(&pose).expect("a pose");
-    let found = answers("puu3", Quantity::Equilibrium, places, &wrench);
+    let found = answers("puu3", BenchQuantity::Equilibrium, places, &wrench);
     assert!(apart(&found.tool, &expected) < 1e-11);
 }
 
@@ -239,13 +244,13 @@ fn the_rod_is_that_of_w5() {
     pose.extend([1.0, 0.0, 0.0]);
     let places = Places::from_numbers(&pose).expect("a pose");
     let wrench = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0];
-    let found = answers("rod", Quantity::Equilibrium, places, &wrench);
+    let found = answers("rod", BenchQuantity::Equilibrium, places, &wrench);
     let tip = [0.4450082758724156, 0.8106620357612135, 0.0];
     assert!(apart(&found.tool[9..], &tip) < 1e-10);
     // The default law of links converges to the same rod, faster with the number of pieces: the
     // inextensible elastica has its tip at 0.44500, 0.81061.
     let places = Places::from_numbers(&pose).expect("a pose");
-    let bowing = answers("rod_bowing", Quantity::Equilibrium, places, &wrench);
+    let bowing = answers("rod_bowing", BenchQuantity::Equilibrium, places, &wrench);
     assert!(apart(&bowing.tool[9..], &tip) < 2e-3);
 }
 
@@ -281,12 +286,12 @@ fn legs_that_brace_each_other_are_solved_vectorised() {
 fn numbers_that_do_not_fit_are_refused() {
     let open = |work, places, wrenches: &[f64]| Task::open(&model("arm"), work, places, wrenches);
     let joints = || Places::Joints(JOINTS.to_vec());
-    let few = open(Quantity::Stiffness, Places::Joints(vec![0.0; 7]), &[]);
-    let missing = open(Quantity::Equilibrium, joints(), &[]);
-    let needless = open(Quantity::Stiffness, joints(), &WRENCH);
+    let few = open(BenchQuantity::Stiffness, Places::Joints(vec![0.0; 7]), &[]);
+    let missing = open(BenchQuantity::Equilibrium, joints(), &[]);
+    let needless = open(BenchQuantity::Stiffness, joints(), &WRENCH);
     for refused in [few, missing, needless] {
         assert!(refused.is_err());
     }
     assert!(Places::from_numbers(&[0.0; 11]).is_err());
-    assert!(Task::open(&model("none"), Quantity::Stiffness, joints(), &[]).is_err());
+    assert!(Task::open(&model("none"), BenchQuantity::Stiffness, joints(), &[]).is_err());
 }

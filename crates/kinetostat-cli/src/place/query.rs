@@ -58,7 +58,7 @@ pub(crate) fn place_query(
     place_query_of(&read, path, model, place, tool_length_mm, force, moment)
 }
 
-/// The same for a model that was read already, under the name that it was `requested` by.
+/// The same for a model that was read already; `named` is how the command line names it.
 pub(crate) fn place_query_of(
     read: &Model,
     path: Option<PathBuf>,

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::orthoglide::machine::{Orthoglide, SMALL, target};
 use crate::orthoglide::toggle::{
-    Bars, Curve, CurvePoint, diagonal, flat, hold, report_fails_at, report_rate,
+    Bars, Curve, DiagonalPoint, diagonal, flat, hold, report_fails_at, report_rate,
 };
 use crate::{Cause, Contents, Item};
 
@@ -68,19 +68,19 @@ struct Answer {
     /// N/mm.
     stiffness: f64,
     curve: Curve,
-    outside: CurvePoint,
-    knee: CurvePoint,
+    outside: DiagonalPoint,
+    knee: DiagonalPoint,
     /// Largest difference between the whole machine, held, and three times its first leg, kN.
     apart: f64,
     bowed: Bars,
     /// Two bars in every leg by other conventions: name, first limit outside and inside.
-    others: Vec<(&'static str, [Option<CurvePoint>; 2])>,
-    bowed_outside: Option<CurvePoint>,
+    others: Vec<(&'static str, [Option<DiagonalPoint>; 2])>,
+    bowed_outside: Option<DiagonalPoint>,
     /// The first limit of bars that bow on the way to [`FAR_INSIDE`], and the place there.
-    bowed_inside: Option<CurvePoint>,
-    bowed_far: CurvePoint,
+    bowed_inside: Option<DiagonalPoint>,
+    bowed_far: DiagonalPoint,
     /// Where outside the report's iteration stops converging, if it does before the flat posture.
-    iteration: Option<CurvePoint>,
+    iteration: Option<DiagonalPoint>,
     /// Rate of the report's iteration at the printed displacement outside.
     rate: f64,
 }
@@ -121,10 +121,10 @@ impl Configuration {
         let fails = report_fails_at(&machine, self.at, -0.5 * distance)?;
         let iteration = fails.and_then(|moved| {
             let force = curve.force(moved)?;
-            Some(CurvePoint {
+            Some(DiagonalPoint {
                 moved,
                 force,
-                ..CurvePoint::default()
+                ..DiagonalPoint::default()
             })
         });
         Ok(Answer {
@@ -251,7 +251,7 @@ impl Configuration {
         &self,
         a: &Answer,
         [at_out, at_in]: [f64; 2],
-        bowed: &CurvePoint,
+        bowed: &DiagonalPoint,
     ) -> Vec<Item> {
         let q = self.name;
         vec![
@@ -411,7 +411,7 @@ impl Configuration {
                 bowed.push(place);
             }
         }
-        let springs: Vec<CurvePoint> = a
+        let springs: Vec<DiagonalPoint> = a
             .curve
             .places
             .iter()
@@ -420,7 +420,7 @@ impl Configuration {
             .collect();
         let mut lines = solid_and_dashed(&springs, 0, "parallelograms as springs");
         lines.extend(solid_and_dashed(&bowed, 1, "bars that bow"));
-        let mark = |p: &CurvePoint, name: &str| PlotMark {
+        let mark = |p: &DiagonalPoint, name: &str| PlotMark {
             at: (p.moved, p.force),
             name: name.to_owned(),
             detail: format!("{name}: {:.4} kN at {:.2} mm", p.force, p.moved),
@@ -446,7 +446,7 @@ impl Configuration {
 }
 
 /// A curve as lines: solid where a dead load is stable, solid ones first.
-fn solid_and_dashed(places: &[CurvePoint], colour: usize, name: &str) -> Vec<PlotLine> {
+fn solid_and_dashed(places: &[DiagonalPoint], colour: usize, name: &str) -> Vec<PlotLine> {
     let mut lines: Vec<PlotLine> = Vec::new();
     for place in places {
         let point = (place.moved, place.force);

@@ -22,7 +22,7 @@ pub(super) fn diagonal() -> Vector3<f64> {
 
 /// A place on the diagonal: displacement in mm, force in kN.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct CurvePoint {
+pub(super) struct DiagonalPoint {
     pub(super) moved: f64,
     pub(super) force: f64,
     /// N/mm.
@@ -37,9 +37,9 @@ pub(super) struct CurvePoint {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curve {
     /// In order of the displacement.
-    pub(super) places: Vec<CurvePoint>,
+    pub(super) places: Vec<DiagonalPoint>,
     /// Where the force is largest or smallest, in order of the displacement.
-    pub(super) limits: Vec<CurvePoint>,
+    pub(super) limits: Vec<DiagonalPoint>,
 }
 
 impl Curve {
@@ -60,7 +60,7 @@ impl Curve {
         settings.largest_change = Some(step * 1e-3);
         settings.points = 2000;
         let curves = follow(&problem, &parameter, &start, 0.0, &settings)?;
-        let place = |p: &kinetostat::continuation::CurvePoint| CurvePoint {
+        let place = |p: &kinetostat::continuation::CurvePoint| DiagonalPoint {
             moved: p.parameter * 1e3,
             force: 3.0 * p.conjugate * 1e-3,
             slope: 3.0 * p.slope * 1e-3,
@@ -68,10 +68,10 @@ impl Curve {
             share_to_buckling: p.held.share_to_buckling.unwrap_or(0.0),
         };
         let branch = curves.branches.first();
-        let mut places: Vec<CurvePoint> = branch
+        let mut places: Vec<DiagonalPoint> = branch
             .map(|b| b.points.iter().map(place).collect())
             .unwrap_or_default();
-        let mut limits: Vec<CurvePoint> = curves
+        let mut limits: Vec<DiagonalPoint> = curves
             .specials
             .iter()
             .filter(|s| s.kind == SpecialKind::LoadLimit)
@@ -104,14 +104,14 @@ impl Curve {
     }
 
     /// The first limit of the force on the way outside.
-    pub(super) fn outside(&self) -> Option<CurvePoint> {
+    pub(super) fn outside(&self) -> Option<DiagonalPoint> {
         self.limits.iter().rev().find(|p| p.moved < 0.0).copied()
     }
 
     /// Where the slope falls fastest on the way inside: the tip of the parabola through the three
     /// lowest rates of the slope.
-    pub(super) fn knee(&self) -> Option<CurvePoint> {
-        let inside: Vec<&CurvePoint> = self.places.iter().filter(|p| p.moved > 0.0).collect();
+    pub(super) fn knee(&self) -> Option<DiagonalPoint> {
+        let inside: Vec<&DiagonalPoint> = self.places.iter().filter(|p| p.moved > 0.0).collect();
         let rates: Vec<(f64, f64)> = inside
             .windows(2)
             .filter(|w| w[1].moved > w[0].moved)
@@ -129,7 +129,7 @@ impl Curve {
         let near = inside
             .iter()
             .min_by(|p, q| (p.moved - moved).abs().total_cmp(&(q.moved - moved).abs()))?;
-        Some(CurvePoint {
+        Some(DiagonalPoint {
             moved,
             force: self.force(moved)?,
             ..**near
@@ -196,13 +196,13 @@ impl Bars {
     }
 
     /// Held at a displacement (mm).
-    pub(super) fn held(&self, moved: f64) -> Result<CurvePoint, Cause> {
+    pub(super) fn held(&self, moved: f64) -> Result<DiagonalPoint, Cause> {
         hold(&self.barred.posture()?, self.at, moved)
     }
 
     /// On the way to a displacement (mm), the last place before the first limit of the force or the
     /// first loss of a bar's shape, whichever comes first.
-    pub(super) fn first_limit(&self, to: f64) -> Result<Option<CurvePoint>, Cause> {
+    pub(super) fn first_limit(&self, to: f64) -> Result<Option<DiagonalPoint>, Cause> {
         // Where a bar has lost its shape the solver may find nothing at all.
         let holds = |moved: f64| {
             let place = self.held(moved).ok()?;
@@ -231,12 +231,12 @@ impl Bars {
 }
 
 /// A posture held at a displacement (mm) along the diagonal from `(at, at, at)` m, not turned.
-pub(super) fn hold(posture: &Posture, at: f64, moved: f64) -> Result<CurvePoint, Cause> {
+pub(super) fn hold(posture: &Posture, at: f64, moved: f64) -> Result<DiagonalPoint, Cause> {
     let place = Vector3::repeat(at) + diagonal() * (moved * 1e-3);
     let e = posture.wrench_at(&target(place.into()))?;
     let stiffness = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).into_owned();
     let slope = diagonal().dot(&(stiffness * diagonal())) * 1e-3;
-    Ok(CurvePoint {
+    Ok(DiagonalPoint {
         moved,
         force: e.wrench.force().dot(&diagonal()) * 1e-3,
         slope,

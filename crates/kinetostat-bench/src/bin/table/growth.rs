@@ -5,7 +5,7 @@ use kinetostat::{
     ActuatorSpec, BeamSection, Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose,
     model::LinkConvention,
 };
-use kinetostat_bench::{Places, Quantity, Task, sample};
+use kinetostat_bench::{BenchQuantity, Places, Task, sample};
 use nalgebra::Vector3;
 
 use crate::{BLOCK, at_most, exponent, median};
@@ -60,16 +60,16 @@ pub fn springs() -> Result<()> {
     let names = ["K_C", "equilibrium", "equil. and K_C"];
     heading("springs", &names);
     let quantities = [
-        Quantity::Stiffness,
-        Quantity::Equilibrium,
-        Quantity::EquilibriumAndStiffness,
+        BenchQuantity::Stiffness,
+        BenchQuantity::Equilibrium,
+        BenchQuantity::EquilibriumAndStiffness,
     ];
     let mut rows = [const { Vec::new() }; 3];
     for pieces in [1, 3, 10, 30, 100, 300, 1000] {
         let count = (1000 / pieces).clamp(16, 256);
         line(6 * pieces, &mut rows, |k| {
             let wrenches = match quantities[k] {
-                Quantity::Stiffness => Vec::new(),
+                BenchQuantity::Stiffness => Vec::new(),
                 _ => sample::wrenches(0..count, 20.0, 5.0),
             };
             let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
@@ -132,10 +132,10 @@ pub fn limbs() -> Result<()> {
             let home = Places::Poses(vec![Pose::translation(0.0, 0.0, 1.0); BLOCK]);
             let machine = table_on_legs(legs)?;
             match k {
-                0 => Task::new(machine, Quantity::Stiffness, home, &[]),
+                0 => Task::new(machine, BenchQuantity::Stiffness, home, &[]),
                 _ => {
                     let wrenches = sample::wrenches(0..BLOCK, 300.0, 10.0);
-                    Task::new(machine, Quantity::Equilibrium, home, &wrenches)
+                    Task::new(machine, BenchQuantity::Equilibrium, home, &wrenches)
                 }
             }
         })?;
@@ -149,7 +149,10 @@ pub fn postures() -> Result<()> {
     println!("Growth with the number of postures (arm, blocks of {BLOCK}), us per posture");
     let names = ["J and K_C", "equilibrium"];
     heading("postures", &names);
-    let quantities = [Quantity::StiffnessAndJacobian, Quantity::Equilibrium];
+    let quantities = [
+        BenchQuantity::StiffnessAndJacobian,
+        BenchQuantity::Equilibrium,
+    ];
     let mut rows = [const { Vec::new() }; 2];
     for count in [1, 10, 100, 1000, 10_000, 100_000, 1_000_000] {
         line(count, &mut rows, |k| ARM.task(quantities[k], count, false))?;

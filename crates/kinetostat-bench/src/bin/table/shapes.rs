@@ -1,7 +1,7 @@
 //! Machines of different shapes in one table, with plain and with bowing links.
 
 use anyhow::{Result, ensure};
-use kinetostat_bench::Quantity;
+use kinetostat_bench::BenchQuantity;
 
 use crate::{BLOCK, median};
 use kinetostat_bench::machines::ALL;
@@ -31,8 +31,8 @@ pub fn table() -> Result<()> {
             print!("{name:<34}{:>8}", machine.springs);
             let quantities = [
                 machine.unloaded(),
-                Quantity::Equilibrium,
-                Quantity::EquilibriumAndStiffness,
+                BenchQuantity::Equilibrium,
+                BenchQuantity::EquilibriumAndStiffness,
             ];
             let mut scalar_counts = Vec::new();
             for (work, width) in quantities.into_iter().zip([12, 14, 16]) {

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::Result;
-use kinetostat_bench::{Quantity, Results};
+use kinetostat_bench::{BenchQuantity, Results};
 
 use crate::{BLOCK, at_least, at_most, median, pass};
 use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
@@ -12,12 +12,12 @@ use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
 /// other programs leave both cores alone now and then.
 const PASS: f64 = 4000.0;
 
-const CASES: [(&str, BenchMachine, Quantity); 5] = [
-    ("W1", ARM, Quantity::StiffnessAndJacobian),
-    ("W2", HEXAPOD, Quantity::Stiffness),
-    ("W3", ARM, Quantity::Equilibrium),
-    ("W3+K", ARM, Quantity::EquilibriumAndStiffness),
-    ("W4", PUU3, Quantity::Equilibrium),
+const CASES: [(&str, BenchMachine, BenchQuantity); 5] = [
+    ("W1", ARM, BenchQuantity::StiffnessAndJacobian),
+    ("W2", HEXAPOD, BenchQuantity::Stiffness),
+    ("W3", ARM, BenchQuantity::Equilibrium),
+    ("W3+K", ARM, BenchQuantity::EquilibriumAndStiffness),
+    ("W4", PUU3, BenchQuantity::Equilibrium),
 ];
 
 /// What one posture costs that is solved by itself.

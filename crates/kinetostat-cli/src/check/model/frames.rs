@@ -30,7 +30,7 @@ pub(crate) struct Frames {
     joints: Vec<JointDirection>,
     /// What the controller shows at home, in the order of its axes.
     pendant_at_home: Vec<JointValue>,
-    pendant: Vec<ControllerAxis>,
+    pendant: Vec<ShownAxis>,
 }
 
 /// The tool's motion by a small positive motion of one joint, the others held, at home.
@@ -50,7 +50,7 @@ struct JointDirection {
 
 /// An axis of the controller by the model's joints.
 #[derive(Serialize)]
-struct ControllerAxis {
+struct ShownAxis {
     name: String,
     unit: &'static str,
     follows: String,
@@ -147,13 +147,10 @@ pub(crate) fn frames(model: &Model) -> Frames {
     }
 }
 
-fn controller_axes(
-    m: &Mechanism,
-    controller: &kinetostat_model::Controller,
-) -> Vec<ControllerAxis> {
+fn controller_axes(m: &Mechanism, controller: &kinetostat_model::Controller) -> Vec<ShownAxis> {
     let names = m.actuator_names();
     let axes = controller.axes().iter().enumerate();
-    axes.map(|(i, axis)| ControllerAxis {
+    axes.map(|(i, axis)| ShownAxis {
         name: axis.name.clone(),
         unit: axis.unit.word(),
         follows: controller.description(i, &names),
