@@ -18,7 +18,7 @@ pub struct ContinuousRotation {
 }
 
 impl ContinuousRotation {
-    /// No rotation: everything it is requested is zero.
+    /// No rotation: every result is zero.
     #[must_use]
     pub fn none() -> Self {
         Self {

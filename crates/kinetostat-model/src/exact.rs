@@ -2,7 +2,7 @@
 //!
 //! Serde takes the first three numbers of a list for `[f64; 3]` and leaves the rest unread, so that a decimal
 //! comma (`[1500,5, -30, 900]`) would be another place without a word. Here every list whose type has a
-//! length is counted, whatever type it stands in; where a word is needed, the words are reported.
+//! length is counted, whatever type it stands in; where a word is needed, the words are listed.
 
 use std::fmt;
 

@@ -7,7 +7,8 @@
 //! # How it is made
 //!
 //! - `run`: what a report of a run shows. `meaning` says in plain words what the run means; `facts` collects figures,
-//!   tables and what was requested; `along` draws what changes along the path, `plan` the path itself with the deviation
+//!   tables and what was requested; `along` draws what changes along the path, `plan` the path itself with
+//!   the deviation
 //!   magnified, `preview` the stand-alone picture; `page` fills the template (minijinja with automatic escaping).
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
 //!   length of a path. They share `axis`, `outline`, `label` and `title`.

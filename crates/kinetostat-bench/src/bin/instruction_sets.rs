@@ -1,4 +1,5 @@
-//! Every instruction set gives the same bits, in an optimised build: it has kernels that the build for tests does not have.
+//! Every instruction set gives the same bits, in an optimised build: it has kernels that the build for
+//! tests does not have.
 //! `cargo xtask test` runs it.
 
 use std::process::ExitCode;

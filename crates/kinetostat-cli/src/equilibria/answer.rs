@@ -53,7 +53,8 @@ pub(crate) struct ShapeAnswer {
     /// At a limit or bifurcation point, or one of a family that moves for nothing.
     pub(crate) singular: bool,
     pub(crate) found_by_spread_starts: usize,
-    /// Along the requested direction; without one the smallest principal stiffness, rotations at the natural length. Null if infinite.
+    /// Along the requested direction; without one the smallest principal stiffness, rotations at the
+    /// natural length. Null if infinite.
     pub(crate) stiffness_n_per_mm: f64,
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); at the tool's tip.
     pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],

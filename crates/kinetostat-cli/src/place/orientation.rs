@@ -32,7 +32,7 @@ pub(crate) fn option_or_follows(flag: &str, text: &str) -> Answer<Option<UnitQua
     }
 }
 
-/// What a machine does that is requested positions only: how far its tool turns, or turns at most.
+/// What a machine does whose targets are positions only: how far its tool turns, or turns at most.
 pub(crate) fn follows(turned_deg: f64, requested: bool, at_most: bool) -> Warning {
     let by = if at_most { "by up to" } else { "by" };
     let why = match requested {

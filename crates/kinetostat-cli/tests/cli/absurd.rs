@@ -781,7 +781,8 @@ fn angles_in_radians_under_degrees_are_implausible_in_every_command() {
     }
 }
 
-/// What is beyond its limits by far is refused before the program is solved everywhere, with what is implausible in the
+/// What is beyond its limits by far is refused before the program is solved everywhere, with what is
+/// implausible in the
 /// model; a place is questioned as a program is.
 #[test]
 fn a_hopeless_program_is_refused_with_what_is_implausible_in_the_model() {

@@ -150,7 +150,7 @@ fn the_straight_chain_buckles_at_one_and_three() {
         assert!(number(&fork["displacement_mm"]).abs() < 1e-9);
         assert!(fork["slope_n_per_mm"].is_null() || number(&fork["slope_n_per_mm"]).abs() > 1e6);
     }
-    // Without limits of the force the locked chain is reported about, and buckles all the same.
+    // Without limits of the force a warning names the locked chain, and it buckles all the same.
     let said = run(
         here.path(),
         &[

@@ -1,4 +1,4 @@
-//! The figures of a program without compensation do not depend on the command that was requested them.
+//! The figures of a program without compensation do not depend on the command that computes them.
 
 use std::path::Path;
 

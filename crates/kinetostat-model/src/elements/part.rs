@@ -3,7 +3,7 @@
 use kinetostat::{ActuatorSpec, ChainBuilder, LinkSpec, MotionKind, Pose, model::SpringLaw};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-/// What the core's builder is reported, one call each.
+/// The calls to the core's builder, one each.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
     /// Offset; the name is where deviations attach.

@@ -1,4 +1,5 @@
-//! Every number of a tree of tables and lists, with its key and its place: one traversal for documents, which have no text,
+//! Every number of a tree of tables and lists, with its key and its place: one traversal for documents,
+//! which have no text,
 //! and for texts, whose numbers know where they stand.
 
 use serde_json::Value;

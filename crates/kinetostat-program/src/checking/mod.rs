@@ -1,4 +1,5 @@
-//! The last check of a written program, from its bytes: its geometry and feeds, its text, and the field evaluated again in
+//! The last check of a written program, from its bytes: its geometry and feeds, its text, and the field
+//! evaluated again in
 //! places that the division did not choose.
 
 pub(crate) mod field;

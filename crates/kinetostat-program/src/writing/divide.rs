@@ -16,7 +16,8 @@
 //! - at the irregular place the polynomial agrees with the field.
 //!
 //! Otherwise it is halved. Neighbouring pieces are joined again where the same bound allows it
-//! ([`crate::writing::merge`]). All blocks are divided together, in rounds, so that the field is evaluated in large batches.
+//! ([`crate::writing::merge`]). All blocks are divided together, in rounds, so that the field is evaluated
+//! in large batches.
 
 use nalgebra::Vector3;
 

@@ -209,7 +209,7 @@ pub fn stability_within(
         .copy_from(&(&hessian - &springs));
     let inertia = inertia(bordered);
 
-    // Neutral passive motions leave the stability.
+    // Neutral passive motions do not count for stability.
     let neutral = neutral_motions(chain, jacobian, &rows, &hessian);
     let units = MaterialUnits::of(chain, &springs);
     let mut taken_out = DMatrix::zeros(n, rank + neutral.ncols());
@@ -252,7 +252,7 @@ pub fn stability_within(
 /// Orthonormal motions of passive joints alone that move nothing that is held and that the loads
 /// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, scaled: those
 /// passive null motions `v` for which `N^T H v = 0` with all null motions `N`. Others of the same
-/// joints may be held or pushed and stay in the stability. `rows` are independent rows of `jacobian`.
+/// joints may be held or pushed and count for stability. `rows` are independent rows of `jacobian`.
 pub(crate) fn neutral_motions(
     chain: &Chain,
     jacobian: &DMatrix<f64>,

@@ -2,7 +2,8 @@
 //! bifurcations.
 //!
 //! Takes an equilibrium and what grows, gives the curve through it with limit points, bifurcations, jumps and stability.
-//! What a curve needs of a chain or a machine is one trait (`system`), implemented in `chain_*` and `machine_system` (with
+//! What a curve needs of a chain or a machine is one trait (`system`), implemented in `chain_*` and
+//! `machine_system` (with
 //! `tool_*`); `tracer`, `special_points`, `branch_switching` and `jumps` know nothing else.
 //!
 //! ```text

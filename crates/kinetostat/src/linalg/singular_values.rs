@@ -202,7 +202,7 @@ pub(crate) fn range(a: &DMatrix<f64>, share: f64) -> DMatrix<f64> {
     SingularValues::of(a).range(share)
 }
 
-/// Matrices of more columns are requested certainty first.
+/// Matrices of more columns are first tested for certainty.
 const LARGE: usize = 60;
 
 /// Shortest `x` with the least `|A x - b|`, and an orthonormal basis of what `A` takes to zero, columns x

@@ -273,7 +273,8 @@ impl PlatformSolver<'_> {
         }
     }
 
-    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is the residual after
+    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is the
+    /// residual after
     /// one step.
     pub fn grow_load(
         &mut self,
