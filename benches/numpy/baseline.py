@@ -265,21 +265,21 @@ def puu_equilibrium(place, wrench, tolerance=1e-10):
         jacobian = np.concatenate([move, turn], -1)
         # Rows of passive joints in the stiffness are zero, so that x may hold their angles.
         forces = x @ LEG_STIFFNESS - np.einsum('blni,bli->bln', jacobian, reaction)
-        gap = np.concatenate([tip - at[:, None], logarithm(orientation @ flipped(tool)[:, None])], -1)
-        lack = wrench - reaction.sum(1)
+        closure = np.concatenate([tip - at[:, None], logarithm(orientation @ flipped(tool)[:, None])], -1)
+        unbalanced = wrench - reaction.sum(1)
         off = max((np.linalg.norm(forces, axis=(1, 2)) / size).max(),
-                  np.linalg.norm(gap, axis=(1, 2)).max() / Puu.strut_length,
-                  (np.linalg.norm(lack, axis=1) / size).max())
+                  np.linalg.norm(closure, axis=(1, 2)).max() / Puu.strut_length,
+                  (np.linalg.norm(unbalanced, axis=1) / size).max())
         if off < tolerance:
             return at, tool
         block[..., :17, :17] = LEG_STIFFNESS - geometric(turn, move, reaction[..., :3], reaction[..., 3:])
         block[..., :17, 17:] = -jacobian
         block[..., 17:, :17] = flipped(jacobian)
         right[..., :17, 0] = -forces
-        right[..., 17:, 0] = -gap
+        right[..., 17:, 0] = -closure
         solved = np.linalg.solve(block, right)
         stiffness = solved[..., 17:, 1:].sum(1)
-        step = np.linalg.solve(stiffness, (lack - solved[..., 17:, 0].sum(1))[..., None])[..., 0]
+        step = np.linalg.solve(stiffness, (unbalanced - solved[..., 17:, 0].sum(1))[..., None])[..., 0]
         change = solved[..., 0] + np.einsum('blij,bj->bli', solved[..., 1:], step)
         x, reaction = x + change[..., :17], reaction + change[..., 17:]
         at, tool = at + step[:, :3], exponential(step[:, 3:]) @ tool

@@ -143,10 +143,10 @@ def main():
         must, goal = ASKED[work.name]
         say(f'{work.name + "  " + MEANING[work.name]:<32}{numpy:11.3f}{own:12.4f}{row["ratio"]:8.1f}{must:6}{goal:6}'
             f'{(bowing or [0])[0]:12.4f}{apart:10.1e}')
-        alone = work.task.answers(BLOCK)
-        lonely = work.count - alone['together']
-        if lonely:
-            say(f'      {lonely} of {work.count} postures are solved alone' + (f': {work.task.alone()}' if work.task.alone() else ''))
+        answers = work.task.answers(BLOCK)
+        scalar = work.count - answers['vectorised']
+        if scalar:
+            say(f'      {scalar} of {work.count} postures are solved one by one' + (f': {work.task.scalar_reason()}' if work.task.scalar_reason() else ''))
     if options.json:
         json.dump(rows, sys.stdout, indent=1)
         print()

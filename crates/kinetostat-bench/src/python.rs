@@ -62,7 +62,7 @@ mod kinetostat_bench {
         }
 
         /// Why the postures are solved one by one, or None.
-        fn alone(&self) -> Option<String> {
+        fn scalar_reason(&self) -> Option<String> {
             self.0.scalar_reason()
         }
 
@@ -85,7 +85,7 @@ mod kinetostat_bench {
             out.set_item("coordinates", bytes(&all.coordinates))?;
             out.set_item("stiffness", bytes(&all.stiffness))?;
             out.set_item("jacobian", bytes(&all.jacobian))?;
-            out.set_item("together", all.vectorised)?;
+            out.set_item("vectorised", all.vectorised)?;
             out.set_item("not_found", all.not_found)?;
             Ok(out)
         }

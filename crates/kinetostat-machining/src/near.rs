@@ -106,21 +106,21 @@ fn described(near: &NearSingularity, length: f64) -> NearSingular {
             there.trim_start_matches("there ")
         )
     } else {
-        let mut way = Vec::new();
+        let mut motions = Vec::new();
         let mut far = Vec::new();
         if motion.norm() > 1e-2 * 1e3 * near.distance_m {
             far.push(format!("{} mm", digits(motion.norm())));
-            way.push(format!("moves along {}", axis(&motion)));
+            motions.push(format!("moves along {}", axis(&motion)));
         }
         if turn.norm().to_radians() * length > 1e-2 * near.distance_m {
             far.push(format!("{} deg", digits(turn.norm())));
-            way.push(format!("turns about {}", axis(&turn)));
+            motions.push(format!("turns about {}", axis(&turn)));
         }
         format!(
             "a singular posture is near{}: {} of tool motion away, if the tool {}; {there}",
             if near.followed { "" } else { " (estimated)" },
             far.join(" and "),
-            way.join(" and "),
+            motions.join(" and "),
         )
     };
     NearSingular {

@@ -31,7 +31,7 @@ pub(crate) fn answer_text(heading: &str, a: &CurveAnswer) -> String {
     if !a.conservative {
         out.push('\n');
         out.push_str(&wrapped(
-            "Some loads have no potential, so a verdict on stability says that small pushes die away quasi-statically, not that an energy is least.",
+            "Some loads have no potential, so stability says that small pushes die away quasi-statically, not that an energy is least.",
             0,
         ));
     }

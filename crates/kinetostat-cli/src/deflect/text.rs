@@ -105,7 +105,7 @@ fn stability(a: &Deflection) -> String {
     out.push_str(&layout::item(&platform(a)));
     if let Some(share) = a.free_beyond_limbs.filter(|_| a.stable) {
         let of = match a.snapped {
-            true => "this equilibrium behind the snap, with the tool free,",
+            true => "this equilibrium beyond the snap, with the tool free,",
             false => "the machine with its tool free",
         };
         out.push_str(&layout::item(&format!(
@@ -129,7 +129,7 @@ fn stability(a: &Deflection) -> String {
 /// Whether the platform stays where it is.
 fn platform(a: &Deflection) -> String {
     if a.platform_may_flutter {
-        let ways = match a.negative_directions.as_slice() {
+        let directions = match a.negative_directions.as_slice() {
             [] => String::new(),
             list => format!(
                 ", as its stiffness is not positive where it {}",
@@ -137,7 +137,7 @@ fn platform(a: &Deflection) -> String {
             ),
         };
         format!(
-            "the platform does not go away, but may swing with growing amplitude (flutter), which depends on its masses{ways}"
+            "the platform does not go away, but may swing with growing amplitude (flutter), which depends on its masses{directions}"
         )
     } else if !a.platform_stable {
         match a.negative_directions.as_slice() {

@@ -22,7 +22,7 @@ pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
 pub(crate) fn snaps(limit: &LoadLimit) -> Warning {
     let d = 1e3 * limit.displacement.linear();
     let said = format!(
-        "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is told here is another equilibrium behind it. `kinetostat curve` shows the way, `kinetostat equilibria` all of them",
+        "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is reported here is another equilibrium beyond it. `kinetostat curve` shows the path, `kinetostat equilibria` all of them",
         number(limit.share, 4),
         triple(d.into(), |x| fixed(x, 4))
     );

@@ -202,8 +202,8 @@ fn participation(posture: &Posture, from: &Placed, to: &Placed) -> Vec<Share> {
     let mut list = Vec::new();
     for (i, limb) in posture.mechanism().limbs().iter().enumerate() {
         let length = limb.nominal.scale().length;
-        let ways = from.coordinates[i].iter().zip(&to.coordinates[i]);
-        for (coordinate, (a, b)) in limb.nominal.coordinates().iter().zip(ways) {
+        let pairs = from.coordinates[i].iter().zip(&to.coordinates[i]);
+        for (coordinate, (a, b)) in limb.nominal.coordinates().iter().zip(pairs) {
             let motion = (b - a) / STEP;
             let size = match coordinate.kind {
                 MotionKind::Prismatic => motion,

@@ -413,12 +413,12 @@ fn the_tolerance_is_in_proportion_to_the_machine() {
         assert_eq!(said.code, 0, "{said:?}");
         let text = std::fs::read(here.path().join("r.json")).expect("the result");
         let result: Value = serde_json::from_slice(&text).expect("JSON");
-        let question = &result["question"];
-        let reported = question["tolerance_mm"].as_f64().expect("a number");
-        assert!((reported - path).abs() < 1e-12, "{question}");
-        let chord = question["chord_tolerance_mm"].as_f64().expect("a number");
-        assert!((chord - 0.8 * path).abs() < 1e-12, "{question}");
-        let words = question["tolerance_from"].as_str().expect("words");
+        let inputs = &result["question"];
+        let reported = inputs["tolerance_mm"].as_f64().expect("a number");
+        assert!((reported - path).abs() < 1e-12, "{inputs}");
+        let chord = inputs["chord_tolerance_mm"].as_f64().expect("a number");
+        assert!((chord - 0.8 * path).abs() < 1e-12, "{inputs}");
+        let words = inputs["tolerance_from"].as_str().expect("words");
         assert!(words.contains(from), "{words}");
     }
 }

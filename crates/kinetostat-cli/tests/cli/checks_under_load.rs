@@ -68,9 +68,9 @@ fn cases() -> Vec<(&'static str, [f64; 3], Vec<f64>)> {
 #[test]
 fn check_tells_under_a_load_what_deflect_tells() {
     let mut unstable = 0;
-    for (model, way, loads) in cases() {
+    for (model, load_direction, loads) in cases() {
         for size in loads {
-            let force = way.map(|x| x * size);
+            let force = load_direction.map(|x| x * size);
             let at = format!("{model} {force:?}");
             let (checked, words) = under("check", model, force).expect("an answer");
             let a = &checked["assumptions"];
@@ -111,11 +111,12 @@ fn check_tells_under_a_load_what_deflect_tells() {
 
 #[test]
 fn a_share_of_the_way_grows_to_one_and_is_never_below_that_of_a_limb() {
-    for (model, way, loads) in cases() {
+    for (model, load_direction, loads) in cases() {
         let mut before = 0.0_f64;
         for size in loads {
-            let at = format!("{model} {way:?} times {size}");
-            let Some((reported, words)) = under("deflect", model, way.map(|x| x * size)) else {
+            let at = format!("{model} {load_direction:?} times {size}");
+            let Some((reported, words)) = under("deflect", model, load_direction.map(|x| x * size))
+            else {
                 continue;
             };
             let share = reported[SHARE].as_f64();

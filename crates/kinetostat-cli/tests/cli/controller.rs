@@ -26,18 +26,18 @@ fn axis(letter: char) -> Vector3<f64> {
 /// The tool in the base, mm, for joints in degrees.
 fn tool(joints: [f64; 6]) -> Isometry3<f64> {
     let each = JOINTS.iter().zip(joints);
-    each.fold(Isometry3::identity(), |pose, ((letter, way), q)| {
+    each.fold(Isometry3::identity(), |pose, ((letter, offset), q)| {
         pose * UnitQuaternion::from_scaled_axis(axis(*letter) * q.to_radians())
-            * Translation3::new(way[0], way[1], way[2])
+            * Translation3::new(offset[0], offset[1], offset[2])
     })
 }
 
 /// The same arm as a model; `change` rewrites the axis of a joint.
 fn model(change: impl Fn(usize) -> String, controller: &str) -> String {
     let mut elements = String::new();
-    for (i, (_, way)) in JOINTS.iter().enumerate() {
+    for (i, (_, offset)) in JOINTS.iter().enumerate() {
         elements.push_str(&format!(
-            "  {{ actuator = \"revolute\", name = \"joint_{}\", {}, stiffness_n_m_per_rad = 1e6 }},\n  {{ rigid = {{ translation_mm = {way:?} }} }},\n",
+            "  {{ actuator = \"revolute\", name = \"joint_{}\", {}, stiffness_n_m_per_rad = 1e6 }},\n  {{ rigid = {{ translation_mm = {offset:?} }} }},\n",
             i + 1,
             change(i),
         ));
@@ -680,9 +680,9 @@ fn the_table_of_points_has_controller_coordinates() {
         let read = |at: usize| cells[at].parse::<f64>().expect("a number");
         let q: Vec<f64> = joints.iter().map(|at| read(*at)).collect();
         // J3 is shown less the second, J4 the other way round.
-        let asked = [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
-        for (at, asked) in shown.iter().zip(asked) {
-            assert!((read(*at) - asked).abs() < 2e-5, "{line}");
+        let expected = [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
+        for (at, expected) in shown.iter().zip(expected) {
+            assert!((read(*at) - expected).abs() < 2e-5, "{line}");
         }
         // Every joint stands near where the product written out above has it.
         for (q, near) in q.iter().zip(at) {

@@ -593,12 +593,12 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
         let half: f64 = 0.5 * (3.0 - follows);
         match half >= 1.0 {
             true => {
-                let asked = 100.0 * (half - (half * half - 1.0).sqrt());
+                let expected = 100.0 * (half - (half * half - 1.0).sqrt());
                 for name in ["factor", "linear_factor"] {
                     let found = number(&whole[name]);
                     assert!(
-                        (found - asked).abs() < 1e-4,
-                        "{follows} {name}: {found} {asked}"
+                        (found - expected).abs() < 1e-4,
+                        "{follows} {name}: {found} {expected}"
                     );
                 }
             }

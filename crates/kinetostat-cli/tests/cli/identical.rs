@@ -9,7 +9,7 @@ use kinetostat_testing::largest;
 use serde_json::Value;
 
 /// One of every kind of answer; files go to the working directory.
-const QUESTIONS: [&str; 13] = [
+const QUERIES: [&str; 13] = [
     "check heavy_6r",
     "stiffness orthoglide --json",
     "deflect heavy_6r --force 300 0 -500 --json",
@@ -43,11 +43,11 @@ struct Answer {
     files: BTreeMap<PathBuf, Vec<u8>>,
 }
 
-fn answer(question: &str, environment: (&str, &str)) -> Answer {
+fn answer(query: &str, environment: (&str, &str)) -> Answer {
     let here = workplace();
     std::fs::write(here.path().join("crane.urdf"), URDF).expect("a file");
     let output = command(here.path())
-        .args(question.split(' '))
+        .args(query.split(' '))
         .env(environment.0, environment.1)
         .output()
         .expect("the command starts");
@@ -68,11 +68,11 @@ fn answer(question: &str, environment: (&str, &str)) -> Answer {
 
 #[test]
 fn every_command_answers_with_the_same_bytes_on_any_number_of_threads() {
-    for question in QUESTIONS {
-        let first = answer(question, ("RAYON_NUM_THREADS", "1"));
-        assert_eq!(first.said.0, Some(0), "{question}: {first:?}");
-        let again = answer(question, ("RAYON_NUM_THREADS", "3"));
-        assert!(first == again, "{question}: {first:?} {again:?}");
+    for query in QUERIES {
+        let first = answer(query, ("RAYON_NUM_THREADS", "1"));
+        assert_eq!(first.said.0, Some(0), "{query}: {first:?}");
+        let again = answer(query, ("RAYON_NUM_THREADS", "3"));
+        assert!(first == again, "{query}: {first:?} {again:?}");
     }
 }
 
@@ -128,8 +128,8 @@ fn a_processor_without_fused_steps_writes_the_same_program() {
 #[test]
 fn a_folder_of_answers_is_compared_whole() {
     // A comparison that overlooked files would hold always.
-    let asked = answer(QUESTIONS[4], ("RAYON_NUM_THREADS", "2"));
+    let fifth = answer(QUERIES[4], ("RAYON_NUM_THREADS", "2"));
     for file in ["out.ngc", "report.html", "points.csv", "result.json"] {
-        assert!(asked.files.contains_key(Path::new(file)), "{file}");
+        assert!(fifth.files.contains_key(Path::new(file)), "{file}");
     }
 }

@@ -71,7 +71,7 @@ fn figure_files_of_200_mb_are_refused_without_being_read() {
     let good = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
     std::fs::write(here.path().join("good.urdf"), good).expect("a file");
     let mut most = Worst::new();
-    let questions = [
+    let queries = [
         "import urdf large.urdf",
         "import urdf good.urdf --joint-stiffness large.csv",
         "import urdf good.urdf --link-section large.toml",
@@ -85,23 +85,20 @@ fn figure_files_of_200_mb_are_refused_without_being_read() {
         "check large.toml",
         "compensate large.toml",
     ];
-    for question in questions {
-        let words: Vec<&str> = question.split(' ').collect();
+    for query in queries {
+        let words: Vec<&str> = query.split(' ').collect();
         let (said, peak) = limited(here.path(), &words, 150);
         let reported = ["not read", "larger than", "too large"];
-        assert!(
-            reported.iter().any(|w| said.contains(w)),
-            "{question}: {said}"
-        );
-        assert!(said.contains("large."), "{question}: {said}");
+        assert!(reported.iter().any(|w| said.contains(w)), "{query}: {said}");
+        assert!(said.contains("large."), "{query}: {said}");
         most.add(peak);
     }
     figure(
         "bad imports: kinds of files of 200 MB refused by the command",
-        questions.len() as f64,
+        queries.len() as f64,
         "at least 10",
         "files",
-        questions.len() >= 10,
+        queries.len() >= 10,
     );
     let most = most.value();
     figure(
@@ -118,7 +115,7 @@ fn figure_bombs_within_the_limits_are_refused_in_bounded_memory() {
     let here = tempfile::tempdir().expect("a directory");
     let (urdf, other) = (8 * MB - 4096, 62 * MB);
     let mut most = Worst::new();
-    for (name, head, line, size, question) in [
+    for (name, head, line, size, query) in [
         (
             "elements.urdf",
             "<robot name='r'>",
@@ -173,10 +170,10 @@ fn figure_bombs_within_the_limits_are_refused_in_bounded_memory() {
         repeated(&here.path().join(name), head, line, size);
         std::fs::write(here.path().join("a.dof"), "1.1\n").expect("a file");
         std::fs::write(here.path().join("a.inp"), "*NODE\n1,0,0,0\n").expect("a file");
-        let words: Vec<&str> = question.split(' ').collect();
+        let words: Vec<&str> = query.split(' ').collect();
         let (said, peak) = limited(here.path(), &words, 1000);
-        assert!(said.contains(name), "{question}: {said:.400}");
-        assert!(said.len() < 5000, "{question}: {} bytes", said.len());
+        assert!(said.contains(name), "{query}: {said:.400}");
+        assert!(said.len() < 5000, "{query}: {} bytes", said.len());
         println!("{name}: {peak:.0} MB");
         most.add(peak);
         std::fs::remove_file(here.path().join(name)).expect("removed");
@@ -192,9 +189,9 @@ fn figure_bombs_within_the_limits_are_refused_in_bounded_memory() {
 }
 
 #[track_caller]
-fn figure(name: &str, measured: f64, asked: &str, unit: &str, holds: bool) {
+fn figure(name: &str, measured: f64, required: &str, unit: &str, holds: bool) {
     let figure = serde_json::json!({
-        "name": name, "measured": measured, "asked": asked, "unit": unit, "holds": holds,
+        "name": name, "measured": measured, "asked": required, "unit": unit, "holds": holds,
     });
     println!("figure {figure}");
     assert!(holds, "{figure}");

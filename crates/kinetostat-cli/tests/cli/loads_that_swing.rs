@@ -81,10 +81,10 @@ chain = "{name}"
     )
 }
 
-fn ask(model: &str, question: &[&str]) -> Said {
+fn ask(model: &str, query: &[&str]) -> Said {
     let here = tempfile::tempdir().expect("a directory");
     std::fs::write(here.path().join("m.toml"), model).expect("a file");
-    let line: Vec<&str> = question
+    let line: Vec<&str> = query
         .iter()
         .map(|word| if *word == "M" { "m.toml" } else { *word })
         .collect();
@@ -108,10 +108,10 @@ fn a_pendulum_answers_where_it_hangs() {
         "{}",
         said.out
     );
-    let question = [
+    let query = [
         "model", "draw", "M", "--force", "50", "0", "0", "--out", "a.svg",
     ];
-    let said = ask(PENDULUM, &question).answered();
+    let said = ask(PENDULUM, &query).answered();
     assert!(said.out.contains("247.0491"), "{}", said.out);
 }
 
@@ -249,7 +249,7 @@ fn what_a_jet_takes_from_the_stiffness_is_reported_and_called_no_buckling() {
             ("against_moment_n_m_per_rad", "moment", 2.0 - jet),
             ("against_force_n_per_mm", "force", 1e3 * (5.0 - 2.0 * jet)),
         ] {
-            let none = format!("no stiffness against a {kind} is told");
+            let none = format!("no stiffness against a {kind} is reported");
             let words = words(&ask(&column(jet), &["check", "M"]).answered().out);
             assert_eq!(words.contains(&none), yields < 0.0, "{jet}: {words}");
             match yields > 0.0 {

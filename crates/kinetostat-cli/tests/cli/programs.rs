@@ -49,17 +49,17 @@ fn tools_of_a_program_have_their_own_lengths_and_without_a_table_a_warning() {
     let said = done.answered();
     assert!(!said.out.contains("one tool length"), "{}", said.out);
     let r = result(&std::fs::read(json).unwrap());
-    let question = &r["question"];
+    let inputs = &r["question"];
     assert!(
-        question["tool"].as_str().unwrap().contains("tool 2: 40 mm"),
-        "{question}"
+        inputs["tool"].as_str().unwrap().contains("tool 2: 40 mm"),
+        "{inputs}"
     );
     assert!(
-        question["load"]
+        inputs["load"]
             .as_str()
             .unwrap()
             .contains("tool 2: force (0, 0, -400) N"),
-        "{question}"
+        "{inputs}"
     );
     let force = |line: u64| {
         let points = r["points"].as_array().unwrap();

@@ -38,12 +38,11 @@ fn deflect_and_compensate_agree_before_compensation() {
             "scara" => [400.0, 100.0, 230.0],
             _ => home(here, preset),
         };
-        let question = format!(
+        let query = format!(
             "--program uneven.ngc --tool-length-mm 100 --part-origin-mm {x} {y} {z} --milling 20 -5 -10 --json"
         );
-        let plain = json(here, &format!("deflect {preset} {question}"));
-        let line =
-            format!("compensate --model {preset} {question} - --out o.ngc --force-overwrite");
+        let plain = json(here, &format!("deflect {preset} {query}"));
+        let line = format!("compensate --model {preset} {query} - --out o.ngc --force-overwrite");
         let corrected = json(here, &line);
         let [plain, corrected] = [&plain["summary"], &corrected["summary"]];
         let number = |of: &Value, name: &str| of[name].as_f64().unwrap_or(f64::NAN);
@@ -123,13 +122,13 @@ chain = "arm"
         let program =
             format!("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X10 F600\nG0 Z-1\n{cut}G0 Z50\nG0 X0\nM2\n");
         std::fs::write(here.join("two.ngc"), program).expect("a program");
-        let question =
+        let query =
             "--program two.ngc --part-origin-mm 300 0 0 --force 0 20 0 --below-z-mm 0 --json";
         let most = 20.0 / 1000.0;
         let own: f64 = most * (30.0_f64 / 40.0).sqrt();
         for line in [
-            format!("deflect table.toml {question}"),
-            format!("compensate --model table.toml {question} - --out o.ngc --force-overwrite"),
+            format!("deflect table.toml {query}"),
+            format!("compensate --model table.toml {query} - --out o.ngc --force-overwrite"),
         ] {
             let summary = &json(here, &line)["summary"];
             let number = |name: &str| summary[name].as_f64().expect("a number");

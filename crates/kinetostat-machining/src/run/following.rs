@@ -23,10 +23,10 @@ pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
     let near = NEAR * task.mechanism.size();
     points.windows(2).find_map(|pair| {
         let [a, b] = [pair[0].tool_turn_deg?, pair[1].tool_turn_deg?];
-        let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
-        let way = task.placement.to_metres(&way).norm();
+        let distance = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
+        let distance = task.placement.to_metres(&distance).norm();
         let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
-        (way < near && turn > AlongPath::JUMP).then_some(pair[1].line)
+        (distance < near && turn > AlongPath::JUMP).then_some(pair[1].line)
     })
 }
 

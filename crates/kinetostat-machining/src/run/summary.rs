@@ -156,8 +156,8 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
     for pair in points.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         // A rapid between them is no part of the path.
-        let way = to.path_mm - from.path_mm.max(to.start_mm);
-        if to.kind != PointKind::Feed || way <= 0.0 {
+        let stretch = to.path_mm - from.path_mm.max(to.start_mm);
+        if to.kind != PointKind::Feed || stretch <= 0.0 {
             continue;
         }
         // A block's own first place is not looked at: the load turns at a corner.
@@ -166,8 +166,8 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
         } else {
             value(to)
         };
-        sum += way * mean;
-        length += way;
+        sum += stretch * mean;
+        length += stretch;
     }
     if length > 0.0 {
         return sum / length;

@@ -119,11 +119,12 @@ fn a_spindle_head_cuts_a_ring_and_says_how_far_it_turns() {
     );
     // Continuous: ends and middles of chords follow each other.
     for pair in plain.points.windows(2) {
-        let way = (Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm)).norm();
+        let distance =
+            (Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm)).norm();
         let [a, b] = [&pair[0], &pair[1]].map(|p| Vector3::from(p.tool_turn_deg.expect("turn")));
         assert!(
-            (b - a).norm() < 0.3 * way + 1e-9,
-            "{way} {}",
+            (b - a).norm() < 0.3 * distance + 1e-9,
+            "{distance} {}",
             (b - a).norm()
         );
     }

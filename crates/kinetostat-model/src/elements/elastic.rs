@@ -128,7 +128,7 @@ impl Elastic {
             choice("length_mm", s.length_mm, MM),
             choice("length_m", s.length_m, 1.0),
         ];
-        let mut ways = matrices
+        let mut forms = matrices
             .iter()
             .filter(|c| c.value.is_some())
             .map(|c| c.key)
@@ -139,7 +139,7 @@ impl Elastic {
                     .map(|c| c.key),
             )
             .chain(s.section.as_ref().map(|_| "section"));
-        let (one, other) = (ways.next(), ways.next());
+        let (one, other) = (forms.next(), forms.next());
         if let (Some(one), Some(other)) = (one, other) {
             return Err(Some(Finding::new(
                 &place.key(other),
@@ -263,7 +263,7 @@ fn check_definite(place: &KeyPath, k: &Matrix6<f64>) -> ReadResult<()> {
         return Err(Finding::new(
             place,
             format!(
-                "the matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {least:.2e}, more than {SINGULAR:e} is needed)"
+                "the matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest scaled eigenvalue {least:.2e}, more than {SINGULAR:e} is needed)"
             ),
             "a direction that nothing holds is a passive joint; a very soft one is held where the matrix is diagonal: turn the frame into the spring's principal axes before it and back after it",
         ));

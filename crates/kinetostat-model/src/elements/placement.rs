@@ -113,10 +113,10 @@ fn orientation(place: &KeyPath, p: &Placement) -> ReadResult<UnitQuaternion<f64>
         .as_ref()
         .map(|_| "x_axis")
         .or(p.y_axis.as_ref().map(|_| "y_axis"));
-    let mut ways = [angles.map(|g| g.key), quaternion.map(|g| g.key), axes]
+    let mut forms = [angles.map(|g| g.key), quaternion.map(|g| g.key), axes]
         .into_iter()
         .flatten();
-    if let (Some(one), Some(other)) = (ways.next(), ways.next()) {
+    if let (Some(one), Some(other)) = (forms.next(), forms.next()) {
         return Err(Finding::new(
             &place.key(other),
             format!("the orientation is given twice: '{one}' and '{other}'"),

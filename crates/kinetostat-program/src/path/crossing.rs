@@ -15,10 +15,10 @@ impl Move {
         match &self.curve {
             Curve::Line => {
                 let (from, to) = (self.start[axis], self.end[axis]);
-                let way = to - from;
+                let span = to - from;
                 between(places_mm, from, to)
                     .iter()
-                    .map(|place| (place - from) / way)
+                    .map(|place| (place - from) / span)
                     .filter(|share| *share > 0.0 && *share < 1.0)
                     .collect()
             }

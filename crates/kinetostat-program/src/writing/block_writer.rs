@@ -325,8 +325,8 @@ impl<'a> BlockWriter<'a> {
                 return None;
             }
         } else {
-            let way = (target_mm - state.position[axis]).abs() / self.motion.words.mm_per_unit;
-            if way <= half || !self.stated[axis] {
+            let distance = (target_mm - state.position[axis]).abs() / self.motion.words.mm_per_unit;
+            if distance <= half || !self.stated[axis] {
                 return None;
             }
         }

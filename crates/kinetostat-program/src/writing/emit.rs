@@ -517,16 +517,18 @@ impl<'a> Emitter<'a> {
                 *from
             }
         };
-        let way = self.state.position - began;
+        let displacement = self.state.position - began;
         let middle = 0.5 * (step.share_from + step.share_to);
-        let mut backward = motion.tangent(middle).map_or(0.0, |along| -way.dot(&along));
+        let mut backward = motion
+            .tangent(middle)
+            .map_or(0.0, |along| -displacement.dot(&along));
         if step.corner_step && step.share_to == 0.0 {
             let before = move_index
                 .checked_sub(1)
                 .map(|index| &self.path.moves[index]);
             let before = before.filter(|before| is_divided(before));
             if let Some(along) = before.and_then(|before| before.tangent(1.0)) {
-                backward = backward.max(-way.dot(&along));
+                backward = backward.max(-displacement.dot(&along));
             }
         }
         let accounting = &mut self.accounting;

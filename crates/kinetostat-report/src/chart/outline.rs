@@ -60,14 +60,14 @@ fn stretches(points: &[Pixel]) -> Vec<Vec<Pixel>> {
         let (mut from, to) = (pair[0], pair[1]);
         loop {
             let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-            let way = dx.hypot(dy);
+            let segment = dx.hypot(dy);
             // Also where it is no number.
-            if way.partial_cmp(&left) != Some(std::cmp::Ordering::Greater) {
-                left -= way;
+            if segment.partial_cmp(&left) != Some(std::cmp::Ordering::Greater) {
+                left -= segment;
                 open.push(to);
                 break;
             }
-            let share = left / way;
+            let share = left / segment;
             from = (from.0 + share * dx, from.1 + share * dy);
             open.push(from);
             out.push(std::mem::replace(&mut open, vec![from]));

@@ -344,33 +344,36 @@ impl Trace<'_, '_> {
 
     /// A drive that slides: a carriage on a rail where nothing passive comes before it, else a
     /// sleeve with a rod.
-    fn slide(&mut self, axis: Vector3<f64>, way: f64, limits: Option<(f64, f64)>) {
+    fn slide(&mut self, axis: Vector3<f64>, travel: f64, limits: Option<(f64, f64)>) {
         let (from, unit) = (self.here(), self.scene.unit);
-        let to = from + axis * way;
+        let to = from + axis * travel;
         if self.passive_before {
             let least = match limits {
-                Some((low, high)) if low * way > 0.0 && high * way > 0.0 => {
-                    low.abs().min(high.abs()).min(way.abs()) * way.signum()
+                Some((low, high)) if low * travel > 0.0 && high * travel > 0.0 => {
+                    low.abs().min(high.abs()).min(travel.abs()) * travel.signum()
                 }
-                _ => 0.6 * way,
+                _ => 0.6 * travel,
             };
-            let (near, far) = (0.06 * way, 0.92 * least);
+            let (near, far) = (0.06 * travel, 0.92 * least);
             let middle = from + axis * (0.5 * (near + far));
             let rod = |a: f64, b: f64| {
                 let (a, b) = (from + axis * a, from + axis * b);
                 Bar::straight(Some(self.run.limb), a, b, BarKind::Rod)
             };
-            let mut ram = rod(0.0, way);
+            let mut ram = rod(0.0, travel);
             ram.kind = BarKind::Ram;
-            let parts = [rod(0.0, near), rod(far, way), ram];
+            let parts = [rod(0.0, near), rod(far, travel), ram];
             self.scene.bars.extend(parts);
             self.blob(middle, axis, 0.5 * (far - near).abs(), BlobKind::Sleeve);
             return;
         }
         let room = self.scene.unit * 420.0;
         let short = RAIL * unit;
-        let (low, high) = limits.map_or((way - short, way + short), |(low, high)| {
-            (low.max(way - room).min(way), high.min(way + room).max(way))
+        let (low, high) = limits.map_or((travel - short, travel + short), |(low, high)| {
+            (
+                low.max(travel - room).min(travel),
+                high.min(travel + room).max(travel),
+            )
         });
         let ends = [low, high].map(|s| from + axis * s);
         self.scene.bars.push(Bar::straight(

@@ -59,7 +59,7 @@ struct Overlay {
 
 impl Overlay {
     /// Motions of the bars' ends.
-    fn ways(&self, scene: &Scene) -> Vec<Vector3<f64>> {
+    fn motions(&self, scene: &Scene) -> Vec<Vector3<f64>> {
         let pairs = self.bars.iter().zip(&scene.bars);
         pairs
             .flat_map(|(moved, bar)| [0, 1].map(|k| moved.ends[k] - bar.ends[k]))
@@ -73,13 +73,13 @@ pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
     let overlay = d.moved.as_ref().map(|m| overlay(d, m, &scene));
     let factor = overlay.as_ref().map_or(1.0, |o| o.factor);
     let mut svg = Svg::default();
-    let mut ways: Vec<Vec<Vector3<f64>>> = overlay.iter().map(|o| o.ways(&scene)).collect();
-    ways.extend(
+    let mut motions: Vec<Vec<Vector3<f64>>> = overlay.iter().map(|o| o.motions(&scene)).collect();
+    motions.extend(
         d.applied
             .iter()
             .flat_map(|w| [vec![w.force()], vec![w.moment()]]),
     );
-    let camera = Camera::of(d.view, &scene, &ways);
+    let camera = Camera::of(d.view, &scene, &motions);
     let axes = axes(&scene);
 
     // Everything has to fit.
@@ -188,7 +188,7 @@ fn heading(d: &Drawing<'_>, svg: &mut Svg) -> f64 {
 fn overlay(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
     let from = Scene::with_unit(d.mechanism, &moved.from, scene.unit);
     let to = Scene::with_unit(d.mechanism, &moved.to, scene.unit);
-    let way = to.tool.translation.vector - from.tool.translation.vector;
+    let displacement = to.tool.translation.vector - from.tool.translation.vector;
     let most = from
         .bars
         .iter()
@@ -201,7 +201,7 @@ fn overlay(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
             ]
         })
         .map(|v| v.norm())
-        .fold(way.norm(), f64::max);
+        .fold(displacement.norm(), f64::max);
     let fitting = if most > 0.0 {
         0.13 * scene.size / most
     } else {
@@ -232,7 +232,7 @@ fn overlay(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
                 points.map(|(p, (a, b))| on(p, a, b)).collect()
             })
             .collect(),
-        tool: scene.tool.translation.vector + way * factor,
+        tool: scene.tool.translation.vector + displacement * factor,
         factor,
     }
 }

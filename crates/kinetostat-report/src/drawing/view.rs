@@ -30,13 +30,13 @@ impl Camera {
         }
     }
 
-    /// `ways` are motions and forces that are to be seen, one kind in each list.
-    pub(super) fn of(view: Option<View>, scene: &Scene, ways: &[Vec<Vector3<f64>>]) -> Self {
+    /// `motions` are the motions and forces that are to be seen, one kind in each list.
+    pub(super) fn of(view: Option<View>, scene: &Scene, motions: &[Vec<Vector3<f64>>]) -> Self {
         match view {
             None => Self::flat(scene)
-                .filter(|c| ways.iter().all(|w| c.hidden(w) < 0.7))
-                .unwrap_or_else(|| Self::clearest(scene, ways)),
-            Some(View::Iso) => Self::clearest(scene, ways),
+                .filter(|c| motions.iter().all(|w| c.hidden(w) < 0.7))
+                .unwrap_or_else(|| Self::clearest(scene, motions)),
+            Some(View::Iso) => Self::clearest(scene, motions),
             Some(View::Front) => Self::from_angles(-90.0, 0.0),
             Some(View::Side) => Self::from_angles(0.0, 0.0),
             Some(View::Top) => Self {
@@ -65,7 +65,7 @@ impl Camera {
     }
 
     /// Of some oblique views the one in which the least coincides.
-    fn clearest(scene: &Scene, ways: &[Vec<Vector3<f64>>]) -> Self {
+    fn clearest(scene: &Scene, motions: &[Vec<Vector3<f64>>]) -> Self {
         let mut best: Option<(f64, Self)> = None;
         for (turn, azimuth) in [-62.0, -50.0, -38.0, -72.0, -26.0, -118.0, -130.0, 28.0]
             .into_iter()
@@ -74,7 +74,11 @@ impl Camera {
             for (tilt, elevation) in [24.0, 32.0, 18.0].into_iter().enumerate() {
                 let camera = Self::from_angles(azimuth, elevation);
                 let cost = camera.clutter(scene)
-                    + 5.0 * ways.iter().map(|w| camera.hidden(w).powi(2)).sum::<f64>()
+                    + 5.0
+                        * motions
+                            .iter()
+                            .map(|w| camera.hidden(w).powi(2))
+                            .sum::<f64>()
                     + 0.25 * (turn + tilt) as f64;
                 if best.as_ref().is_none_or(|b| cost < b.0) {
                     best = Some((cost, camera));
@@ -90,9 +94,9 @@ impl Camera {
     }
 
     /// Share of vectors that goes to the eye, 0 to 1.
-    fn hidden(&self, ways: &[Vector3<f64>]) -> f64 {
-        let all: f64 = ways.iter().map(|w| w.norm()).sum();
-        let seen: f64 = ways.iter().map(|w| self.project(w).xy().norm()).sum();
+    fn hidden(&self, motions: &[Vector3<f64>]) -> f64 {
+        let all: f64 = motions.iter().map(|w| w.norm()).sum();
+        let seen: f64 = motions.iter().map(|w| self.project(w).xy().norm()).sum();
         if all > 0.0 { 1.0 - seen / all } else { 0.0 }
     }
 

@@ -166,22 +166,22 @@ fn check_arrow(name: &str, svg: &Document<'_>, class: &str, seen: &Vector2<f64>)
     let [tail, neck] = line(paths(svg, class)[0]);
     let head = numbers(paths(svg, &format!("{class} head"))[0]);
     let tip = Vector2::new(head[0], head[1]);
-    let way = tip - tail;
+    let arrow = tip - tail;
     assert!(
-        way.norm() >= 39.0,
+        arrow.norm() >= 39.0,
         "{name}: {class} {} pixels long",
-        way.norm()
+        arrow.norm()
     );
     assert!(
         (neck - tail).norm() >= 25.0,
         "{name}: the {class} is all head"
     );
-    let sine = way.normalize().perp(&seen.normalize());
+    let sine = arrow.normalize().perp(&seen.normalize());
     // Axes are drawn to a tenth of a pixel.
     let bound = 0.01 + 0.15 / seen.norm();
     assert!(
-        way.dot(seen) > 0.0 && sine.abs() < bound,
-        "{name}: {way:?} for {seen:?}"
+        arrow.dot(seen) > 0.0 && sine.abs() < bound,
+        "{name}: {arrow:?} for {seen:?}"
     );
 }
 

@@ -35,13 +35,13 @@ fn energy(q: f64, elbow: f64) -> Result<Option<f64>, Cause> {
         .translation(vector![1.0, 0.0, 0.0])
         .build()?;
     let mut problem = displacement_controlled(&chain, 3.0 - DELTA);
-    let way = vector![3.0 - DELTA - q.cos(), -q.sin()];
-    let reach = 0.5 * way.norm();
+    let span = vector![3.0 - DELTA - q.cos(), -q.sin()];
+    let reach = 0.5 * span.norm();
     if reach >= 1.0 {
         return Ok(None);
     }
     let half = reach.acos() * elbow;
-    problem.posture = vec![way.y.atan2(way.x) + half - q, -2.0 * half];
+    problem.posture = vec![span.y.atan2(span.x) + half - q, -2.0 * half];
     Ok(Some(solve_chain(&problem, &Settings::default())?.energy))
 }
 

@@ -188,7 +188,7 @@ pub(crate) fn directions(
     list
 }
 
-/// A direction of a scaled motion; nothing is known yet of what is behind it.
+/// A direction of a scaled motion; its participation is not known yet.
 pub(crate) fn direction(
     scale: Scale,
     kind: DirectionKind,

@@ -63,11 +63,16 @@ impl ChainStiffness {
     /// twist (m, rad): passive joints and springs in the chain's order, nothing left out.
     #[must_use]
     pub fn participation(&self, chain: &Chain, twist: &Twist) -> Vec<Share> {
-        self.behind_named(chain, "", twist)
+        self.participation_named(chain, "", twist)
     }
 
     /// With a prefix to all names.
-    pub(crate) fn behind_named(&self, chain: &Chain, prefix: &str, twist: &Twist) -> Vec<Share> {
+    pub(crate) fn participation_named(
+        &self,
+        chain: &Chain,
+        prefix: &str,
+        twist: &Twist,
+    ) -> Vec<Share> {
         let mut motion = vec![0.0; chain.coordinate_count()];
         for (role, rows) in [
             (Role::Passive, &self.passive),

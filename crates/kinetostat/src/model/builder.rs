@@ -552,12 +552,12 @@ impl ChainBuilder {
         let least = scaled.symmetric_eigenvalues().min();
         if least < -SINGULAR {
             return Some(format!(
-                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {})",
+                "spring '{name}': its stiffness matrix is not positive definite (smallest scaled eigenvalue {})",
                 short(least)
             ));
         }
         (least <= SINGULAR).then(|| {
-            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
+            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest scaled eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
         })
     }
 

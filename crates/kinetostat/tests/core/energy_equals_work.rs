@@ -58,10 +58,10 @@ pub fn balance_of_chain(seed: u64) -> Option<Balance> {
         },
     ];
     let start = r.tip();
-    let way = Twist::new(rng.vector(0.02), rng.vector(0.05));
+    let span = Twist::new(rng.vector(0.02), rng.vector(0.05));
     let near = std::cell::RefCell::new(r.posture.clone());
     let solve = |s: f64| {
-        let mut problem = r.problem(EndCondition::pose(moved(&start, &Twist(way.0 * s))));
+        let mut problem = r.problem(EndCondition::pose(moved(&start, &Twist(span.0 * s))));
         problem.loads.clone_from(&loads);
         problem.posture.clone_from(&near.borrow());
         let settings = Settings::default().with_torque(1e-12);
@@ -71,7 +71,7 @@ pub fn balance_of_chain(seed: u64) -> Option<Balance> {
         Ok::<_, kinetostat::Error>((problem, e))
     };
     let (problem, first) = solve(0.0).ok()?;
-    let work = integral(|s| way.dot(&solve(s).expect("path").1.wrench));
+    let work = integral(|s| span.dot(&solve(s).expect("path").1.wrench));
     let (_, last) = solve(1.0).expect("end");
     let dead = crate::common::invariants::node_wrenches(&problem)
         .iter()

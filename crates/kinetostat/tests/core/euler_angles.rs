@@ -208,8 +208,8 @@ pub fn compared() -> Vec<Compared> {
                 ..Recipe::default()
             };
             let r = random_chain(&mut rng, &recipe);
-            let way = Twist::new(rng.axis() * 0.03, rng.axis() * 0.08);
-            let problem = r.problem(EndCondition::pose(moved(&r.tip(), &way)));
+            let span = Twist::new(rng.axis() * 0.03, rng.axis() * 0.08);
+            let problem = r.problem(EndCondition::pose(moved(&r.tip(), &span)));
             if euler(&problem.end.pose)[4].cos() < 0.4 {
                 return None;
             }

@@ -162,12 +162,12 @@ fn six_legs(spherical: bool, singular: bool) -> kinetostat::Mechanism {
         };
         let b = vector![0.5 * f.cos(), 0.5 * f.sin(), 0.0];
         let a = vector![0.3 * s.cos(), 0.3 * s.sin(), 0.0];
-        let way = a - b + vector![0.0, 0.0, 0.6];
+        let span = a - b + vector![0.0, 0.0, 0.6];
         // Local x along the leg, so that a strut's spin is about x.
         let turn =
-            nalgebra::UnitQuaternion::rotation_between(&nalgebra::Vector3::x(), &way).unwrap();
+            nalgebra::UnitQuaternion::rotation_between(&nalgebra::Vector3::x(), &span).unwrap();
         let mut drive = ActuatorSpec::new(MotionKind::Prismatic, nalgebra::Vector3::x(), 4e7);
-        drive.home = way.norm() - 0.4;
+        drive.home = span.norm() - 0.4;
         let mut chain = Chain::builder(format!("leg {i}"))
             .translation(b)
             .rigid(Pose::from_parts(nalgebra::Vector3::zeros().into(), turn));

@@ -117,8 +117,8 @@ pub fn legs(
 }
 
 /// Rotations about x and then y that turn z along a direction.
-pub fn turns(way: &Vector3<f64>) -> (f64, f64) {
-    let w = way.normalize();
+pub fn turns(span: &Vector3<f64>) -> (f64, f64) {
+    let w = span.normalize();
     let second = w.x.asin();
     ((-w.y).atan2(w.z), second)
 }
@@ -273,15 +273,15 @@ fn joined_by(bar: Chain, home_b: Pose) -> Mechanism {
 }
 
 fn rigid_bars() -> Vec<(&'static str, Mechanism)> {
-    let way = Pose::from_parts(
+    let span = Pose::from_parts(
         vector![0.35, 0.1, 0.05].into(),
         nalgebra::UnitQuaternion::from_euler_angles(0.2, -0.3, 0.4),
     );
-    let home_b = Pose::translation(0.4, 0.0, 0.1) * way;
-    let weld = Chain::builder("weld").rigid(way).build().unwrap();
+    let home_b = Pose::translation(0.4, 0.0, 0.1) * span;
+    let weld = Chain::builder("weld").rigid(span).build().unwrap();
     let rod = Chain::builder("rod")
         .passive_universal("u", Vector3::y(), Vector3::z())
-        .rigid(way)
+        .rigid(span)
         .passive_spherical("s")
         .build()
         .unwrap();
@@ -289,7 +289,7 @@ fn rigid_bars() -> Vec<(&'static str, Mechanism)> {
         .translation(vector![0.1, 0.0, 0.0])
         .passive("h", MotionKind::Revolute, Vector3::y(), 0.0)
         .translation(vector![-0.1, 0.0, 0.0])
-        .rigid(way)
+        .rigid(span)
         .build()
         .unwrap();
     vec![
@@ -437,9 +437,9 @@ pub fn double_pantograph() -> Mechanism {
         let size = a * f64::from(stage);
         let p = vector![drive.translation.x, drive.translation.z] - pivot;
         // Bars of length `size` from the pivot to A and from A to the pen.
-        let (r, way) = (p.norm(), (-p.y).atan2(p.x));
+        let (r, span) = (p.norm(), (-p.y).atan2(p.x));
         let open = (r / (2.0 * size)).acos();
-        let (u, v) = (way + open, way - open);
+        let (u, v) = (span + open, span - open);
         let along = |angle: f64| vector![angle.cos(), -angle.sin()] * size;
         let point = pivot + along(u);
         let end = pivot + 2.0 * p;
@@ -553,12 +553,12 @@ fn a_graph_with_errors_strains_itself_to_first_order() {
         let tool = builder.platform(Platform::new("tool", homes[2]));
         for (name, from, to) in [("1", 0, a), ("2", a, tool), ("3", 0, tool), ("4", a, tool)] {
             let arm = rng.pose(0.1, 0.5);
-            let way = homes[from].inverse() * homes[to] * arm;
+            let span = homes[from].inverse() * homes[to] * arm;
             let k = rng.spring_matrix(1e6, 1e4);
             let error = Pose::translation(size, -2.0 * size, size * f64::from(from as u8 + 1))
                 * Pose::rotation(vector![3.0 * size, size, -size]);
             let build = |error: Pose| {
-                let mut chain = Chain::builder(name).rigid(way).rigid(error);
+                let mut chain = Chain::builder(name).rigid(span).rigid(error);
                 if name != "4" {
                     chain = chain.spring6("s", &k, [0.0; 6]);
                 }
@@ -646,14 +646,14 @@ fn wrenches_act_on_any_platform_and_springs_between_limbs_are_limbs() {
         let (below, above) = (vector![0.05, 0.02, 0.03], vector![-0.02, 0.01, 0.0]);
         if sprung {
             let offset = Pose::translation(0.01, -0.02, 0.25);
-            let way = (offset * nalgebra::Point3::from(above)).coords - below;
-            let (first, second) = turns(&way);
+            let span = (offset * nalgebra::Point3::from(above)).coords - below;
+            let (first, second) = turns(&span);
             let chain = Chain::builder("spring")
                 .translation(below)
                 .passive("u1", MotionKind::Revolute, Vector3::x(), first)
                 .passive("u2", MotionKind::Revolute, Vector3::y(), second)
                 .spring("slide", MotionKind::Prismatic, Vector3::z(), k, rest)
-                .home("slide", way.norm())
+                .home("slide", span.norm())
                 .passive_spherical("s")
                 .build()
                 .unwrap();
@@ -672,8 +672,8 @@ fn wrenches_act_on_any_platform_and_springs_between_limbs_are_limbs() {
     // without it gives the same rest.
     let (p, q) = (&e.state.platforms[flange], &e.state.platforms[tool]);
     let (foot, head) = (p.rotation * below, q.rotation * above);
-    let way = q.translation.vector + head - p.translation.vector - foot;
-    let force = way.normalize() * (k * (way.norm() - rest));
+    let span = q.translation.vector + head - p.translation.vector - foot;
+    let force = span.normalize() * (k * (span.norm() - rest));
     let bare = machines[0].0.posture(&home).unwrap();
     let bare = bare
         .with_wrench_on(flange, Wrench::new(force, foot.cross(&force)))

@@ -54,9 +54,9 @@ fn preload(from: usize, to: usize) -> PlatformLoad {
 
 /// A bar without a spring between points of two platforms, as they are at home.
 fn bar(machine: &Mechanism, from: usize, to: usize) -> Limb {
-    let way = machine.platforms()[from].home.inverse() * machine.platforms()[to].home;
+    let span = machine.platforms()[from].home.inverse() * machine.platforms()[to].home;
     let ends = [vector![0.05, 0.04, -0.02], vector![0.02, -0.03, 0.01]];
-    leg("bar", from, to, ends, &way, true).unwrap()
+    leg("bar", from, to, ends, &span, true).unwrap()
 }
 
 /// A gantry that carries a tripod: three legs with universal joints on slides, as in a 3-PUU.

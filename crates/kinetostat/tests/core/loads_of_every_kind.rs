@@ -249,18 +249,18 @@ fn work_of_the_end_is_the_change_of_all_energies() {
             .map(|(_, load, _)| load)
             .collect();
         let start = r.tip();
-        let way = Twist::new(rng.vector(0.006), rng.vector(0.02));
+        let span = Twist::new(rng.vector(0.006), rng.vector(0.02));
         let mut problem = r.problem(EndCondition::pose(start));
         problem.loads = loads;
         let mut at = |share: f64| {
-            let step = Twist(way.0 * share);
+            let step = Twist(span.0 * share);
             problem.end = EndCondition::pose(moved(&start, &step));
             let e = solve_chain(&problem, &Settings::default()).ok()?;
             assert!(e.conservative && is_conservative(&problem));
             problem.posture.clone_from(&e.coordinates);
             let all = e.energy + load_energy(&problem, &e.coordinates).unwrap()?;
             // Along exp(s w) the spatial angular velocity is w itself.
-            Some((all, e.wrench.0.dot(&way.0)))
+            Some((all, e.wrench.0.dot(&span.0)))
         };
         let points: Option<Vec<(f64, f64)>> = (0..=16).map(|i| at(f64::from(i) / 16.0)).collect();
         let Some(points) = points else { continue };
@@ -522,13 +522,13 @@ fn a_function_that_turns_into_nan_on_the_way_ends_in_an_error() {
         let tip = r.chain.tip();
         let end = r.tip().translation.vector.x;
         // At the edge itself the wrench is a number and its tangent is none.
-        let (edge, way) = [(1e-3, 0.05), (0.05, 0.05), (1e-3, 1e-3)][rng.below(3)];
+        let (edge, span) = [(1e-3, 0.05), (0.05, 0.05), (1e-3, 1e-3)][rng.below(3)];
         let cliff = FunctionLoad::new("cliff", vec![tip], move |poses| {
             let x = poses[0].translation.x;
             let pull = (end + edge - x).sqrt() * 1e3;
             vec![Wrench::new(vector![pull, 0.0, 0.0], Vector3::zeros())]
         });
-        let step = Twist::new(vector![way, 0.0, 0.0], Vector3::zeros());
+        let step = Twist::new(vector![span, 0.0, 0.0], Vector3::zeros());
         let mut problem = r.problem(EndCondition::pose(moved(&r.tip(), &step)));
         problem.loads = vec![Load::function(cliff)];
         let answer = solve_chain(&problem, &Settings::default());

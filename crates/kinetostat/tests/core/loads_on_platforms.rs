@@ -235,14 +235,14 @@ pub fn spring_and_limb_apart() -> [f64; 2] {
             builder = builder.limb(own.clone());
         }
         let offset = Pose::translation(0.01, -0.02, 0.25);
-        let way = (offset * nalgebra::Point3::from(above)).coords - below;
-        let (u1, u2) = turns(&way);
+        let span = (offset * nalgebra::Point3::from(above)).coords - below;
+        let (u1, u2) = turns(&span);
         let chain = Chain::builder("spring")
             .translation(below)
             .passive("u1", MotionKind::Revolute, Vector3::x(), u1)
             .passive("u2", MotionKind::Revolute, Vector3::y(), u2)
             .spring("slide", MotionKind::Prismatic, Vector3::z(), k, rest)
-            .home("slide", way.norm())
+            .home("slide", span.norm())
             .passive_spherical("s")
             .build()
             .unwrap();

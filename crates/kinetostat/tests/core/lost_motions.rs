@@ -250,21 +250,24 @@ fn a_wrist_near_zero_is_as_far_from_singular_as_its_fifth_joint_moves_the_tool()
         }
         let found = nearest(&posture, 0.1);
         assert!(found.followed);
-        let way = found.way.0 * found.distance_m;
-        let way = DVector::from_fn(6, |i, _| way[i] * if i < 3 { 1.0 } else { length });
+        let span = found.way.0 * found.distance_m;
+        let span = DVector::from_fn(6, |i, _| span[i] * if i < 3 { 1.0 } else { length });
         let turned = somewhere([0.3, -0.2, 0.5]).rotation;
         let size = left.norm();
         assert!(
-            (way.norm() - size).abs() < 0.01 * size,
+            (span.norm() - size).abs() < 0.01 * size,
             "{} {size}",
-            way.norm()
+            span.norm()
         );
         let mut expected = DVector::zeros(6);
         for part in [0, 3] {
             let own = turned * Vector3::from_iterator(left.rows(part, 3).iter().copied());
             expected.rows_mut(part, 3).copy_from(&own);
         }
-        assert!((&way + &expected).norm() < 0.02 * size, "{way} {expected}");
+        assert!(
+            (&span + &expected).norm() < 0.02 * size,
+            "{span} {expected}"
+        );
     }
 }
 

@@ -520,10 +520,10 @@ fn portal(half: f64, h: f64, post: f64, diagonal: f64) -> Mechanism {
         ("up", -half, half, diagonal),
         ("down", half, -half, diagonal),
     ] {
-        let way = vector![head - foot, 0.0, h];
-        let turn = way.x.atan2(way.z);
+        let span = vector![head - foot, 0.0, h];
+        let turn = span.x.atan2(span.z);
         let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), k);
-        drive.home = way.norm();
+        drive.home = span.norm();
         let chain = Chain::builder(name)
             .translation(vector![foot, 0.0, 0.0])
             .passive("foot", MotionKind::Revolute, Vector3::y(), turn)

@@ -160,8 +160,8 @@ proptest! {
         let there = here + gained.way.linear() * gained.distance_m;
         let far = nearest(&here);
         prop_assert!(nearest(&there) < 0.1 * far + 3e-5, "{} of {far}: {}", nearest(&there), gained.description());
-        let way = gained.distance_m * gained.way.linear().norm();
-        prop_assert!((0.9 * far - 3e-5..=3.0 * far).contains(&way), "{way} against {far}");
+        let span = gained.distance_m * gained.way.linear().norm();
+        prop_assert!((0.9 * far - 3e-5..=3.0 * far).contains(&span), "{span} against {far}");
     }
 
     #[test]

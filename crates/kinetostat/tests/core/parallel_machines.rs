@@ -254,10 +254,10 @@ pub fn hexapod(k: f64, ends: &[(Vector3<f64>, Vector3<f64>)], home: &Pose) -> Me
     let mut builder = Mechanism::builder("hexapod");
     let tool = builder.platform(Platform::new("tool", *home));
     for (i, (below, above)) in ends.iter().enumerate() {
-        let way = (home * nalgebra::Point3::from(*above)).coords - below;
-        let w = way.normalize();
+        let span = (home * nalgebra::Point3::from(*above)).coords - below;
+        let w = span.normalize();
         let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), k);
-        drive.home = way.norm();
+        drive.home = span.norm();
         let chain = Chain::builder(format!("leg {i}"))
             .translation(*below)
             .passive("u1", MotionKind::Revolute, Vector3::x(), (-w.y).atan2(w.z))
@@ -298,8 +298,8 @@ pub fn hexapod_apart() -> f64 {
         };
         let posture = machine.posture(&target).unwrap();
         for (command, (below, above)) in posture.commands().iter().zip(&ends) {
-            let way = (target * nalgebra::Point3::from(*above)).coords - below;
-            assert!((command - way.norm()).abs() < 1e-12);
+            let span = (target * nalgebra::Point3::from(*above)).coords - below;
+            assert!((command - span.norm()).abs() < 1e-12);
         }
         let k = posture.stiffness().unwrap().cartesian.matrix;
         worst.add(scaled_error(&k, &by_legs(3e7, &ends, &target)));
@@ -384,9 +384,9 @@ fn delta_with(k: f64, rod: f64, down: f64) -> Mechanism {
         for (name, side) in [("left", half), ("right", -half)] {
             let foot = vector![0.0, side, 0.0];
             let top = turned * Pose::translation(head, side, 0.0);
-            let way = place.inverse()
+            let span = place.inverse()
                 * ((home * top).translation.vector - (place * nalgebra::Point3::from(foot)).coords);
-            let w = way.normalize();
+            let w = span.normalize();
             let chain = Chain::builder(format!("rod {i} {name}"))
                 .translation(foot)
                 .passive("u1", MotionKind::Revolute, Vector3::x(), (-w.y).atan2(w.z))
@@ -509,11 +509,11 @@ pub fn truss_of<const N: usize>(b: f64, h: f64, k: f64, heads: [&str; N]) -> Mec
     let mut builder = Mechanism::builder("truss");
     let tool = builder.platform(Platform::new("tool", Pose::translation(0.0, 0.0, h)));
     for (name, side) in [("left", -1.0), ("right", 1.0)] {
-        let way = vector![-side * b, 0.0, h];
+        let span = vector![-side * b, 0.0, h];
         // About y, positive turns z to x.
-        let turn = way.x.atan2(way.z);
+        let turn = span.x.atan2(span.z);
         let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), k);
-        drive.home = way.norm();
+        drive.home = span.norm();
         let chain = Chain::builder(name)
             .translation(vector![side * b, 0.0, 0.0])
             .passive("foot", MotionKind::Revolute, Vector3::y(), turn)

@@ -48,8 +48,8 @@ impl Stage {
     fn lines(&self, above: &Pose) -> f64 {
         let rows: Vec<RowVector3<f64>> = (self.legs[..3].iter())
             .map(|[foot, head]| {
-                let way = (point(above, head) - foot).normalize();
-                RowVector3::new(way.x, way.y, foot.perp(&way))
+                let span = (point(above, head) - foot).normalize();
+                RowVector3::new(span.x, span.y, foot.perp(&span))
             })
             .collect();
         Matrix3::from_rows(&rows).determinant()
@@ -85,10 +85,10 @@ fn stack(stages: &[Stage]) -> Mechanism {
         home *= step;
         let above = builder.platform(Platform::new(format!("p{s}"), home));
         for (k, [foot, head]) in stage.legs.iter().enumerate() {
-            let way = point(&step, head) - foot;
-            let along = way.y.atan2(way.x);
+            let span = point(&step, head) - foot;
+            let along = span.y.atan2(span.x);
             let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 3e7);
-            drive.home = way.norm();
+            drive.home = span.norm();
             let name = format!("leg {s}{k}");
             let chain = Chain::builder(&name)
                 .rigid(planar([foot.x, foot.y, along]))
@@ -124,7 +124,7 @@ fn natural_length(machine: &Mechanism) -> f64 {
 }
 
 /// Irregular motions of the tool in the plane, scaled, of size one.
-fn ways(length: f64) -> Vec<Vector6<f64>> {
+fn motions(length: f64) -> Vec<Vector6<f64>> {
     let mut rng = Rng(5);
     let mut some = || {
         let v = rng.axis();
@@ -137,15 +137,15 @@ fn ways(length: f64) -> Vec<Vector6<f64>> {
 fn crossed(machine: &Mechanism, stages: &[Stage], far: f64) -> bool {
     let here = at_home(machine);
     let before = lines(stages, &here);
-    let side = |way: &Vector6<f64>| {
-        let there = moved(here.target(), &Twist(way * far));
+    let side = |span: &Vector6<f64>| {
+        let there = moved(here.target(), &Twist(span * far));
         let Ok(there) = machine.posture(PostureRequest::pose(&there).near(&here)) else {
             return true;
         };
         let after = lines(stages, &there);
         before.iter().zip(after).any(|(a, b)| a * b <= 0.0)
     };
-    ways(natural_length(machine)).iter().any(side)
+    motions(natural_length(machine)).iter().any(side)
 }
 
 #[test]

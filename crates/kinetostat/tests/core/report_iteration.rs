@@ -159,13 +159,13 @@ fn to_rounding(problem: &ChainProblem<'_>) -> Equilibrium {
 
 /// The exact state with its coordinates moved by `size` in a random direction.
 fn off(rng: &mut Rng, exact: &Equilibrium, size: f64) -> ChainState {
-    let way: Vec<f64> = exact.coordinates.iter().map(|_| rng.signed()).collect();
-    let norm = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let span: Vec<f64> = exact.coordinates.iter().map(|_| rng.signed()).collect();
+    let norm = span.iter().map(|x| x * x).sum::<f64>().sqrt();
     ChainState {
         coordinates: exact
             .coordinates
             .iter()
-            .zip(way)
+            .zip(span)
             .map(|(x, w)| x + size * w / norm)
             .collect(),
         wrench: exact.wrench,
@@ -276,8 +276,8 @@ fn spatial(seed: u64) -> Option<(crate::common::RandomChain, EndCondition)> {
         ..Recipe::default()
     };
     let r = random_chain(&mut rng, &recipe);
-    let way = Twist::new(rng.axis() * 0.03, rng.axis() * 0.08);
-    let end = EndCondition::pose(moved(&r.tip(), &way));
+    let span = Twist::new(rng.axis() * 0.03, rng.axis() * 0.08);
+    let end = EndCondition::pose(moved(&r.tip(), &span));
     (r.chain.coordinate_count() >= 15).then_some((r, end))
 }
 

@@ -17,11 +17,11 @@ pub fn machine(file: &Value, case: &Value, arm_in_chain: bool) -> Mechanism {
     for (i, (f, s)) in angles.enumerate() {
         let b = Vector3::new(f.to_radians().cos(), f.to_radians().sin(), 0.0) * r_base;
         let a = Vector3::new(s.to_radians().cos(), s.to_radians().sin(), 0.0) * r_top;
-        let way = a - b + Vector3::new(0.0, 0.0, h);
+        let span = a - b + Vector3::new(0.0, 0.0, h);
         // Universal joint, slide with its spring, spherical joint; starts on the way up.
         let mut drive =
             ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), number(&file["K11"]));
-        drive.home = way.norm();
+        drive.home = span.norm();
         let mut chain = Chain::builder(format!("leg {i}"))
             .translation(b)
             .passive_universal("u", Vector3::x(), Vector3::y())

@@ -163,9 +163,9 @@ fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_t
     let mut finite = 0;
     // Along an axis and off it: there the radial direction is no coordinate.
     for turn in [0.0_f64, 0.9] {
-        let way = vector![turn.cos(), turn.sin(), 0.0];
-        let across = vector![-way.y, way.x, 0.0];
-        let place = way * (2.0 * half.cos());
+        let span = vector![turn.cos(), turn.sin(), 0.0];
+        let across = vector![-span.y, span.x, 0.0];
+        let place = span * (2.0 * half.cos());
         let home = Pose::translation(place.x, place.y, 0.0);
         let machine = Mechanism::serial(nominal.clone(), home, Vector3::zeros()).unwrap();
         let joints = LimbPosture {
@@ -185,10 +185,10 @@ fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_t
             }
             let (s, c) = (0.5 * t).sin_cos();
             // From the closed form: the path there does not matter.
-            let wrench = Wrench::new(way * force, Vector3::zeros());
+            let wrench = Wrench::new(span * force, Vector3::zeros());
             let mut state = unloaded.clone();
             state.coordinates[0] = vec![turn + 0.5 * t, -t, 0.5 * t - turn];
-            state.platforms[1] = Pose::translation(2.0 * c * way.x, 2.0 * c * way.y, 0.0);
+            state.platforms[1] = Pose::translation(2.0 * c * span.x, 2.0 * c * span.y, 0.0);
             state.wrenches[0] = wrench;
             let e = posture
                 .deflected_from(&wrench, state)
@@ -209,7 +209,7 @@ fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_t
             );
             // However much stiffer than across: out of the plane only it is rigid.
             assert_eq!(kinds(DirectionKind::Rigid), 3, "{force} N");
-            let own = way.dot(&(k * way));
+            let own = span.dot(&(k * span));
             assert!(
                 (own / radial - 1.0).abs() < 1e-6,
                 "{force} N: {own}, {radial}"

@@ -251,13 +251,13 @@ fn a_limit_beyond_the_load_is_not_on_the_way() {
             } else if let Ok(loaded) = loaded {
                 assert!(loaded.displacement.linear().z < -h, "{case}");
                 let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
-                let snap = snap.unwrap_or_else(|| panic!("{case}: no snap is told"));
+                let snap = snap.unwrap_or_else(|| panic!("{case}: no snap is reported"));
                 assert_limit(&snap, b, h, k, push);
                 beyond_limit += 1;
             }
         }
     }
-    assert!(beyond_limit > 0, "no load led behind a limit");
+    assert!(beyond_limit > 0, "no load led beyond a limit");
 }
 
 #[test]

@@ -346,8 +346,8 @@ pub fn problem<'a>(random: &mut Random, sizes: &Sizes, chain: &'a Chain) -> Chai
         *x += 0.5 * random.signed() * unit(a.kind);
     }
     let tip = unloaded_tip(chain, &problem.base, &problem.posture, &problem.commands);
-    let way = random.power(-7.0, 0.3) * f64::from(u8::from(!random.once_in(5)));
-    let twist = Twist::new(random.axis() * (way * sizes.length), random.axis() * way);
+    let span = random.power(-7.0, 0.3) * f64::from(u8::from(!random.once_in(5)));
+    let twist = Twist::new(random.axis() * (span * sizes.length), random.axis() * span);
     let mut end = EndCondition::pose(moved(&tip, &twist));
     let force = sizes.stiffness * sizes.length * random.power(-6.0, 0.0);
     match random.below(4) {

@@ -516,8 +516,8 @@ fn point_at(
     let mut here = problem.clone();
     match parameter {
         Parameter::Displacement(twist) => {
-            let way = kinetostat::Twist(twist.0 * value);
-            here.end.pose = kinetostat::spatial::moved(&problem.end.pose, &way);
+            let span = kinetostat::Twist(twist.0 * value);
+            here.end.pose = kinetostat::spatial::moved(&problem.end.pose, &span);
         }
         Parameter::Load(pattern) => {
             here.end.wrench = Wrench(problem.end.wrench.0 + pattern.end.0 * value);

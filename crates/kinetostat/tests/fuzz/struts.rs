@@ -37,8 +37,8 @@ fn lower(builder: ChainBuilder, spherical: bool, along: &Vector3<f64>) -> ChainB
 }
 
 /// A strut along `way` and its axial stiffness (N/m).
-fn strut(random: &mut Random, name: &str, foot: Vector3<f64>, way: Vector3<f64>) -> (Chain, f64) {
-    let along = way.normalize();
+fn strut(random: &mut Random, name: &str, foot: Vector3<f64>, span: Vector3<f64>) -> (Chain, f64) {
+    let along = span.normalize();
     let k = [1.0, 3.0, 1e3, 1e6, 2e8][random.below(5)];
     let builder = Chain::builder(name).translation(foot);
     let spherical = !random.once_in(3);
@@ -46,7 +46,7 @@ fn strut(random: &mut Random, name: &str, foot: Vector3<f64>, way: Vector3<f64>)
         0 => {
             // A drive between the joints.
             let mut drive = ActuatorSpec::new(MotionKind::Prismatic, along, k);
-            drive.home = way.norm();
+            drive.home = span.norm();
             (
                 lower(builder, spherical, &along).actuator("slide", drive),
                 k,
@@ -54,16 +54,16 @@ fn strut(random: &mut Random, name: &str, foot: Vector3<f64>, way: Vector3<f64>)
         }
         1 => {
             // A slide with a spring, offsets on both sides.
-            let builder = lower(builder, spherical, &along).translation(0.5 * way);
+            let builder = lower(builder, spherical, &along).translation(0.5 * span);
             let builder = builder.spring("slide", MotionKind::Prismatic, along, k, 0.0);
-            (builder.translation(0.5 * way), k)
+            (builder.translation(0.5 * span), k)
         }
         _ => {
             // A link that gives in all directions, its six stiffnesses at its far end.
-            let matrix = random.stiffness(k, k * way.norm_squared());
+            let matrix = random.stiffness(k, k * span.norm_squared());
             let give = matrix.try_inverse().expect("regular");
             let axial = 1.0 / along.dot(&(give.fixed_view::<3, 3>(0, 0) * along));
-            let builder = lower(builder, spherical, &along).translation(way);
+            let builder = lower(builder, spherical, &along).translation(span);
             (builder.spring6("link", &matrix, [0.0; 6]), axial)
         }
     };
@@ -89,9 +89,9 @@ fn same(what: &str, found: &Matrix6<f64>, expected: &Matrix6<f64>, length: f64, 
 
 /// One strut and one machine.
 pub fn case(random: &mut Random) {
-    let (foot, way) = (whole(random, 3), whole(random, 6));
-    let (chain, axial) = strut(random, "strut", foot, way);
-    let along = way.normalize();
+    let (foot, span) = (whole(random, 3), whole(random, 6));
+    let (chain, axial) = strut(random, "strut", foot, span);
+    let along = span.normalize();
     let mut expected = Matrix6::zeros();
     expected
         .fixed_view_mut::<3, 3>(0, 0)
@@ -99,7 +99,7 @@ pub fn case(random: &mut Random) {
     let home = (chain.home_coordinates(), chain.home_commands());
     let base = Pose::identity();
     let k = unloaded_stiffness(&chain, &base, &home.0, &home.1).expect("a stiffness");
-    let length = way.norm();
+    let length = span.norm();
     same("strut", &k.cartesian.matrix, &expected, length, axial);
     let kinds = (k.count(DirectionKind::Finite), k.count(DirectionKind::Free));
     assert_eq!((k.rank, kinds), (1, (1, 5)), "directions of a strut");
@@ -124,10 +124,10 @@ fn machine(random: &mut Random) {
     for i in 0..6 {
         let (mut foot, mut hand) = (whole(random, 5), whole(random, 2));
         (foot.z, hand.z) = (0.0, -hand.z.abs());
-        let way = hand + Vector3::new(0.0, 0.0, 6.0) - foot;
+        let span = hand + Vector3::new(0.0, 0.0, 6.0) - foot;
         let name = format!("leg {i}");
-        let (chain, axial) = strut(random, &name, foot, way);
-        let (along, arm) = (way.normalize(), hand.cross(&way.normalize()));
+        let (chain, axial) = strut(random, &name, foot, span);
+        let (along, arm) = (span.normalize(), hand.cross(&span.normalize()));
         let wrench = Vector6::new(along.x, along.y, along.z, arm.x, arm.y, arm.z);
         expected += axial * wrench * wrench.transpose();
         most.add(axial);

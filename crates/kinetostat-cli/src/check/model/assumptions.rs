@@ -112,7 +112,7 @@ impl AssumptionsFinding {
             }
             self.in_words.extend(against.iter().map(|push| {
                 format!(
-                    "with the loads of the model, a {push} on the tool may move it against that {push}: no stiffness against a {push} is told"
+                    "with the loads of the model, a {push} on the tool may move it against that {push}: no stiffness against a {push} is reported"
                 )
             }));
         }

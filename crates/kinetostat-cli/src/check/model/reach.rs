@@ -115,7 +115,7 @@ pub(crate) fn reach_text(reach: &ReachFinding) -> String {
     let Some(along) = &reach.along_axes_mm else {
         return item(&format!("reach: {}", reach.how));
     };
-    let ways: Vec<String> = ["x", "y", "z"]
+    let reaches: Vec<String> = ["x", "y", "z"]
         .iter()
         .zip(along)
         .map(|(name, [back, ahead])| match (*back, *ahead) {
@@ -128,7 +128,7 @@ pub(crate) fn reach_text(reach: &ReachFinding) -> String {
     } else {
         ""
     };
-    let mut text = format!("reach from home{turning}, mm: {}", ways.join(", "));
+    let mut text = format!("reach from home{turning}, mm: {}", reaches.join(", "));
     if let Some([low, high]) = reach.box_mm {
         text.push_str(&format!(
             "; the largest box of these proportions that it fills is from {} to {} mm",

@@ -140,8 +140,8 @@ impl Reader<'_> {
                         let mm = e.lead_mm_per_turn.map(|l| l * 1e-3);
                         let lead = e.lead_m_per_turn.or(mm).expect("a lead");
                         let advance = lead / std::f64::consts::TAU;
-                        let way = value + advance * turn;
-                        self.screw(&axis(&e.axis), way, turn, advance, stiffness);
+                        let travel = value + advance * turn;
+                        self.screw(&axis(&e.axis), travel, turn, advance, stiffness);
                         return;
                     }
                 };
@@ -269,13 +269,13 @@ impl Reader<'_> {
     fn screw(
         &mut self,
         along: &Vector3<f64>,
-        way: f64,
+        travel: f64,
         turn: f64,
         advance: f64,
         stiffness: Option<f64>,
     ) {
         let (from, axis) = (self.at.node, self.world(along));
-        self.offset(&motion(JointKind::Prismatic, along, way));
+        self.offset(&motion(JointKind::Prismatic, along, travel));
         self.offset(&motion(JointKind::Revolute, along, turn));
         let at = self.point();
         let to = self.s.node(at);
@@ -286,9 +286,9 @@ impl Reader<'_> {
         match stiffness {
             None => self.s.follow(&slide, advance, &twist),
             Some(k) => {
-                let mut given_way = slide;
-                given_way.extend(twist.into_iter().map(|(i, x)| (i, -advance * x)));
-                self.s.spring(given_way, k);
+                let mut deflected = slide;
+                deflected.extend(twist.into_iter().map(|(i, x)| (i, -advance * x)));
+                self.s.spring(deflected, k);
             }
         }
     }

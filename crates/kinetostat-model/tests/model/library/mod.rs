@@ -92,7 +92,7 @@ pub fn posture_near(model: &Model, target: &Pose, start: &Posture) -> Posture {
         (rest.tool, springs)
     };
     // From one stand to another, springs counted a thousand times.
-    let way = |from: &(Pose, Vec<f64>), to: &(Pose, Vec<f64>)| {
+    let twist_between = |from: &(Pose, Vec<f64>), to: &(Pose, Vec<f64>)| {
         let tool = pose_residual(&to.0, &from.0).0;
         DVector::from_fn(6 + from.1.len(), |i, _| match i {
             0..6 => tool[i] * unit(i),
@@ -111,14 +111,14 @@ pub fn posture_near(model: &Model, target: &Pose, start: &Posture) -> Posture {
             for j in 0..count {
                 let mut more = change.clone();
                 more[j] += 1e-4;
-                rates.set_column(j, &(way(&here, &stand(&more)) / 1e-4));
+                rates.set_column(j, &(twist_between(&here, &stand(&more)) / 1e-4));
             }
             inverse = {
                 let own = kinetostat::linalg::SingularValues::of(&rates);
                 own.pseudo_inverse(1e-6 / own.largest())
             };
         }
-        let step = &inverse * way(&here, &wanted);
+        let step = &inverse * twist_between(&here, &wanted);
         change += &step;
         if round >= 6 && step.largest_entry() < 1e-13 {
             break;

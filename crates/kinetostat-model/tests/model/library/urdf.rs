@@ -81,20 +81,22 @@ impl Urdf {
 
     /// `base_link` from `tool0` with the moving joints on the way at `values`, rad, base first.
     pub fn tool(&self, values: &[f64]) -> Isometry3<f64> {
-        let mut way = Vec::new();
+        let mut path = Vec::new();
         let mut at = "tool0";
         while at != "base_link" {
             let joint = self.0.iter().find(|j| j.child == at).expect("a way");
-            way.push(joint);
+            path.push(joint);
             at = &joint.parent;
         }
         let mut values = values.iter();
-        way.iter().rev().fold(Isometry3::identity(), |pose, joint| {
-            let turn = match joint.moves {
-                true => joint.axis * *values.next().expect("a value"),
-                false => Vector3::zeros(),
-            };
-            pose * joint.origin * UnitQuaternion::from_scaled_axis(turn)
-        })
+        path.iter()
+            .rev()
+            .fold(Isometry3::identity(), |pose, joint| {
+                let turn = match joint.moves {
+                    true => joint.axis * *values.next().expect("a value"),
+                    false => Vector3::zeros(),
+                };
+                pose * joint.origin * UnitQuaternion::from_scaled_axis(turn)
+            })
     }
 }

@@ -205,8 +205,8 @@ fn program(random: &mut Random) -> (String, Vec<Truth>) {
             let axes = [[0, 1, 2], [2, 0, 1], [1, 2, 0]][plane];
             let radius = 10_f64.powf(random.between(-1.0, 1.8));
             let angle = random.between(0.0, std::f64::consts::TAU);
-            let way = [rounded(radius * angle.cos()), rounded(radius * angle.sin())];
-            if way == [0.0; 2] {
+            let offset = [rounded(radius * angle.cos()), rounded(radius * angle.sin())];
+            if offset == [0.0; 2] {
                 continue;
             }
             let clockwise = random.below(2) == 0;
@@ -224,19 +224,19 @@ fn program(random: &mut Random) -> (String, Vec<Truth>) {
                 names[axes[2]],
                 place[axes[2]] + rise,
                 centres[axes[0]],
-                way[0],
+                offset[0],
                 centres[axes[1]],
-                way[1],
+                offset[1],
             ));
             let mut centre = place;
-            centre[axes[0]] += way[0];
-            centre[axes[1]] += way[1];
+            centre[axes[0]] += offset[0];
+            centre[axes[1]] += offset[1];
             let turn = std::f64::consts::TAU;
             truths.push(Truth::Arc {
                 centre,
                 axes,
-                radius: way[0].hypot(way[1]),
-                start: (-way[1]).atan2(-way[0]),
+                radius: offset[0].hypot(offset[1]),
+                start: (-offset[1]).atan2(-offset[0]),
                 sweep: if clockwise { -turn } else { turn },
                 rise,
             });
@@ -256,10 +256,10 @@ fn program(random: &mut Random) -> (String, Vec<Truth>) {
             }
         }
         if random.below(6) == 0 {
-            let way = to - place;
+            let offset = to - place;
             text.push_str(&format!(
                 "G91 G1 X{:.4} Y{:.4} Z{:.4}\nG90\n",
-                way.x, way.y, way.z
+                offset.x, offset.y, offset.z
             ));
         } else {
             text.push_str(&format!("G1 X{:.4} Y{:.4} Z{:.4}\n", to.x, to.y, to.z));

@@ -303,11 +303,11 @@ impl Generator<'_> {
                         end[axis] = reached;
                     }
                 }
-                if let Some(way) = extruded.filter(|_| feed) {
+                if let Some(length) = extruded.filter(|_| feed) {
                     let (text, value) = self.number(if self.relative_extruder {
-                        way
+                        length
                     } else {
-                        self.extruder + way
+                        self.extruder + length
                     });
                     // A blank, or `X1.0000E5` might be an exponent.
                     words.push(format!(" E{text}"));

@@ -35,7 +35,7 @@ impl UnloadedStiffness {
     #[must_use]
     pub fn participation(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter();
-        limbs_behind(posture.mechanism(), posture.target(), limbs, twist)
+        participation_of_limbs(posture.mechanism(), posture.target(), limbs, twist)
     }
 
     /// With names at its free directions.
@@ -63,7 +63,7 @@ impl MechanismEquilibrium {
     #[must_use]
     pub fn participation(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
-        limbs_behind(mechanism, &self.tool, limbs, twist)
+        participation_of_limbs(mechanism, &self.tool, limbs, twist)
     }
 
     /// With names at its free and negative directions.
@@ -78,7 +78,7 @@ impl MechanismEquilibrium {
     }
 }
 
-fn limbs_behind<'a>(
+fn participation_of_limbs<'a>(
     mechanism: &Mechanism,
     tool: &Pose,
     limbs: impl Iterator<Item = &'a ChainStiffness>,
@@ -92,7 +92,7 @@ fn limbs_behind<'a>(
         }
         let arm = tool.rotation * limb.platform_from_tip.translation.vector;
         let prefix = format!("{}: ", limb.name);
-        let own = stiffness.behind_named(&limb.actual, &prefix, &twist.shifted(&arm));
+        let own = stiffness.participation_named(&limb.actual, &prefix, &twist.shifted(&arm));
         // Shares of one limb become shares of the machine.
         let length = limb.actual.scale().length;
         for mut share in own {

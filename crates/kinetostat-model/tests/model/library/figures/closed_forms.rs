@@ -123,9 +123,9 @@ fn hexaglide(model: &Model, tool: &Pose) -> Matrix6<f64> {
         let across = vector![0.0, head.y - home.y, head.z - home.z];
         let reach = (1.15_f64.powi(2) - across.norm_squared()).sqrt();
         let side = (home.x - head.x).signum();
-        let way = (across - Vector3::x() * side * reach) / 1.15;
-        let w = wrench(&at, &head, &way, &Vector3::zeros());
-        let c = 1.15 / axial(70.0, 54.0) + way.x.powi(2) / 2e8;
+        let direction = (across - Vector3::x() * side * reach) / 1.15;
+        let w = wrench(&at, &head, &direction, &Vector3::zeros());
+        let c = 1.15 / axial(70.0, 54.0) + direction.x.powi(2) / 2e8;
         w * w.transpose() / c
     });
     legs.sum()
