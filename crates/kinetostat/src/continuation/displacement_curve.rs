@@ -95,7 +95,7 @@ impl Posture {
     /// directions. Limit points are found between points of opposite slope.
     ///
     /// # Errors
-    /// Those of the first point; a curve that ends later says so in [`HeldCurve::ended`].
+    /// Those of the first point; a curve that ends later says so in [`DisplacementCurve::ended`].
     ///
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
