@@ -13,7 +13,8 @@ fn codes(minutes: &str, seed: &str) -> Result<()> {
     command.args([
         "run",
         "--quiet",
-        "--release",
+        "--profile",
+        "fuzz",
         "--package",
         "kinetostat-program",
     ]);
@@ -53,7 +54,14 @@ pub fn run(options: &[&str]) -> Result<()> {
 /// Chains under loads, through every query.
 fn chains(words: &[&str]) -> Result<()> {
     let mut command = cargo();
-    command.args(["run", "--quiet", "--release", "--package", "kinetostat"]);
+    command.args([
+        "run",
+        "--quiet",
+        "--profile",
+        "fuzz",
+        "--package",
+        "kinetostat",
+    ]);
     command.args(["--example", "fuzz_chains", "--"]).args(words);
     step("fuzz of chains", &mut command)
 }
@@ -64,7 +72,8 @@ fn absurd_units() -> Result<()> {
     command.args([
         "test",
         "--quiet",
-        "--release",
+        "--profile",
+        "fuzz",
         "--package",
         "kinetostat-cli",
     ]);
@@ -80,7 +89,8 @@ fn maps(words: &[&str]) -> Result<()> {
     command.args([
         "run",
         "--quiet",
-        "--release",
+        "--profile",
+        "fuzz",
         "--package",
         "kinetostat-program",
         "--example",

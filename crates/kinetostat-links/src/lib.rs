@@ -43,7 +43,7 @@ pub use files::nodes::{Nodes, read_nodes};
 pub use files::superelement::read_superelement;
 pub use interface::{RigidFit, RigidRank, rigid_fit, rigid_rank, spider};
 pub use stiffness_check::{
-    DIRECTIONS, Finding, Grade, Judgement, SYMMETRIC_TO, judge, symmetrised,
+    DIRECTIONS, Finding, Grade, SYMMETRIC_TO, StiffnessCheck, check_stiffness, symmetrised,
 };
 pub use superelement::{Dof, MOST_DOFS, Superelement};
 pub use table::{in_n_mm, stiffness_table};

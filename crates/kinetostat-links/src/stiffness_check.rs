@@ -35,7 +35,7 @@ pub struct Finding {
 
 /// What is known about a 6 x 6 matrix that should be a stiffness (N/m, N/rad, N m/m, N m/rad).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judgement {
+pub struct StiffnessCheck {
     /// `|K - K^T| / |K + K^T|` (Frobenius) after balancing by the diagonal; 0 for a symmetric matrix.
     pub antisymmetric_share: f64,
     /// Eigenvalues of the symmetric part after balancing by the diagonal, ascending; no unit.
@@ -48,7 +48,7 @@ pub struct Judgement {
     pub findings: Vec<Finding>,
 }
 
-impl Judgement {
+impl StiffnessCheck {
     /// True if nothing speaks against the matrix being the stiffness of a link.
     #[must_use]
     pub fn is_stiffness(&self) -> bool {
@@ -67,14 +67,14 @@ impl Judgement {
 ///
 /// ```
 /// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0);
-/// let checked = kinetostat_links::judge(&bar.cantilever(0.5)?, kinetostat_links::SYMMETRIC_TO);
+/// let checked = kinetostat_links::check_stiffness(&bar.cantilever(0.5)?, kinetostat_links::SYMMETRIC_TO);
 /// assert!(checked.is_stiffness() && checked.rank == 6 && checked.findings.is_empty());
 /// # Ok::<(), kinetostat::Error>(())
 /// ```
 #[must_use]
-pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
+pub fn check_stiffness(k: &Matrix6<f64>, symmetric_to: f64) -> StiffnessCheck {
     if let Some(at) = (0..36).find(|&at| !k[(at / 6, at % 6)].is_finite()) {
-        return Judgement {
+        return StiffnessCheck {
             antisymmetric_share: f64::NAN,
             eigenvalues: [f64::NAN; 6],
             rank: 0,
@@ -109,7 +109,7 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
     let rank = eigen.iter().filter(|e| e.abs() > ZERO).count();
     findings.extend(not_definite(k, &(0.5 * sum), &scale, eigen[0], rank));
     let natural_length = plausible(k, &mut findings);
-    Judgement {
+    StiffnessCheck {
         antisymmetric_share: share,
         eigenvalues: std::array::from_fn(|i| eigen[i]),
         rank,
@@ -282,7 +282,7 @@ fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
 }
 
 /// The symmetric part `(K + K^T)/2`. It is only a link's stiffness if what is thrown away is noise:
-/// say that it was done, and how much it was ([`Judgement::antisymmetric_share`]).
+/// say that it was done, and how much it was ([`StiffnessCheck::antisymmetric_share`]).
 #[must_use]
 pub fn symmetrised(k: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (k + k.transpose())

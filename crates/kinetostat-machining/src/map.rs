@@ -320,7 +320,7 @@ impl MapPlace {
         i: usize,
         pose: &Pose,
     ) -> bool {
-        let Some(stability) = found.verdict(i) else {
+        let Some(stability) = found.stability(i) else {
             return false;
         };
         if found.outside_limits(mechanism, i) {

@@ -78,8 +78,8 @@ pub fn near_singular(posture: &Posture) -> Option<NearSingular> {
 }
 
 fn described(near: &NearSingularity, length: f64) -> NearSingular {
-    let motion = near.way.linear() * (1e3 * near.distance_m);
-    let turn = near.way.angular().map(f64::to_degrees) * near.distance_m;
+    let motion = near.towards.linear() * (1e3 * near.distance_m);
+    let turn = near.towards.angular().map(f64::to_degrees) * near.distance_m;
     let (kind, there) = match (near.kind, &near.limb) {
         (SingularityKind::Lost, Some(limb)) => (
             NearKind::Lost,

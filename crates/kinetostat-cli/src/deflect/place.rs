@@ -45,7 +45,7 @@ pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
     let rest = posture.deflected_by(&Wrench::zero());
     let rest = rest.map_err(without_load)?;
     let loaded = posture.deflected_by(&query.wrench)?;
-    let limit = posture.snaps_on_the_way(&rest, &loaded)?;
+    let limit = posture.snaps_before(&rest, &loaded)?;
     let mut answer = answer(&query, &posture, &loaded, &rest, limit.is_some());
     answer.warnings.extend(limit.as_ref().map(snaps));
     let text = answer_text(&query, &answer);

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_links::{Error, Grade, Judgement, SYMMETRIC_TO, in_n_mm, judge, stiffness_table};
+use kinetostat_links::{
+    Error, Grade, SYMMETRIC_TO, StiffnessCheck, check_stiffness, in_n_mm, stiffness_table,
+};
 use kinetostat_machining::number as formatter;
 use kinetostat_model::doubts_of_link_matrix;
 use nalgebra::Matrix6;
@@ -69,7 +71,7 @@ pub(crate) fn finish(
     source: &str,
     mut remarks: Remarks,
 ) -> Answer<()> {
-    let checked = judge(stiffness, SYMMETRIC_TO);
+    let checked = check_stiffness(stiffness, SYMMETRIC_TO);
     refuse_what_is_none(file, &checked)?;
     let doubts = doubts_of_link_matrix(stiffness, None);
     for finding in &checked.findings {
@@ -135,7 +137,7 @@ pub(crate) fn finish(
     screen::print_bytes(toml.as_bytes())
 }
 
-fn refuse_what_is_none(file: &Path, checked: &Judgement) -> Answer<()> {
+fn refuse_what_is_none(file: &Path, checked: &StiffnessCheck) -> Answer<()> {
     let refused = checked.findings.iter().find(|f| f.grade == Grade::Refused);
     let loose = (!checked.is_definite())
         .then(|| checked.findings.iter().find(|f| f.message.contains("rank")))
@@ -153,7 +155,7 @@ fn refuse_what_is_none(file: &Path, checked: &Judgement) -> Answer<()> {
 
 fn answer_text(
     name: &str,
-    checked: &Judgement,
+    checked: &StiffnessCheck,
     stiffness: &Matrix6<f64>,
     share: f64,
     remarks: &Remarks,

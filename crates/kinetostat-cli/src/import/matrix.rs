@@ -2,7 +2,7 @@
 
 use kinetostat_links::{
     CondensationRequest, Condensed, FreeTest, Nodes, SYMMETRIC_TO, Superelement, Text, Tie,
-    condense, free_test, judge, read_matrix, read_nodes, read_superelement, symmetrised,
+    check_stiffness, condense, free_test, read_matrix, read_nodes, read_superelement, symmetrised,
 };
 use kinetostat_machining::number as formatter;
 use nalgebra::Matrix6;
@@ -67,7 +67,7 @@ fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, Stri
         },
     );
     remarks.row("units", read.units.name);
-    let raw = judge(&read.stiffness, f64::INFINITY).antisymmetric_share;
+    let raw = check_stiffness(&read.stiffness, f64::INFINITY).antisymmetric_share;
     let mut stiffness = read.at_link_end();
     if raw.is_finite() && (raw <= SYMMETRIC_TO || args.symmetrise) {
         stiffness = symmetrised(&stiffness);

@@ -2,7 +2,7 @@
 
 use kinetostat::BeamSection;
 use kinetostat_links::{
-    Grade, SYMMETRIC_TO, Units, in_n_mm, judge, read_matrix, stiffness_table, symmetrised,
+    Grade, SYMMETRIC_TO, Units, check_stiffness, in_n_mm, read_matrix, stiffness_table, symmetrised,
 };
 use nalgebra::Matrix6;
 
@@ -93,7 +93,7 @@ fn point_and_axes_of_the_file_are_taken_into_account() {
 #[test]
 fn findings_name_what_a_matrix_is_not() {
     let refused = |k: &Matrix6<f64>, word: &str| {
-        let checked = judge(k, SYMMETRIC_TO);
+        let checked = check_stiffness(k, SYMMETRIC_TO);
         assert!(!checked.is_stiffness(), "{word}");
         let all: Vec<String> = checked
             .findings
@@ -105,7 +105,7 @@ fn findings_name_what_a_matrix_is_not() {
     let mut k = bar();
     k[(1, 5)] *= 1.01;
     refused(&k, "row rz column y");
-    assert!(judge(&symmetrised(&k), SYMMETRIC_TO).is_stiffness());
+    assert!(check_stiffness(&symmetrised(&k), SYMMETRIC_TO).is_stiffness());
     let mut k = bar();
     k[(1, 5)] *= -1.2;
     k[(5, 1)] *= -1.2;
@@ -120,21 +120,21 @@ fn findings_name_what_a_matrix_is_not() {
     let k = bar();
     let column = k.column(5).into_owned();
     let hinged = k - column * column.transpose() / k[(5, 5)];
-    let checked = judge(&hinged, SYMMETRIC_TO);
+    let checked = check_stiffness(&hinged, SYMMETRIC_TO);
     assert!(checked.is_stiffness() && checked.rank == 5 && !checked.is_definite());
     assert!(
         checked.findings[0].message.contains("rank is 5")
             && checked.findings[0].message.contains("rz")
     );
     // N and mm read as N and m.
-    let checked = judge(&in_n_mm(&bar()), SYMMETRIC_TO);
+    let checked = check_stiffness(&in_n_mm(&bar()), SYMMETRIC_TO);
     assert!(
         checked
             .findings
             .iter()
             .any(|f| f.grade == Grade::Doubtful && f.help.contains("units"))
     );
-    let checked = judge(&bar(), SYMMETRIC_TO);
+    let checked = check_stiffness(&bar(), SYMMETRIC_TO);
     assert!(checked.findings.is_empty() && (0.05..0.4).contains(&checked.natural_length));
 }
 

@@ -83,7 +83,7 @@ pub(crate) fn chunk(
         true => poses(|s| &s.commanded),
         false => wanted.clone(),
     };
-    let after = machine.judged(&commanded, &wrenches);
+    let after = machine.with_stability(&commanded, &wrenches);
     let [before_memory, after_memory] = memory;
     // One after the other: each starts from its neighbour.
     let mut solved = |i: usize| -> Result<PointResult, Error> {
@@ -152,7 +152,7 @@ impl Loaded {
     }
 
     fn of_batch(found: &BatchEquilibrium, i: usize, commanded: &Pose) -> Option<Self> {
-        let stability = found.verdict(i)?;
+        let stability = found.stability(i)?;
         let tool = found.tool_pose(i);
         Some(Self {
             rotation: (tool.rotation * commanded.rotation.inverse()).angle(),

@@ -78,7 +78,7 @@ fn errors_of(all: &BatchEquilibrium, i: usize, scalar: &MechanismEquilibrium) ->
     let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
     let matrix = scalar.stiffness.matrix;
     let forces: Vec<f64> = all.actuator_forces.row(i).collect();
-    let stability = all.verdict(i).expect("asked for");
+    let stability = all.stability(i).expect("asked for");
     assert_eq!(stability.stable, scalar.stable());
     let soft = scalar.stiffness_against_force();
     let share_to_buckling = match (stability.share_to_buckling, scalar.share_to_buckling()) {
@@ -156,7 +156,7 @@ fn every_preset_has_the_same_stability_scalar_and_vectorised() {
                 preset.name
             );
             let Ok((scalar, commands)) = scalar else {
-                assert!(all.verdict(i).is_none());
+                assert!(all.stability(i).is_none());
                 continue;
             };
             for (w, x) in worst.iter_mut().zip(errors_of(&all, i, &scalar)) {

@@ -106,11 +106,11 @@ impl<'p> Block<'p> {
         let tenths = word.value * 10.0;
         let whole = tenths.round();
         let code = lookup(letter, whole as u32);
-        let shown = format!("{letter}{}", word.value);
+        let shown = || format!("{letter}{}", word.value);
         if (tenths - whole).abs() > 1e-6 || !(0.0..1e6).contains(&tenths) {
             return Err(self.refuse(
                 Some(word),
-                &format!("{shown} is no code"),
+                &format!("{} is no code", shown()),
                 "mend the number",
             ));
         }
@@ -119,7 +119,7 @@ impl<'p> Block<'p> {
             Some((meaning, Treatment::Refused { reason, remedy })) => {
                 return Err(self.refuse(
                     Some(word),
-                    &format!("{shown} ({meaning}): {reason}"),
+                    &format!("{} ({meaning}): {reason}", shown()),
                     remedy,
                 ));
             }
@@ -127,7 +127,7 @@ impl<'p> Block<'p> {
             None if letter == 'G' || !tenths.is_multiple_of(10) && !self.is_vendor() => {
                 return Err(self.refuse(
                     Some(word),
-                    &format!("{shown} is not known here and may move the tool"),
+                    &format!("{} is not known here and may move the tool", shown()),
                     "remove it, or write what it does with codes that are known",
                 ));
             }
@@ -169,7 +169,10 @@ impl<'p> Block<'p> {
         if twice {
             return Err(self.refuse(
                 Some(word),
-                &format!("{shown} meets another code of its group in the same block"),
+                &format!(
+                    "{} meets another code of its group in the same block",
+                    shown()
+                ),
                 "write the two codes in two blocks",
             ));
         }
@@ -178,28 +181,25 @@ impl<'p> Block<'p> {
 
     /// Letters that are parameters of another code of the block are no coordinates.
     fn drop_parameters(&mut self) {
-        let takes = |letter: u8, codes: &[u32]| {
-            self.words.iter().any(|word| {
-                let tenths = word.tenths();
-                word.letter == letter && tenths.is_multiple_of(10) && codes.contains(&(tenths / 10))
-            })
+        let takes = |letter: u8, among: fn(u32) -> bool| {
+            let own = self.words.iter().filter(|word| word.letter == letter);
+            let mut tenths = own.map(Word::tenths);
+            tenths.any(|tenths| tenths.is_multiple_of(10) && among(tenths / 10))
         };
         let mut dropped: Vec<u8> = Vec::new();
         if self.codes.dwell {
             dropped.extend(b"XUPSFABCEVWYZQR");
         }
-        if takes(b'G', &[64]) {
+        if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");
         }
-        if takes(b'M', &[62, 63, 64, 65, 66, 67, 68]) {
+        if takes(b'M', |code| matches!(code, 62..=68)) {
             dropped.extend(b"PELQ");
         }
-        if takes(b'M', &[19]) {
+        if takes(b'M', |code| code == 19) {
             dropped.extend(b"RPQ");
         }
-        if takes(b'M', &[3, 4, 5, 6, 50, 51, 52, 53])
-            || (100..=199).any(|code| takes(b'M', &[code]))
-        {
+        if takes(b'M', |code| matches!(code, 3..=6 | 50..=53 | 100..=199)) {
             dropped.extend(b"PQ");
         }
         for letter in dropped {

@@ -65,7 +65,7 @@ impl Curve {
             force: 3.0 * p.conjugate * 1e-3,
             slope: 3.0 * p.slope * 1e-3,
             stable: p.unstable_modes()[1] == 0,
-            share_to_buckling: p.held.share_to_buckling.unwrap_or(0.0),
+            share_to_buckling: p.displacement_control.share_to_buckling.unwrap_or(0.0),
         };
         let branch = curves.branches.first();
         let mut places: Vec<DiagonalPoint> = branch

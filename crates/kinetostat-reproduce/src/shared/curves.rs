@@ -16,9 +16,9 @@ pub(crate) struct Drawn<'d> {
 
 fn stable(drawn: &Drawn<'_>, p: &CurvePoint) -> bool {
     if drawn.held {
-        p.held.stable
+        p.displacement_control.stable
     } else {
-        p.dead.stable
+        p.dead_load.stable
     }
 }
 

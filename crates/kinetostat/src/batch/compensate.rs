@@ -1,40 +1,31 @@
-//! The report's iteration for the target to command [R 7.13], several postures at once:
-//! `t0F <- t0F + (t_desired - f^-1(F | t0F))`.
+//! The target to command so that the loaded tool is where it shall be, several postures at once.
 //!
-//! It contracts by as much as the deflection changes from the commanded place to the corrected one,
-//! about the deflection as a share of the machine's size. Every round starts anew from the target
-//! alone, so a lane that is done and keeps its target keeps its bits.
+//! The report iterates `t0F <- t0F + (t_desired - f^-1(F | t0F))` [R 7.13]: one equilibrium per step. A serial
+//! machine does so here. Where limbs hold a platform, equilibrium and target are corrected together: after every pass
+//! of [`super::platform`] the target is moved by what the tool is off, and the machine goes along as it is bent. What is
+//! left after that is of second order, deflection times correction as a share of the machine's size, so that this takes
+//! no more passes than the equilibrium alone.
 
 use pulp::Simd;
 
 use super::apart::apart;
-use super::group::REGULAR;
 use super::lanes::Lanes;
 use super::machine::Machine;
-use super::reach::Target;
 use super::vectors::{minus, select, turn_between, turned};
 use crate::spatial::Directions;
 
-/// Equilibria after which a lane is given up.
-pub(super) const MOST_ROUNDS: usize = 12;
 /// Farther off than this (share of the natural length, rad) the target is corrected again. The
 /// general engine closes its loops to 1e-12.
 const OFF: f64 = 3e-13;
 
-impl<S: Simd> Machine<'_, S> {
-    /// Corrects the target in the lanes that are `good` and whose tool is off the `aim` in one of the
-    /// directions: one in these lanes. Rotations are corrected about all axes or none.
+impl<S: Simd> Machine<S> {
+    /// Corrects the target in the lanes that are `able` and whose tool is off its place in one of these directions
+    /// (base axes `x y z rx ry rz`; rotations about all axes or none): one in these lanes. The tool is taken to go along.
     #[inline(always)]
-    pub fn correct(
-        &mut self,
-        simd: S,
-        aim: &Target<S>,
-        directions: Directions,
-        good: Lanes<S>,
-    ) -> Lanes<S> {
+    pub fn correct(&mut self, simd: S, directions: Directions, able: Lanes<S>) -> Lanes<S> {
         apart!(simd, {
             let zero = Lanes::new(simd, 0.0);
-            let mut residual = minus(&aim.point, &self.point);
+            let mut residual = minus(&self.place.point, &self.point);
             let mut most = zero;
             for k in 0..3 {
                 if !directions[k] {
@@ -44,24 +35,50 @@ impl<S: Simd> Machine<'_, S> {
             }
             let mut turn = [zero; 3];
             if directions[3] {
-                turn = turn_between(&aim.rotation, &self.rotation);
+                turn = turn_between(&self.place.rotation, &self.rotation);
                 for x in &turn {
                     most = most.max(x.abs());
                 }
             }
-            let able = (zero + REGULAR).where_less(good, zero + 1.0, zero);
             let off = (zero + OFF).where_less(most, able, zero);
-            for k in 0..3 {
-                let moved = self.target.point[k] + residual[k];
-                self.target.point[k] = select(off, moved, self.target.point[k]);
+            for point in [&mut self.target.point, &mut self.point] {
+                for k in 0..3 {
+                    point[k] = select(off, point[k] + residual[k], point[k]);
+                }
             }
             if directions[3] {
-                let rotation = turned(&turn, &self.target.rotation);
-                for k in 0..9 {
-                    self.target.rotation[k] = select(off, rotation[k], self.target.rotation[k]);
+                for rotation in [&mut self.target.rotation, &mut self.rotation] {
+                    let to = turned(&turn, rotation);
+                    for k in 0..9 {
+                        rotation[k] = select(off, to[k], rotation[k]);
+                    }
                 }
             }
             off
         })
+    }
+
+    /// The same between two passes of an equilibrium: the limbs follow, their joints by one step of Newton's
+    /// iteration, which is also taken where they are still `away` from the target. One in the lanes that go on, and
+    /// in those that are away now.
+    #[inline(always)]
+    pub fn correct_between_passes(
+        &mut self,
+        simd: S,
+        directions: Directions,
+        able: Lanes<S>,
+        away: Lanes<S>,
+    ) -> (Lanes<S>, Lanes<S>) {
+        let off = self.correct(simd, directions, able);
+        let away = self.reach(simd, 1, off.max(away * able));
+        for ((limb, plan), joints) in self
+            .limbs
+            .iter_mut()
+            .zip(self.actual.iter())
+            .zip(&self.joints)
+        {
+            limb.follow(plan, joints);
+        }
+        (off.max(away), away)
     }
 }

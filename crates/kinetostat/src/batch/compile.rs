@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
 use super::plan::{
-    Amount, Drive, Held, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step,
+    Amount, Drive, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step, Support,
 };
 use super::status::NoKernel;
 use crate::model::chain::{Chain, Element, Motion, Role};
@@ -262,7 +262,7 @@ impl Writer<'_> {
             command: motion.command.map(|d| (d.index, d.ratio)),
             coordinate: motion.coordinate.map(|d| (d.index, d.ratio)),
         };
-        let (mut held, mut law) = (Held::Fixed, None);
+        let (mut support, mut law) = (Support::Fixed, None);
         if let Some((index, ratio)) = amount.coordinate {
             let own = &self.chain.coordinates()[index];
             match (own.role, block) {
@@ -281,14 +281,14 @@ impl Writer<'_> {
                     if own.home != 0.0 || block.rest[0] != 0.0 {
                         return refusal(&own.name, "is preloaded");
                     }
-                    held = Held::Spring(1.0 / k[(0, 0)]);
+                    support = Support::Spring(1.0 / k[(0, 0)]);
                 }
                 (Role::Spring, None) => {
                     return refusal(&own.name, "has no law");
                 }
                 (Role::Passive, _) => {
                     if let Some(slot) = self.passive.iter().position(|i| *i == index) {
-                        held = Held::Passive(slot);
+                        support = Support::Passive(slot);
                     }
                 }
             }
@@ -302,7 +302,7 @@ impl Writer<'_> {
             *ratio *= sign;
         }
         // A locked joint keeps its value at home.
-        if matches!(held, Held::Fixed)
+        if matches!(support, Support::Fixed)
             && let Some((index, ratio)) = amount.coordinate.take()
         {
             amount.fixed = ratio * self.chain.coordinates()[index].home;
@@ -317,7 +317,7 @@ impl Writer<'_> {
             kind: motion.kind,
             axis,
             amount,
-            held,
+            support,
             law,
             screw,
         }));
@@ -434,7 +434,8 @@ fn sphere(steps: &[Step], screws: &[Screw]) -> Option<Sphere> {
         let Step::Joint(joint) = step else {
             return None;
         };
-        let (Held::Passive(_), Some((own, ratio))) = (joint.held, joint.amount.coordinate) else {
+        let (Support::Passive(_), Some((own, ratio))) = (joint.support, joint.amount.coordinate)
+        else {
             return None;
         };
         let drives = screws
@@ -484,7 +485,7 @@ fn polar(steps: &[Step], search: &Search, chain: &Chain) -> Option<Polar> {
     }
     let at_home = |joint: &Joint| -> Option<(f64, f64)> {
         let (index, ratio) = joint.amount.coordinate?;
-        let free = matches!(joint.held, Held::Passive(_));
+        let free = matches!(joint.support, Support::Passive(_));
         let turns = joint.kind == MotionKind::Revolute && ratio.abs() == 1.0;
         let home = joint.amount.fixed + ratio * chain.coordinates()[index].home;
         (free && turns && joint.amount.command.is_none()).then(|| home.sin_cos())
@@ -502,7 +503,7 @@ fn polar(steps: &[Step], search: &Search, chain: &Chain) -> Option<Polar> {
             Step::Joint(joint)
                 if joint.kind == MotionKind::Prismatic
                     && joint.axis == along
-                    && !matches!(joint.held, Held::Passive(_))
+                    && !matches!(joint.support, Support::Passive(_))
                     && slide.is_none() =>
             {
                 fixed += joint.amount.fixed;

@@ -1,6 +1,10 @@
 //! A machine compiled for many postures, and what is done with those that kernels leave over.
 
+use std::sync::Arc;
+
+use super::buffers::Buffers;
 use super::group::Places;
+use super::instruction_set::has_kernels;
 use super::plan::Plan;
 use super::run::Work;
 use super::status::{Engine, NoKernel, Status};
@@ -43,8 +47,12 @@ pub(super) const BLOCKS: usize = 32;
 pub struct Batch {
     pub(super) mechanism: Mechanism,
     /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
-    pub(super) nominal: std::result::Result<Vec<Plan>, NoKernel>,
-    pub(super) actual: std::result::Result<Vec<Plan>, NoKernel>,
+    pub(super) nominal: std::result::Result<Arc<[Plan]>, NoKernel>,
+    pub(super) actual: std::result::Result<Arc<[Plan]>, NoKernel>,
+    /// Loaded postures lie along a path: see [`super::path`].
+    pub(super) along: bool,
+    /// Of kernels that have run.
+    pub(super) buffers: Buffers,
 }
 
 impl Batch {
@@ -55,6 +63,8 @@ impl Batch {
             mechanism: mechanism.clone(),
             nominal: compiled(mechanism, |limb| &limb.nominal),
             actual: unburdened(mechanism).and_then(|()| compiled(mechanism, |limb| &limb.actual)),
+            along: false,
+            buffers: Buffers::default(),
         }
     }
 
@@ -94,6 +104,12 @@ impl Batch {
             });
         }
         Ok(Places::Joints { commands, each })
+    }
+
+    /// For postures that lie along a path, each a start for the next: see [`super::path`].
+    pub(crate) fn along_path(mut self) -> Self {
+        self.along = true;
+        self
     }
 
     /// As if no kernel knew the machine without load.
@@ -151,7 +167,10 @@ fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
 fn compiled(
     mechanism: &Mechanism,
     chain: impl Fn(&Limb) -> &Chain,
-) -> std::result::Result<Vec<Plan>, NoKernel> {
+) -> std::result::Result<Arc<[Plan]>, NoKernel> {
+    if !has_kernels() {
+        return Err(NoKernel::Processor);
+    }
     if mechanism.platforms().len() != 2 {
         return Err(NoKernel::PlatformsBetween);
     }

@@ -31,8 +31,8 @@ pub struct BatchEquilibrium {
     pub actuator_forces: Table,
     /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless wanted.
     pub stiffness: Table,
-    /// See [`Self::verdict`]. Empty unless wanted: [`Details::Stability`].
-    pub verdicts: Table,
+    /// See [`Self::stability`]. Empty unless wanted: [`Details::Stability`].
+    pub stability: Table,
     /// What became of each.
     pub status: Vec<Status>,
     /// Which engine postures of this machine are solved by.
@@ -42,7 +42,7 @@ pub struct BatchEquilibrium {
 /// Whether an equilibrium holds, and how well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Verdict {
+pub struct PostureStability {
     /// Every limb keeps its shape and the platform its place, as [`MechanismEquilibrium::stable`].
     pub stable: bool,
     /// Force (N) per metre in the softest direction with the tool free to turn, as
@@ -60,7 +60,7 @@ pub struct BatchTargets {
     /// Pose for which the machine is commanded, base from tool; numbers that are none where
     /// `equilibrium.status` says [`Status::Unsolved`].
     pub targets: Vec<Pose>,
-    /// The equilibrium of each, without stiffness and verdict.
+    /// The equilibrium of each, without stiffness and stability.
     pub equilibrium: BatchEquilibrium,
 }
 
@@ -72,7 +72,7 @@ pub enum Details {
     Rest,
     /// The tangent stiffness at the tool, too.
     Stiffness,
-    /// Whether it is stable, too, see [`BatchEquilibrium::verdict`].
+    /// Whether it is stable, too, see [`BatchEquilibrium::stability`].
     Stability,
 }
 
@@ -84,7 +84,7 @@ struct Scalar {
     commands: Vec<f64>,
     forces: Vec<f64>,
     stiffness: Vec<f64>,
-    verdict: Vec<f64>,
+    stability: Vec<f64>,
 }
 
 impl BatchEquilibrium {
@@ -108,25 +108,25 @@ impl BatchEquilibrium {
         self.commands.reset(commands, count);
         self.actuator_forces.reset(commands, count);
         self.stiffness.reset(stiffness, count);
-        let verdict = if query == Details::Stability { 3 } else { 0 };
-        self.verdicts.reset(verdict, count);
+        let stability = if query == Details::Stability { 3 } else { 0 };
+        self.stability.reset(stability, count);
         self.engine = batch.engine();
         self.status.clear();
         self.status.resize(count, Status::Unsolved);
     }
 
-    /// The verdict of one posture; `None` if none was wanted or the posture was not found.
+    /// The stability of one posture; `None` if none was wanted or the posture was not found.
     ///
     /// # Panics
     /// If the index is out of range, as for a slice.
     #[must_use]
-    pub fn verdict(&self, posture: usize) -> Option<Verdict> {
-        if self.verdicts.width() == 0 || self.status[posture] == Status::Unsolved {
+    pub fn stability(&self, posture: usize) -> Option<PostureStability> {
+        if self.stability.width() == 0 || self.status[posture] == Status::Unsolved {
             return None;
         }
         let [stable, stiffness, share_to_buckling] =
-            [0, 1, 2].map(|k| self.verdicts.get(posture, k));
-        Some(Verdict {
+            [0, 1, 2].map(|k| self.stability.get(posture, k));
+        Some(PostureStability {
             stable: stable > 0.0,
             stiffness_against_force: stiffness,
             share_to_buckling: (!share_to_buckling.is_nan()).then_some(share_to_buckling),
@@ -150,7 +150,7 @@ impl BatchEquilibrium {
                 &mut self.commands,
                 &mut self.actuator_forces,
                 &mut self.stiffness,
-                &mut self.verdicts,
+                &mut self.stability,
             ] {
                 table.set_row(i, |_| f64::NAN);
             }
@@ -164,7 +164,7 @@ impl BatchEquilibrium {
         self.commands.set_row(i, |k| answer.commands[k]);
         self.actuator_forces.set_row(i, |k| answer.forces[k]);
         self.stiffness.set_row(i, |k| answer.stiffness[k]);
-        self.verdicts.set_row(i, |k| answer.verdict[k]);
+        self.stability.set_row(i, |k| answer.stability[k]);
         self.status[i] = Status::Scalar;
     }
 }
@@ -179,11 +179,11 @@ impl Scalar {
             commands: posture.commands(),
             forces: forces(posture, state),
             stiffness: Vec::new(),
-            verdict: Vec::new(),
+            stability: Vec::new(),
         }
     }
 
-    fn judged(posture: &Posture, found: &MechanismEquilibrium) -> Self {
+    fn with_stability(posture: &Posture, found: &MechanismEquilibrium) -> Self {
         let matrix = &found.stiffness.matrix;
         Self {
             target: *posture.target(),
@@ -192,7 +192,7 @@ impl Scalar {
             commands: posture.commands(),
             forces: found.actuator_forces(),
             stiffness: (0..36).map(|k| matrix[(k / 6, k % 6)]).collect(),
-            verdict: vec![
+            stability: vec![
                 f64::from(u8::from(found.stable())),
                 found.stiffness_against_force(),
                 found.share_to_buckling().unwrap_or(f64::NAN),
@@ -338,9 +338,9 @@ impl Batch {
         })
     }
 
-    /// Kernels see all that a verdict depends on: a redundant passive joint, which they lock, may be
+    /// Kernels see all that a stability depends on: a redundant passive joint, which they lock, may be
     /// pushed out of line.
-    fn judges(&self) -> bool {
+    fn stability_by_kernels(&self) -> bool {
         let whole = |plan: &Plan| plan.passive.len() + springs(plan) == plan.coordinates;
         self.actual
             .as_ref()
@@ -366,7 +366,7 @@ impl Batch {
             &mut out.commands,
             &mut out.actuator_forces,
             &mut out.stiffness,
-            &mut out.verdicts,
+            &mut out.stability,
             targets,
         ]
         .map(|table| table.parts(BLOCKS));
@@ -379,7 +379,7 @@ impl Batch {
                 commands,
                 forces,
                 stiffness,
-                verdicts,
+                stability,
                 targets,
             ] = next;
             Work::Loaded {
@@ -390,13 +390,15 @@ impl Batch {
                 places: places.from(k * BLOCKS * BLOCK),
                 wrenches: &wrenches[k * BLOCKS * BLOCK..],
                 directions,
+                along: self.along,
+                buffers: &self.buffers,
                 answers: Answers {
                     tool: tool_out,
                     coordinates,
                     commands,
                     forces,
                     stiffness,
-                    verdicts,
+                    stability,
                     targets,
                     status,
                 },
@@ -426,7 +428,7 @@ impl Batch {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, query, places.len());
-        if query != Details::Stability || self.judges() {
+        if query != Details::Stability || self.stability_by_kernels() {
             let mut none = Table::default();
             none.reset(0, places.len());
             self.vectorised(places, wrenches, None, out, &mut none);
@@ -438,7 +440,7 @@ impl Batch {
                 return Ok(Scalar::resting(&posture, &state));
             }
             let found = posture.deflected_by(&wrenches[i])?;
-            Ok(Scalar::judged(&posture, &found))
+            Ok(Scalar::with_stability(&posture, &found))
         };
         for (i, answer) in left(&out.status, scalar) {
             out.set(i, answer.as_ref());

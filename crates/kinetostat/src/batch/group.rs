@@ -38,17 +38,33 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Postures side by side in one register.
+/// Postures side by side in one register: `first`, `first + stride`, and so on.
 pub(super) struct Group {
     pub first: usize,
+    pub stride: usize,
     pub count: usize,
 }
 
 impl Group {
+    /// Neighbours in the list.
+    pub fn of_neighbours(first: usize, count: usize) -> Self {
+        Self {
+            first,
+            stride: 1,
+            count,
+        }
+    }
+
     /// Posture in a lane; the last one fills up.
     #[inline(always)]
     fn item(&self, lane: usize) -> usize {
-        (self.first + lane).min(self.count - 1)
+        (self.first + lane * self.stride).min(self.count - 1)
+    }
+
+    /// Lanes that have a posture of their own.
+    #[inline(always)]
+    fn filled(&self, lanes: usize) -> usize {
+        (self.count - self.first).div_ceil(self.stride).min(lanes)
     }
 
     /// One number of every posture: `numbers(item)[k]`.
@@ -82,6 +98,10 @@ impl Group {
     #[inline(always)]
     pub fn put<S: Simd>(&self, table: &mut [f64], from: usize, numbers: &[Lanes<S>]) {
         let width = table.len() / self.count.div_ceil(BLOCK) / BLOCK;
+        if self.stride > 1 {
+            self.scatter(table, width, from, numbers);
+            return;
+        }
         let start = ((self.first / BLOCK) * width + from) * BLOCK;
         let block = &mut table[start..start + numbers.len() * BLOCK];
         let (places, _) = block.as_chunks_mut::<BLOCK>();
@@ -91,14 +111,27 @@ impl Group {
         }
     }
 
+    /// The same where the postures lie apart.
+    #[inline(always)]
+    fn scatter<S: Simd>(&self, table: &mut [f64], width: usize, from: usize, numbers: &[Lanes<S>]) {
+        for lane in 0..self.filled(S::F64_LANES) {
+            let item = self.item(lane);
+            let start = ((item / BLOCK) * width + from) * BLOCK + item % BLOCK;
+            let places = table[start..].iter_mut().step_by(BLOCK);
+            for (place, number) in places.zip(numbers) {
+                *place = number.lane(lane);
+            }
+        }
+    }
+
     /// Marks the lanes whose least pivot or other measure of good is well above zero.
     #[inline(always)]
     pub fn conclude<S: Simd>(&self, good: Lanes<S>, status: &mut [Status]) {
         let mut values = [0.0; BLOCK];
         good.store(&mut values);
-        for (own, good) in status[self.first..].iter_mut().zip(&values[..S::F64_LANES]) {
-            if *good > REGULAR {
-                *own = Status::Vectorised;
+        for lane in 0..self.filled(S::F64_LANES) {
+            if values[lane] > REGULAR {
+                status[self.item(lane)] = Status::Vectorised;
             }
         }
     }

@@ -3,12 +3,15 @@
 //! With the feature `simd` they are compiled for the widest registers that `pulp` knows of a processor (AVX-512 or
 //! AVX2, NEON), for AVX2 and for single numbers. A build with debug assertions has no AVX-512, and no fused
 //! multiply-adds for single numbers: each of them is the whole of the kernels compiled once more. The bits of an
-//! answer are the same in all of them.
+//! answer are the same in all of them. A processor of the x86 family without AVX2 (before 2013) has no kernels: the
+//! general engine solves every posture there.
 
 use std::cell::Cell;
 
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 use pulp::x86::V3;
+#[cfg(all(feature = "simd", target_arch = "x86_64", not(debug_assertions)))]
+use pulp::x86::V4;
 use pulp::{Scalar, Simd, WithSimd};
 
 /// What a kernel is compiled for.
@@ -69,21 +72,36 @@ impl InstructionSet {
     }
 
     pub(super) fn run<W: WithSimd<Output = ()>>(self, work: W) {
-        match self {
-            #[cfg(all(feature = "simd", target_arch = "x86_64"))]
-            Self::Avx2 => match V3::try_new() {
-                Some(simd) => Simd::vectorize(simd, work),
-                None => work.with_simd(Scalar),
-            },
-            #[cfg(all(
-                feature = "simd",
-                any(not(debug_assertions), not(target_arch = "x86_64"))
-            ))]
-            Self::Widest => pulp::Arch::new().dispatch(work),
-            _ => singly(Single(work)),
+        #[cfg(all(feature = "simd", target_arch = "x86_64"))]
+        if self != Self::Single {
+            #[cfg(not(debug_assertions))]
+            if let (Self::Widest, Some(simd)) = (self, V4::try_new()) {
+                return Simd::vectorize(simd, work);
+            }
+            if let Some(simd) = V3::try_new() {
+                return Simd::vectorize(simd, work);
+            }
         }
+        #[cfg(all(feature = "simd", not(target_arch = "x86_64")))]
+        if self == Self::Widest {
+            return pulp::Arch::new().dispatch(work);
+        }
+        singly(Single(work));
     }
 }
+
+/// Whether this processor has what the kernels of this build are compiled for.
+pub(super) fn has_kernels() -> bool {
+    !ALWAYS_FUSED || has_avx2()
+}
+
+/// Whether kernels in single numbers are compiled for the fused multiply-adds of AVX2 and for nothing else. Without them
+/// each is a call, which makes the kernels slower than the general engine.
+const ALWAYS_FUSED: bool = cfg!(all(
+    feature = "simd",
+    target_arch = "x86_64",
+    not(debug_assertions)
+));
 
 fn has_avx2() -> bool {
     #[cfg(all(feature = "simd", target_arch = "x86_64"))]
@@ -105,16 +123,18 @@ impl<W: WithSimd> WithSimd for Single<W> {
 }
 
 /// In a function of its own, with the fused multiply-adds that the processor has.
+#[cfg(all(feature = "simd", target_arch = "x86_64", not(debug_assertions)))]
 #[inline(always)]
 pub(super) fn singly<W: WithSimd>(part: W) -> W::Output {
-    #[cfg(all(feature = "simd", target_arch = "x86_64", not(debug_assertions)))]
-    if let Some(wide) = V3::try_new() {
-        return Simd::vectorize(wide, part);
+    match V3::try_new() {
+        Some(simd) => Simd::vectorize(simd, part),
+        None => unreachable!("no machine is compiled into kernels on this processor: has_kernels"),
     }
-    plainly(part)
 }
 
+/// In a function of its own, with the fused multiply-adds that the processor has.
+#[cfg(not(all(feature = "simd", target_arch = "x86_64", not(debug_assertions))))]
 #[inline(never)]
-fn plainly<W: WithSimd>(part: W) -> W::Output {
+pub(super) fn singly<W: WithSimd>(part: W) -> W::Output {
     part.with_simd(Scalar)
 }

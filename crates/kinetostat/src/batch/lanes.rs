@@ -86,6 +86,12 @@ impl<S: Simd> Lanes<S> {
         pulp::bytemuck::cast_slice_mut::<f64, S::f64s>(&mut to[..S::F64_LANES])[0] = self.value;
     }
 
+    /// The number in one lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> f64 {
+        pulp::bytemuck::cast_slice::<S::f64s, f64>(std::slice::from_ref(&self.value))[lane]
+    }
+
     #[inline(always)]
     fn with(self, value: S::f64s) -> Self {
         Self {

@@ -8,33 +8,40 @@
 //! kernel knows: the [`Status`] of each posture and the [`Engine`] of the result say so.
 //!
 //! The answer of a posture depends on nothing but that posture: not on its neighbours, the number of
-//! threads or the width of the vectors.
+//! threads or the width of the vectors. Along a path ([`AlongPath`]) it depends on the places before it in the list that
+//! is asked at once, too, far below what is written of it.
 
 mod actuators;
 mod apart;
+mod buffers;
 mod compensate;
 mod compile;
 mod compiled;
+mod corrector;
 mod eliminate;
 mod equilibria;
 mod freed;
 mod group;
 pub(crate) mod instruction_set;
+mod inwards;
 pub(crate) mod lanes;
 pub(crate) mod law;
 mod loaded;
 mod machine;
 mod models;
+mod motion_axis;
 mod newton;
 mod newton_stage;
+mod outwards;
 mod path;
-mod place;
 mod plan;
 mod platform;
 mod reach;
 mod run;
 mod serial;
 mod shape;
+mod stability;
+mod start;
 mod status;
 mod stiffness;
 mod symmetric;
@@ -42,11 +49,10 @@ mod table;
 mod tangent;
 mod unloaded;
 mod vectors;
-mod verdict;
 mod wrenches;
 
 pub use compiled::Batch;
-pub use equilibria::{BatchEquilibrium, BatchTargets, Details, Verdict};
+pub use equilibria::{BatchEquilibrium, BatchTargets, Details, PostureStability};
 pub use models::over_machines;
 pub use path::AlongPath;
 pub use status::{Engine, NoKernel, Status};

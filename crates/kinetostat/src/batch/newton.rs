@@ -16,7 +16,7 @@
 //! `U` is how the wrench turns with the spring, and how its lever grows. A later rotation turns about an axis that the earlier
 //! ones have turned, which takes away the part of `S^T U` below the diagonal.
 //!
-//! Steps are judged by motion (Deuflhard's restricted natural monotonicity, as in
+//! Steps are accepted by motion (Deuflhard's restricted natural monotonicity, as in
 //! [`crate::chain::equilibrium`]): the step that the same matrices want where a step has led must be shorter.
 
 use pulp::Simd;
@@ -26,7 +26,7 @@ use super::lanes::Lanes;
 use super::law;
 use super::loaded::LoadedLimb;
 use super::newton_stage::{Single, Stage, axes, turns, weighs};
-use super::plan::{Held, Plan, Step};
+use super::plan::{Plan, Step, Support};
 use super::vectors::{component, dot, select};
 use super::wrenches::{back, lever, rotate, rotated_back, shift, slid, times, turn};
 use crate::spatial::MotionKind;
@@ -45,7 +45,7 @@ pub(super) struct Newton<S: Simd> {
     at: Vec<Lanes<S>>,
     step: Vec<Lanes<S>>,
     next: Vec<Lanes<S>>,
-    /// What the springs lack: `tau - K theta`.
+    /// Residual torques of the springs: `tau - K theta`.
     residual: Vec<Lanes<S>>,
     /// Smallest pivot relative to the springs' own stiffness: above zero where the chain is stable.
     stable: Lanes<S>,
@@ -60,7 +60,7 @@ impl<S: Simd> Newton<S> {
         let singles = plan
             .steps
             .iter()
-            .filter(|s| matches!(s, Step::Joint(j) if matches!(j.held, Held::Spring(_))));
+            .filter(|s| matches!(s, Step::Joint(j) if matches!(j.support, Support::Spring(_))));
         Self {
             stages: vec![Stage::new(simd); springs.count()],
             singles: vec![Single::new(simd); singles.count()],
@@ -76,7 +76,7 @@ impl<S: Simd> Newton<S> {
     /// Equilibrium of the limb under its wrench, from the unloaded limb, in the lanes where `wanted`
     /// is one; the others stay. One in the lanes that are in stable equilibrium now.
     #[inline(always)]
-    pub fn settle(
+    pub fn converge(
         &mut self,
         plan: &Plan,
         limb: &mut LoadedLimb<S>,
@@ -163,7 +163,7 @@ impl<S: Simd> Newton<S> {
         sum
     }
 
-    /// What the springs lack where the limb is.
+    /// Residual torques of the springs where the limb is.
     #[inline(always)]
     fn update_residual(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
         apart!(self.simd, {
@@ -179,8 +179,8 @@ impl<S: Simd> Newton<S> {
                     Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
                     Step::Joint(joint) => {
                         let torque = limb.joint_bears(joint, &mut force, &mut moment);
-                        if let (Held::Spring(c), Some((own, ratio))) =
-                            (joint.held, joint.amount.coordinate)
+                        if let (Support::Spring(c), Some((own, ratio))) =
+                            (joint.support, joint.amount.coordinate)
                         {
                             let x = limb.coordinates[own];
                             self.residual[own] = match &joint.law {
@@ -242,7 +242,7 @@ impl<S: Simd> Newton<S> {
                         rotate(self.simd, by, &mut p);
                     }
                     Step::Joint(joint) => {
-                        if let Held::Spring(_) = joint.held {
+                        if let Support::Spring(_) = joint.support {
                             single -= 1;
                             let own = &mut self.singles[single];
                             own.eliminate(joint, limb, &force, &moment, &mut p, &mut self.stable);
@@ -271,7 +271,7 @@ impl<S: Simd> Newton<S> {
         })
     }
 
-    /// The step that takes away what the springs lack.
+    /// The step that removes the residual torques of the springs.
     #[inline(always)]
     fn answer(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
         apart!(self.simd, {
@@ -285,8 +285,8 @@ impl<S: Simd> Newton<S> {
                     Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
                     Step::Joint(joint) => {
                         let mut moved = limb.moved[joint.screw];
-                        if let (Held::Spring(_), Some((own, ratio))) =
-                            (joint.held, joint.amount.coordinate)
+                        if let (Support::Spring(_), Some((own, ratio))) =
+                            (joint.support, joint.amount.coordinate)
                         {
                             single -= 1;
                             let residual = self.residual[own];
@@ -378,8 +378,8 @@ impl<S: Simd> Newton<S> {
                         rotated_back(self.simd, &transposed, &mut v, &mut w);
                     }
                     Step::Joint(joint) => {
-                        let spring = match (joint.held, joint.amount.coordinate) {
-                            (Held::Spring(_), Some(own)) => Some(own),
+                        let spring = match (joint.support, joint.amount.coordinate) {
+                            (Support::Spring(_), Some(own)) => Some(own),
                             _ => None,
                         };
                         let [s, c] = match spring {

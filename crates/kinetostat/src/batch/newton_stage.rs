@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::lanes::Lanes;
 use super::loaded::LoadedLimb;
-use super::plan::{Held, Joint, Spring};
+use super::plan::{Joint, Spring, Support};
 use super::vectors::{Vec3, cross, dot};
 use super::wrenches::{Mat6, back, lever, shift, slid, turn};
 use crate::spatial::MotionKind;
@@ -59,7 +59,8 @@ impl<S: Simd> Single<S> {
         p: &mut Mat6<S>,
         stable: &mut Lanes<S>,
     ) {
-        let (Held::Spring(c), Some((own, ratio))) = (joint.held, joint.amount.coordinate) else {
+        let (Support::Spring(c), Some((own, ratio))) = (joint.support, joint.amount.coordinate)
+        else {
             return;
         };
         let zero = force[0].same(0.0);

@@ -6,6 +6,10 @@
 //! posture, and every one that is far from the one before, is the one that the general engine finds from home, the
 //! others follow without a jump, and all lie within the limits of the actuators. `None` in all other cases: the caller
 //! searches from neighbour to neighbour, which also has the words for points without an answer.
+//!
+//! Neighbours on a path are nearly the same problem. So a list is divided into as many runs as a block has lanes, one run
+//! in each lane, and within its run a posture starts from the one before ([`super::start`]). The runs depend on the length
+//! of the list alone, so that the bits are the same on every instruction set and in every thread.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,8 +25,8 @@ use crate::spatial::{Directions, MotionKind, Pose, Wrench};
 pub struct AlongPath {
     mechanism: Mechanism,
     batch: Option<Batch>,
-    /// Kernels judge stability, too.
-    judges: bool,
+    /// Kernels find the stability, too.
+    stability_by_kernels: bool,
     length: f64,
 }
 
@@ -36,10 +40,10 @@ impl AlongPath {
     /// Compiles a machine.
     #[must_use]
     pub fn new(mechanism: &Mechanism) -> Self {
-        let batch = Batch::new(mechanism);
+        let batch = Batch::new(mechanism).along_path();
         // A machine of the general engine gains nothing: it is solved from neighbour to neighbour at once.
         let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
-        // One posture at home tells whether kernels judge stability.
+        // One posture at home tells whether kernels find the stability.
         let home = mechanism.platforms()[mechanism.tool()].home;
         let judged = batch.as_ref().and_then(|b| {
             b.equilibrium(&[home], &[Wrench::zero()], Details::Stability)
@@ -47,7 +51,7 @@ impl AlongPath {
         });
         Self {
             mechanism: mechanism.clone(),
-            judges: judged.is_some_and(|j| j.status == [Status::Vectorised]),
+            stability_by_kernels: judged.is_some_and(|j| j.status == [Status::Vectorised]),
             batch,
             length: mechanism.natural_length(),
         }
@@ -59,7 +63,7 @@ impl AlongPath {
     pub fn by_neighbours(mechanism: &Mechanism) -> Self {
         Self {
             mechanism: mechanism.clone(),
-            judges: false,
+            stability_by_kernels: false,
             batch: None,
             length: mechanism.natural_length(),
         }
@@ -98,8 +102,8 @@ impl AlongPath {
 
     /// As [`Self::rest`], with stiffness and stability.
     #[must_use]
-    pub fn judged(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
-        let batch = self.batch.as_ref().filter(|_| self.judges)?;
+    pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
+        let batch = self.batch.as_ref().filter(|_| self.stability_by_kernels)?;
         let found = batch.equilibrium(poses, wrenches, Details::Stability);
         found.ok().filter(|found| self.continued(poses, found))
     }

@@ -14,7 +14,7 @@ pub(super) struct Amount {
 
 /// What holds the coordinate of one motion.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Held {
+pub(super) enum Support {
     /// Nothing moves but the command, or the coordinate has a fixed value here.
     Fixed,
     /// A passive joint; its place among the plan's passive joints.
@@ -30,7 +30,7 @@ pub(super) struct Joint {
     /// 0, 1, 2: x, y, z.
     pub axis: usize,
     pub amount: Amount,
-    pub held: Held,
+    pub support: Support,
     /// How its spring answers, if that is not linear, see [`crate::model::springs::single`].
     pub law: Option<Box<SpringLaw>>,
     /// Its place in [`Plan::screws`].
@@ -179,6 +179,15 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// Number of springs whose compliance depends on the posture.
+    pub fn parallelograms(&self) -> usize {
+        let own = |step: &&Step| match step {
+            Step::Spring(spring) => matches!(spring.law, Law::Parallelogram(..)),
+            _ => false,
+        };
+        self.steps.iter().filter(own).count()
+    }
+
     /// Newton's iteration along the limb is compiled: serial, springs of constant matrices.
     pub fn has_tangent(&self) -> bool {
         let linear = |step: &Step| match step {

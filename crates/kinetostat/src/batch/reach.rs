@@ -9,11 +9,11 @@ use super::lanes::Lanes;
 use super::plan::{Plan, Polar, Rows, Search};
 use super::unloaded::ForwardPass;
 use super::vectors::{
-    Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, turn_between,
+    Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, select, turn_between,
 };
 
 /// A limb that is not there after so many steps is left to the search posture by posture.
-const MOST_STEPS: usize = 24;
+pub(super) const MOST_STEPS: usize = 24;
 /// Nearer than this (share of the natural length), one more step of a quadratic iteration is exact.
 const NEAR: f64 = 1e-8;
 
@@ -24,11 +24,10 @@ pub(super) struct Target<S: Simd> {
     pub point: Vec3<S>,
 }
 
-/// Joints of a limb; `reached` is one where the iteration has converged and zero elsewhere.
+/// Joints of a limb.
 pub(super) struct Joints<S: Simd> {
     pub commands: Vec<Lanes<S>>,
     pub passive: Vec<Lanes<S>>,
-    pub reached: Lanes<S>,
 }
 
 impl<S: Simd> Joints<S> {
@@ -37,12 +36,22 @@ impl<S: Simd> Joints<S> {
         Self {
             commands: vec![zero; plan.commands],
             passive: vec![zero; plan.passive.len()],
-            reached: zero,
         }
     }
 
-    /// Joints from home to the target. Unless `all` are asked for, the forward ends at the spherical
-    /// joint at the limb's end, if it has one, and leaves its angles at home.
+    /// At home in the lanes where `lost` is one.
+    #[inline(always)]
+    pub fn home(&mut self, simd: S, plan: &Plan, lost: Lanes<S>) {
+        for (x, home) in self.commands.iter_mut().zip(&plan.home_commands) {
+            *x = select(lost, Lanes::new(simd, *home), *x);
+        }
+        for (x, own) in self.passive.iter_mut().zip(&plan.passive) {
+            *x = select(lost, Lanes::new(simd, plan.home[*own]), *x);
+        }
+    }
+
+    /// Joints from home to the target, those of a spherical joint at the limb's end left out, and the forward pass with
+    /// them there: one where that is found.
     #[inline(always)]
     pub fn reach(
         &mut self,
@@ -50,25 +59,38 @@ impl<S: Simd> Joints<S> {
         plan: &Plan,
         forward: &mut ForwardPass<S>,
         target: &Target<S>,
-        all: bool,
-    ) {
-        for (x, home) in self.commands.iter_mut().zip(&plan.home_commands) {
-            *x = Lanes::new(simd, *home);
-        }
-        for (x, own) in self.passive.iter_mut().zip(&plan.passive) {
-            *x = Lanes::new(simd, plan.home[*own]);
-        }
-        self.reached = Lanes::new(simd, 1.0);
+    ) -> Lanes<S> {
+        let one = Lanes::new(simd, 1.0);
+        self.home(simd, plan, one);
         forward.known = None;
-        if let (Some(polar), false) = (&plan.polar, all) {
-            self.point_to(simd, polar, forward, target, plan);
-            return;
+        if let Some(polar) = &plan.polar {
+            return self.point_to(simd, polar, forward, target, plan);
         }
-        let searches = if all { plan.searches.len() } else { 1 };
+        let search = &plan.searches[0];
+        let away = self.search(simd, plan, search, (forward, target), (MOST_STEPS, one));
+        forward.along(plan, true, search.end, &self.commands, &self.passive);
+        one - away
+    }
+
+    /// All joints, from where they are to the target, in at most so many steps and in the lanes where `active` is one:
+    /// one in those that are not there yet.
+    #[inline(always)]
+    pub fn find(
+        &mut self,
+        simd: S,
+        plan: &Plan,
+        forward: &mut ForwardPass<S>,
+        target: &Target<S>,
+        (steps, active): (usize, Lanes<S>),
+    ) -> Lanes<S> {
+        forward.known = None;
+        let mut away = active.same(0.0);
         // One call in one place: the search is large, and every call is a copy of it.
-        for search in &plan.searches[..searches] {
-            self.search(simd, plan, search, forward, target);
+        for search in &plan.searches {
+            let own = self.search(simd, plan, search, (forward, target), (steps, active));
+            away = away.max(own);
         }
+        away
     }
 
     /// Polar joints from where they lead. With `u` the direction there in the frame of the first
@@ -82,7 +104,7 @@ impl<S: Simd> Joints<S> {
         forward: &mut ForwardPass<S>,
         target: &Target<S>,
         plan: &Plan,
-    ) {
+    ) -> Lanes<S> {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let d = minus(
             &sphere_centre(simd, plan, target),
@@ -108,50 +130,48 @@ impl<S: Simd> Joints<S> {
         let cosine = w.times_plus(w, v * v).sqrt() * home[1].1.signum();
         let over = one / cosine;
         let first = (v * over * -sense, w * over);
+        let mut reached = one;
         for ((s, c), home) in [(first, home[0]), ((sine, cosine), home[1])] {
             let near = s.times_plus(one * home.0, c * home.1);
-            self.reached = near.where_less(one * 0.1, zero, self.reached);
+            reached = near.where_less(one * 0.1, zero, reached);
         }
         // Where the length is zero no direction is a number.
-        self.reached = self.reached.least_of(length.abs());
+        reached = reached.least_of(length.abs());
         forward.known = Some((polar.first, [first, (sine, cosine)]));
         self.commands[polar.command] = (length - polar.fixed) * (1.0 / polar.ratio);
         let end = plan.searches[0].end;
         forward.along(plan, true, end, &self.commands, &self.passive);
+        reached
     }
 
-    /// Newton's iteration.
+    /// Newton's iteration in at most so many steps, in the lanes where `active` is one: one in those that it has not
+    /// brought to its end.
     #[inline(always)]
     fn search(
         &mut self,
         simd: S,
         plan: &Plan,
         search: &Search,
-        forward: &mut ForwardPass<S>,
-        target: &Target<S>,
-    ) {
+        (forward, target): (&mut ForwardPass<S>, &Target<S>),
+        (steps, mut active): (usize, Lanes<S>),
+    ) -> Lanes<S> {
         apart!(simd, {
             let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
             let joints = search.passive.len();
             let unknowns = joints + search.commands;
             if unknowns > 6 {
-                self.reached = zero;
-                return;
+                return one;
             }
             let centre = match search.rows {
                 Rows::Position => sphere_centre(simd, plan, target),
                 Rows::Rotation | Rows::Both => target.point,
             };
             let length = plan.length;
-            // Lanes that still search.
-            let mut active = one;
-            for pass in 0..=MOST_STEPS {
-                // The last pass only looks where the limb is.
-                let done = pass == MOST_STEPS || active.all_less(0.5);
-                forward.along(plan, done, search.end, &self.commands, &self.passive);
-                if done {
+            for _ in 0..steps {
+                if active.all_less(0.5) {
                     break;
                 }
+                forward.along(plan, false, search.end, &self.commands, &self.passive);
                 let mut columns = [[zero; 6]; 6];
                 forward.columns(plan, &search.drives, &mut columns);
                 let residual = minus(&centre, &forward.point);
@@ -209,7 +229,7 @@ impl<S: Simd> Joints<S> {
                 let still = largest.where_less(one * NEAR, there, zero);
                 active = active * (one - still);
             }
-            self.reached = active.where_less(one * 0.5, self.reached, zero);
+            active
         })
     }
 }

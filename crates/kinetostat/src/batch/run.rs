@@ -1,17 +1,21 @@
 //! From lists of postures to lanes and back.
 
+use std::sync::Arc;
+
 use pulp::{Simd, WithSimd};
 
-use super::compensate;
+use super::buffers::Buffers;
 use super::group::{Group, Places};
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
+use super::loaded::{ALONG_PATH, EXACT};
 use super::machine::{Machine, bounded};
 use super::plan::Plan;
 use super::reach::Joints;
 use super::shape::Shape;
 use super::status::Status;
 use super::symmetric::Symmetric;
+use super::table::BLOCK;
 use super::unloaded::ForwardPass;
 use super::vectors::{carried, constant};
 use crate::spatial::{Directions, Wrench};
@@ -20,6 +24,7 @@ use crate::spatial::{Directions, Wrench};
 pub(super) enum Work<'a> {
     Unloaded {
         plans: &'a [Plan],
+        buffers: &'a Buffers,
         places: Places<'a>,
         stiffness: &'a mut [f64],
         jacobian: &'a mut [f64],
@@ -27,8 +32,8 @@ pub(super) enum Work<'a> {
         status: &'a mut [Status],
     },
     Loaded {
-        nominal: &'a [Plan],
-        actual: &'a [Plan],
+        nominal: &'a Arc<[Plan]>,
+        actual: &'a Arc<[Plan]>,
         body: ([f64; 3], f64),
         gravity: [f64; 3],
         places: Places<'a>,
@@ -36,6 +41,9 @@ pub(super) enum Work<'a> {
         /// Directions in which the tool shall be at the places under load, if they are to be
         /// corrected.
         directions: Option<Directions>,
+        /// The postures lie along a path: each starts from the one before, in runs of one per lane.
+        along: bool,
+        buffers: &'a Buffers,
         answers: Answers<'a>,
     },
 }
@@ -47,7 +55,7 @@ pub(super) struct Answers<'a> {
     pub commands: &'a mut [f64],
     pub forces: &'a mut [f64],
     pub stiffness: &'a mut [f64],
-    pub verdicts: &'a mut [f64],
+    pub stability: &'a mut [f64],
     /// Commanded poses, 12 numbers as `tool`.
     pub targets: &'a mut [f64],
     pub status: &'a mut [Status],
@@ -75,12 +83,19 @@ impl WithSimd for Work<'_> {
         match self {
             Self::Unloaded {
                 plans,
+                buffers,
                 places,
                 stiffness,
                 jacobian,
                 commands,
                 status,
-            } => unloaded(simd, plans, places, [stiffness, jacobian, commands], status),
+            } => unloaded(
+                simd,
+                (plans, buffers),
+                places,
+                [stiffness, jacobian, commands],
+                status,
+            ),
             Self::Loaded {
                 nominal,
                 actual,
@@ -89,91 +104,125 @@ impl WithSimd for Work<'_> {
                 places,
                 wrenches,
                 directions,
-                answers,
+                along,
+                buffers,
+                mut answers,
             } => {
-                let mut machine = Machine::new(simd, nominal, actual, body, gravity);
-                if !answers.verdicts.is_empty() {
+                let make = || Machine::new(simd, nominal, actual, body, gravity);
+                let mut machine = buffers.take(make);
+                if !answers.stability.is_empty() && machine.shapes.is_empty() {
                     machine.shapes = actual.iter().map(|a| Shape::new(simd, a)).collect();
                 }
+                machine.precision = if along { ALONG_PATH } else { EXACT };
                 let count = answers.status.len();
-                for first in (0..count).step_by(S::F64_LANES) {
-                    let group = Group { first, count };
-                    let wrench = group.wrench(simd, wrenches);
-                    machine.aim(simd, &places, &group);
-                    let aim = machine.target;
-                    let mut good;
-                    let mut rounds = 0;
-                    loop {
-                        let aimed = matches!(places, Places::Poses(_));
-                        good = machine.settle(simd, aimed, &wrench);
-                        let Some(directions) = directions else {
-                            break;
+                // As many runs as a block has lanes, so that a run is the same on every instruction set.
+                let run = if along { count.div_ceil(BLOCK) } else { 1 };
+                for from in (0..count).step_by(S::F64_LANES * run) {
+                    for first in from..count.min(from + run) {
+                        let group = Group {
+                            first,
+                            stride: run,
+                            count,
                         };
-                        let off = machine.correct(simd, &aim, directions, good);
-                        rounds += 1;
-                        if off.all_less(0.5) {
-                            break;
-                        }
-                        if rounds == compensate::MOST_ROUNDS {
-                            good = good * (off.same(1.0) - off);
-                            break;
-                        }
+                        let wrench = group.wrench(simd, wrenches);
+                        let start = match places {
+                            Places::Joints { commands, each } => {
+                                machine.start_at_joints(simd, &group, commands, each)
+                            }
+                            Places::Poses(poses) if first > from => {
+                                machine.go_on(simd, group.target(simd, poses), directions)
+                            }
+                            Places::Poses(poses) => {
+                                machine.start_at(simd, group.target(simd, poses))
+                            }
+                        };
+                        let good = machine.converge(simd, &wrench, directions, start);
+                        machine.answer(simd, &group, &wrench, good, &mut answers);
                     }
-                    if !answers.targets.is_empty() {
-                        group.put(answers.targets, 0, &machine.target.rotation);
-                        group.put(answers.targets, 9, &machine.target.point);
-                    }
-                    group.put(answers.tool, 0, &machine.rotation);
-                    group.put(answers.tool, 9, &machine.point);
-                    let (mut from, mut first) = (0, 0);
-                    for limb in &machine.limbs {
-                        group.put(answers.coordinates, from, &limb.coordinates);
-                        group.put(answers.commands, first, &limb.commands);
-                        from += limb.coordinates.len();
-                        first += limb.commands.len();
-                    }
-                    machine.actuator_forces(simd);
-                    group.put(answers.forces, 0, &machine.forces);
-                    if !answers.stiffness.is_empty() {
-                        for (limb, plan) in machine.limbs.iter_mut().zip(actual) {
-                            limb.frames(plan, &gravity);
-                        }
-                        let (k, regular) = machine.tangent(simd);
-                        good = good.least_of(regular);
-                        group.put(answers.stiffness, 0, k.as_flattened());
-                        if !answers.verdicts.is_empty() {
-                            let (verdict, regular) = machine.verdict(simd, &k);
-                            good = good.least_of(regular);
-                            group.put(answers.verdicts, 0, &verdict);
-                        }
-                    }
-                    good = good.least_of(machine.numbers(simd, &wrench));
-                    group.conclude(good, answers.status);
                 }
+                buffers.put(machine);
             }
         }
     }
 }
 
+impl<S: Simd> Machine<S> {
+    /// Writes what was found to the places of these postures, those that are `good` as solved.
+    #[inline(always)]
+    fn answer(
+        &mut self,
+        simd: S,
+        group: &Group,
+        wrench: &[Lanes<S>; 6],
+        mut good: Lanes<S>,
+        answers: &mut Answers<'_>,
+    ) {
+        if !answers.targets.is_empty() {
+            group.put(answers.targets, 0, &self.target.rotation);
+            group.put(answers.targets, 9, &self.target.point);
+        }
+        group.put(answers.tool, 0, &self.rotation);
+        group.put(answers.tool, 9, &self.point);
+        let (mut from, mut first) = (0, 0);
+        for limb in &self.limbs {
+            group.put(answers.coordinates, from, &limb.coordinates);
+            group.put(answers.commands, first, &limb.commands);
+            from += limb.coordinates.len();
+            first += limb.commands.len();
+        }
+        self.actuator_forces(simd);
+        group.put(answers.forces, 0, &self.forces);
+        if !answers.stiffness.is_empty() {
+            for (limb, plan) in self.limbs.iter_mut().zip(self.actual.iter()) {
+                limb.frames(plan, &self.gravity);
+            }
+            let (k, regular) = self.tangent(simd);
+            good = good.least_of(regular);
+            group.put(answers.stiffness, 0, k.as_flattened());
+            if !answers.stability.is_empty() {
+                let (stability, regular) = self.stability(simd, &k);
+                good = good.least_of(regular);
+                group.put(answers.stability, 0, &stability);
+            }
+        }
+        good = good.least_of(self.numbers(simd, wrench));
+        // A posture that is no number is no start for the next one on a path.
+        self.found = good;
+        group.conclude(good, answers.status);
+    }
+}
+
+/// Buffers of a machine without load: of every limb, and of a Jacobian whose columns are summed up.
+struct Unloaded<S: Simd> {
+    limbs: Vec<(ForwardPass<S>, Joints<S>)>,
+    columns: Vec<Lanes<S>>,
+}
+
 #[inline(always)]
 fn unloaded<S: Simd>(
     simd: S,
-    plans: &[Plan],
+    (plans, buffers): (&[Plan], &Buffers),
     places: Places<'_>,
     [stiffness, jacobian, all_commands]: [&mut [f64]; 3],
     status: &mut [Status],
 ) {
     let zero = Lanes::new(simd, 0.0);
-    let mut limbs: Vec<(ForwardPass<S>, Joints<S>)> = plans
-        .iter()
-        .map(|plan| (ForwardPass::new(simd, plan), Joints::new(simd, plan)))
-        .collect();
+    let mut own = buffers.take(|| Unloaded {
+        limbs: plans
+            .iter()
+            .map(|plan| (ForwardPass::new(simd, plan), Joints::new(simd, plan)))
+            .collect(),
+        columns: Vec::new(),
+    });
+    let Unloaded { limbs, columns } = &mut *own;
     let n = plans[0].coordinates;
     let summed = !jacobian.is_empty() && !plans[0].one_each;
-    let mut columns = vec![zero; if summed { 6 * n } else { 0 }];
+    if summed {
+        columns.resize(6 * n, zero);
+    }
     let count = status.len();
     for first in (0..count).step_by(S::F64_LANES) {
-        let group = Group { first, count };
+        let group = Group::of_neighbours(first, count);
         let mut good = Lanes::new(simd, 1.0);
         let mut sum = Symmetric::zero(simd);
         match places {
@@ -189,8 +238,8 @@ fn unloaded<S: Simd>(
             }
             Places::Poses(poses) => {
                 let target = group.target(simd, poses);
-                for (plan, (forward, joints)) in plans.iter().zip(&mut limbs) {
-                    joints.reach(simd, plan, forward, &target, false);
+                for (plan, (forward, joints)) in plans.iter().zip(limbs.iter_mut()) {
+                    let reached = joints.reach(simd, plan, forward, &target);
                     let own = match &plan.sphere {
                         Some(sphere) => {
                             let [x, y, z] = sphere.arm;
@@ -201,7 +250,7 @@ fn unloaded<S: Simd>(
                         None => forward.stiffness(plan),
                     };
                     sum.add(&own.matrix);
-                    good = good.least_of(own.regular).least_of(joints.reached);
+                    good = good.least_of(own.regular).least_of(reached);
                 }
             }
         }
@@ -218,7 +267,7 @@ fn unloaded<S: Simd>(
         group.put(stiffness, 0, &numbers);
         if !all_commands.is_empty() {
             let mut own = 0;
-            for (_, joints) in &limbs {
+            for (_, joints) in limbs.iter() {
                 group.put(all_commands, own, &joints.commands);
                 own += joints.commands.len();
             }
@@ -241,9 +290,10 @@ fn unloaded<S: Simd>(
                 }
             }
             if summed {
-                group.put(jacobian, 0, &columns);
+                group.put(jacobian, 0, columns);
             }
         }
         group.conclude(good, status);
     }
+    buffers.put(own);
 }

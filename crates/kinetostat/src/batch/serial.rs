@@ -5,7 +5,7 @@ use pulp::Simd;
 
 use super::apart::apart;
 use super::lanes::Lanes;
-use super::loaded::{LoadedLimb, MOST_PASSES, MOST_TURN};
+use super::loaded::{EXACT, LoadedLimb, MOST_PASSES, MOST_TURN};
 use super::newton::Newton;
 use super::plan::Plan;
 use super::vectors::select;
@@ -35,7 +35,7 @@ pub(super) fn serial<S: Simd>(
                 break;
             }
             limb.inwards(plan, active);
-            active = active * limb.moving(zero);
+            active = active * limb.moving(zero, &EXACT);
             if pass > 0 {
                 lost = select(active, limb.slower_than(MOST_CONTRACTION), lost);
                 active = active * (one - lost);
@@ -51,7 +51,7 @@ pub(super) fn serial<S: Simd>(
         let Some(newton) = newton else {
             return done;
         };
-        let found = newton.settle(plan, limb, gravity, one - done);
+        let found = newton.converge(plan, limb, gravity, one - done);
         done + found * limb.sound(plan, MOST_TURN_FAR)
     })
 }

@@ -15,7 +15,7 @@ use super::apart::apart;
 use super::lanes::Lanes;
 use super::law;
 use super::loaded::{LoadedLimb, deflection, twist, twists};
-use super::plan::{Held, Law, Plan, Spring, Step};
+use super::plan::{Law, Plan, Spring, Step, Support};
 use super::vectors::{Vec3, cross, dot, minus};
 use super::wrenches::{Mat6, inner6, outer};
 
@@ -85,11 +85,10 @@ impl<S: Simd> Shape<S> {
         Some((share_to_buckling, self.regular))
     }
 
-    /// Motions from the base outwards, then the Hessian from the end inwards:
-    /// `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric ([`crate::chain::sweep::stages`]), less the
-    /// springs' geometric stiffness.
+    /// The motions of all coordinates, from the base outwards, springs in units in which their material stiffness is
+    /// one.
     #[inline(always)]
-    fn hessian(&mut self, plan: &Plan, limb: &LoadedLimb<S>, gravity: &[f64; 3]) {
+    fn list_motions(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
         apart!(self.simd, {
             let simd = self.simd;
             let zero = Lanes::new(simd, 0.0);
@@ -102,14 +101,14 @@ impl<S: Simd> Shape<S> {
                             continue;
                         };
                         let mut s = twist(limb, plan, joint.screw);
-                        let (at, factor) = match joint.held {
-                            Held::Spring(_) if joint.law.is_some() => {
+                        let (at, factor) = match joint.support {
+                            Support::Spring(_) if joint.law.is_some() => {
                                 let k = limb.joint_stiffness(joint, own, 1.0);
                                 (place, ((zero + ratio * ratio) / k).sqrt() * ratio.signum())
                             }
-                            Held::Spring(c) => (place, zero + ratio * c.sqrt()),
-                            Held::Passive(slot) => (self.springs + slot, zero + ratio),
-                            Held::Fixed => continue,
+                            Support::Spring(c) => (place, zero + ratio * c.sqrt()),
+                            Support::Passive(slot) => (self.springs + slot, zero + ratio),
+                            Support::Fixed => continue,
                         };
                         for x in &mut s {
                             *x = *x * factor;
@@ -141,6 +140,18 @@ impl<S: Simd> Shape<S> {
                     Step::Mass { .. } | Step::Shift(_) | Step::Rotate(_) => {}
                 }
             }
+        })
+    }
+
+    /// The Hessian from the end inwards: `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric
+    /// ([`crate::chain::sweep::stages`]), less the springs' geometric stiffness.
+    #[inline(always)]
+    fn hessian(&mut self, plan: &Plan, limb: &LoadedLimb<S>, gravity: &[f64; 3]) {
+        self.list_motions(plan, limb);
+        apart!(self.simd, {
+            let simd = self.simd;
+            let zero = Lanes::new(simd, 0.0);
+            let mut law = plan.parallelograms();
             self.h.fill(zero);
             let [fx, fy, fz, mx, my, mz] = limb.wrench;
             let mut loads = Loads {
@@ -165,7 +176,9 @@ impl<S: Simd> Shape<S> {
                         loads.node(&weight, &arm);
                     }
                     Step::Joint(joint) => {
-                        if joint.amount.coordinate.is_none() || matches!(joint.held, Held::Fixed) {
+                        if joint.amount.coordinate.is_none()
+                            || matches!(joint.support, Support::Fixed)
+                        {
                             continue;
                         }
                         last -= 1;
@@ -550,7 +563,7 @@ pub(super) fn springs(plan: &Plan) -> usize {
     for step in &plan.steps {
         match step {
             Step::Spring(spring) => count += spring.coordinates.iter().flatten().count(),
-            Step::Joint(joint) if matches!(joint.held, Held::Spring(_)) => count += 1,
+            Step::Joint(joint) if matches!(joint.support, Support::Spring(_)) => count += 1,
             _ => {}
         }
     }

@@ -22,7 +22,7 @@ impl Status {
 
     /// One sentence.
     #[must_use]
-    pub fn in_words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Self::Vectorised => "The posture was solved by the vectorised kernels.",
             Self::Scalar => "The posture was solved by the general engine, by itself.",
@@ -37,6 +37,9 @@ impl Status {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoKernel {
+    /// The processor lacks the instructions that the kernels are compiled for.
+    #[error("this processor has no AVX2")]
+    Processor,
     /// A limb bears loads of its own.
     #[error("'{0}' bears loads of its own")]
     LoadedLimb(String),

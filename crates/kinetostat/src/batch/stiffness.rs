@@ -128,6 +128,7 @@ impl Batch {
                 .map(
                     |(k, (((stiffness, jacobian), commands), status))| Work::Unloaded {
                         plans: nominal,
+                        buffers: &self.buffers,
                         places: places.from(k * BLOCKS * BLOCK),
                         stiffness,
                         jacobian,

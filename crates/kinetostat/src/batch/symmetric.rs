@@ -6,7 +6,7 @@
 use pulp::Simd;
 
 use super::lanes::Lanes;
-use super::vectors::{Mat3, Vec3, cross, product, product_transposed, turn_columns};
+use super::vectors::{Mat3, Vec3, cross, product, product_transposed, select, turn_columns};
 
 /// Place of entry (i, j) of a symmetric 3 x 3 matrix among its six numbers.
 pub(super) const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
@@ -95,6 +95,18 @@ impl<S: Simd> Symmetric<S> {
         }
         for i in 0..9 {
             self.b[i] = self.b[i] + other.b[i];
+        }
+    }
+
+    /// Becomes another one in the lanes that are `wanted`.
+    #[inline(always)]
+    pub fn take(&mut self, wanted: Lanes<S>, other: &Self) {
+        for k in 0..6 {
+            self.a[k] = select(wanted, other.a[k], self.a[k]);
+            self.d[k] = select(wanted, other.d[k], self.d[k]);
+        }
+        for k in 0..9 {
+            self.b[k] = select(wanted, other.b[k], self.b[k]);
         }
     }
 

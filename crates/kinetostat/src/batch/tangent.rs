@@ -20,7 +20,7 @@ use super::freed::freed;
 use super::lanes::Lanes;
 use super::law;
 use super::loaded::{LoadedLimb, deflection, twist, twists};
-use super::plan::{Held, Law, Plan, Spring, Step};
+use super::plan::{Law, Plan, Spring, Step, Support};
 use super::vectors::{Vec3, cross, dot, minus};
 use super::wrenches::{Mat6, dot6, outer, solve_small, weight};
 
@@ -82,13 +82,13 @@ pub(super) fn stiffness<S: Simd>(
                     for x in &mut s {
                         *x = *x * ratio;
                     }
-                    match joint.held {
-                        Held::Spring(_) if joint.law.is_some() => {
+                    match joint.support {
+                        Support::Spring(_) if joint.law.is_some() => {
                             pass.stage(&s, one / limb.joint_stiffness(joint, own, 1.0));
                         }
-                        Held::Spring(c) => pass.stage(&s, zero + c),
-                        Held::Passive(slot) => pass.passive(&s, slot),
-                        Held::Fixed => {}
+                        Support::Spring(c) => pass.stage(&s, zero + c),
+                        Support::Passive(slot) => pass.passive(&s, slot),
+                        Support::Fixed => {}
                     }
                 }
                 Step::Spring(spring) => {

@@ -11,8 +11,8 @@ use super::apart::apart;
 use super::eliminate::{Eliminated, LimbStiffness};
 use super::lanes::Lanes;
 use super::law;
-use super::place::{Place, amount};
-use super::plan::{Drive, Held, Joint, Law, Plan, Step};
+use super::motion_axis::{MotionAxis, amount};
+use super::plan::{Drive, Joint, Law, Plan, Step, Support};
 use super::symmetric::Symmetric;
 use super::vectors::{
     Mat3, Vec3, carried, column, constant, cross, dot, identity, matrix, product, turn_columns,
@@ -30,7 +30,7 @@ pub(super) struct ForwardPass<S: Simd> {
     compliance: Symmetric<S>,
     /// Nothing yields yet: the frame's motion does not matter.
     rigid: bool,
-    places: Vec<Place<S>>,
+    places: Vec<MotionAxis<S>>,
     /// Sines and cosines of two joints that are known already, and the step of the first.
     pub known: Option<(usize, [SineCosine<S>; 2])>,
     simd: S,
@@ -39,7 +39,7 @@ pub(super) struct ForwardPass<S: Simd> {
 impl<S: Simd> ForwardPass<S> {
     pub fn new(simd: S, plan: &Plan) -> Self {
         let zero = Lanes::new(simd, 0.0);
-        let place = Place {
+        let place = MotionAxis {
             axis: [zero; 3],
             origin: [zero; 3],
         };
@@ -83,8 +83,8 @@ impl<S: Simd> ForwardPass<S> {
                         }
                     }
                     Step::Joint(joint) => {
-                        let coordinate = match joint.held {
-                            Held::Passive(slot) => Some(passive[slot]),
+                        let coordinate = match joint.support {
+                            Support::Passive(slot) => Some(passive[slot]),
                             _ => None,
                         };
                         let amount = amount(simd, &joint.amount, commands, coordinate);
@@ -113,7 +113,7 @@ impl<S: Simd> ForwardPass<S> {
                         let mut screw = spring.screw;
                         for d in 0..6 {
                             if spring.coordinates[d].is_some() {
-                                self.places[screw] = Place {
+                                self.places[screw] = MotionAxis {
                                     axis: column(&self.rotation, d % 3),
                                     origin: self.point,
                                 };
@@ -144,12 +144,12 @@ impl<S: Simd> ForwardPass<S> {
         yields: bool,
     ) {
         let axis = column(&self.rotation, AXIS);
-        self.places[joint.screw] = Place {
+        self.places[joint.screw] = MotionAxis {
             axis,
             origin: self.point,
         };
         let revolute = joint.kind == MotionKind::Revolute;
-        if let (Held::Spring(c), true) = (joint.held, yields) {
+        if let (Support::Spring(c), true) = (joint.support, yields) {
             let row = if revolute { AXIS + 3 } else { AXIS };
             let sum = self.compliance.get(row, row) + c;
             self.compliance.set(row, row, sum);

@@ -78,7 +78,7 @@ pub(crate) fn stability_change<S: CurveSystem>(
         accuracy: 1e-6,
         branches: Vec::new(),
         lost_branch: false,
-        stable_side: here.held.stable() || there.held.stable(),
+        stable_side: here.displacement_control.stable() || there.displacement_control.stable(),
         directions: Vec::new(),
     };
     Some((share, special))
@@ -147,7 +147,7 @@ fn classified<S: CurveSystem>(
         accuracy,
         branches: Vec::new(),
         lost_branch: false,
-        stable_side: here.held.stable() || there.held.stable(),
+        stable_side: here.displacement_control.stable() || there.displacement_control.stable(),
         directions: crossing.others,
     })
 }

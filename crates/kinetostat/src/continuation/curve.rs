@@ -58,9 +58,9 @@ pub struct CurvePoint<E: CurveEquilibrium = Equilibrium> {
     /// negative where a dead load runs away, infinite where the end is locked.
     pub slope: f64,
     /// Stability while the motion along the parameter's direction is prescribed.
-    pub held: E::Stability,
+    pub displacement_control: E::Stability,
     /// Stability while a dead load acts along it instead.
-    pub dead: E::Stability,
+    pub dead_load: E::Stability,
     /// Arc length since the branch's first point, natural units.
     pub arc: f64,
     pub(crate) z: DVector<f64>,

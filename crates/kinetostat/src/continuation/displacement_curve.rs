@@ -111,12 +111,12 @@ impl Posture {
     /// # let home = Pose::translation(1.1, 0.0, 0.0);
     /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
     /// let sideways = Twist::new(vector![0.0, 1.0, 0.0], Vector3::zeros());
-    /// let curve = arm.posture(&home)?.held_along(&sideways, &[0.0, 1e-3, 2e-3], None)?;
+    /// let curve = arm.posture(&home)?.displaced_along(&sideways, &[0.0, 1e-3, 2e-3], None)?;
     /// let forces: Vec<f64> = curve.points.iter().map(|point| point.equilibrium.wrench.force().y).collect();
     /// assert!(forces[0].abs() < 1e-6 && forces[2] > forces[1]);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn held_along(
+    pub fn displaced_along(
         &self,
         direction: &Twist,
         distances: &[f64],
@@ -131,7 +131,7 @@ impl Posture {
     /// force along the direction the tool snaps there.
     ///
     /// # Errors
-    /// [`crate::Error::Model`] for a direction without length; else as [`Self::held_along`].
+    /// [`crate::Error::Model`] for a direction without length; else as [`Self::displaced_along`].
     pub fn pushed_along(
         &self,
         direction: &Vector3<f64>,

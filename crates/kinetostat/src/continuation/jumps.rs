@@ -75,8 +75,8 @@ pub(crate) fn jumps<S: CurveSystem>(
             _ => continue,
         };
         let stable = |p: &Point<S>| match by_load {
-            true => p.dead.stable(),
-            false => p.held.stable(),
+            true => p.dead_load.stable(),
+            false => p.displacement_control.stable(),
         };
         if !special.stable_side {
             continue;

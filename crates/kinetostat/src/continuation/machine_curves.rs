@@ -167,7 +167,7 @@ impl MachineCurves<'_> {
         let mut to: Vec<CurvePoint<MechanismEquilibrium>> = Vec::new();
         for end in [branch.points.first(), branch.points.last()] {
             if let Some(p) = end.and_then(|end| system.let_go(end, load))
-                && p.dead.stable
+                && p.dead_load.stable
                 && p.apart(&special.point) > 1e-3
                 && to.iter().all(|q| p.apart(q) > 1e-7)
             {

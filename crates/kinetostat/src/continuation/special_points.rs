@@ -137,8 +137,8 @@ fn limit_point<S: CurveSystem>(
 ) -> SpecialPoint<S> {
     let load = conjugate != system.is_load();
     let stable = |p: &Point<S>| match load {
-        true => p.dead.stable(),
-        false => p.held.stable(),
+        true => p.dead_load.stable(),
+        false => p.displacement_control.stable(),
     };
     Special {
         kind: match load {

@@ -14,7 +14,9 @@ use crate::model::kinematics::Kinematics;
 use crate::settings::Settings;
 use crate::spatial::{Wrench, pose_residual};
 
-/// Solves for the equilibrium of a chain.
+/// Solves for the equilibrium of a chain: `tau(q) + J^T F = 0` with the end where it is prescribed. The report iterates
+/// [R 4.16] (with the erratum: [`crate::reference`] has it bare); here steps are those of Newton's iteration on the
+/// whole tangent ([`crate::chain`]), with the load grown where they do not converge.
 ///
 /// # Errors
 /// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last

@@ -212,7 +212,7 @@ impl GrowingLoad<'_, '_> {
     fn stability(&self, p: &CurvePoint) -> ShapeStability {
         match self.of {
             StabilityOf::Shape => p.equilibrium.stability.clone(),
-            StabilityOf::ShapeAndEnd => p.dead.clone(),
+            StabilityOf::ShapeAndEnd => p.dead_load.clone(),
         }
     }
 

@@ -56,7 +56,7 @@ impl Posture {
     ///
     /// # Errors
     /// Those of the equilibrium without load.
-    pub fn snaps_on_the_way(
+    pub fn snaps_before(
         &self,
         rest: &MechanismEquilibrium,
         loaded: &MechanismEquilibrium,

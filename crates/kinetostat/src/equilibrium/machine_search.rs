@@ -78,7 +78,7 @@ impl<'p> MachineSearch<'p> {
         let posture = conditions.posture;
         let mut first = vec![Twist::zero()];
         let near = posture.motion_gained(conditions.length);
-        first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
+        first.extend(near.map(|n| Twist(n.towards.0 * (2.0 * n.distance_m))));
         let limbs = posture.mechanism.limbs().iter();
         let commanded = moved(
             &posture.target,

@@ -11,6 +11,7 @@ use pulp::Scalar;
 use crate::batch::Batch;
 use crate::batch::lanes::Lanes;
 use crate::batch::law;
+use crate::model::mechanism::Mechanism;
 use crate::model::springs::block::SpringBlock;
 use crate::model::springs::law::SpringLaw;
 
@@ -35,6 +36,12 @@ pub use crate::linalg::singular_values::shortest_and_free;
 pub use crate::linalg::sparse::Sparse;
 pub use crate::model::springs::curved::CurvedLaw;
 pub use crate::model::springs::single::SingleLaw;
+
+/// A machine compiled for postures that lie along a path.
+#[must_use]
+pub fn batch_along_path(mechanism: &Mechanism) -> Batch {
+    Batch::new(mechanism).along_path()
+}
 
 /// Energy, torques and tangent of a spring of six coordinates at these values of them.
 #[must_use]

@@ -122,9 +122,13 @@ fn a_moment_at_the_end_makes_nothing_go_away() {
         let parameter = Parameter::end_wrench(wrench);
         let curves = follow(&problem, &parameter, &start, 0.0, &settings).unwrap();
         let points = &curves.branches[0].points;
-        assert!(points.iter().all(|p| p.dead.stable && p.held.stable));
+        assert!(
+            points
+                .iter()
+                .all(|p| p.dead_load.stable && p.displacement_control.stable)
+        );
         assert!(curves.specials.is_empty(), "{segments} segments");
-        let first = points.iter().find(|p| p.dead.may_flutter()).unwrap();
+        let first = points.iter().find(|p| p.dead_load.may_flutter()).unwrap();
         assert!(
             (first.parameter * 6.2 - PI).abs() < 0.6,
             "{}",
@@ -162,12 +166,12 @@ fn a_column_that_is_pushed_and_twisted_goes_away_at_eulers_load() {
         let euler = PI * PI / 4.0;
         let mut seen = [0; 3];
         for p in &curves.branches[0].points {
-            let modes = p.dead.unstable_modes;
+            let modes = p.dead_load.unstable_modes;
             let awaited = usize::from(p.parameter > euler) + usize::from(p.parameter > 1.4 * euler);
             let off = [euler, 1.4 * euler].map(|f| (p.parameter / f - 1.0).abs());
             if off.iter().all(|x| *x > 2e-3) {
                 assert_eq!(modes, awaited, "{segments} segments at {}", p.parameter);
-                assert_eq!(p.dead.stable, awaited == 0);
+                assert_eq!(p.dead_load.stable, awaited == 0);
                 seen[awaited] += 1;
             }
         }
@@ -199,14 +203,14 @@ fn paths_of_machines_go_away_where_the_determinant_says() {
             let k = &p.equilibrium.stiffness.matrix;
             let odd = k.determinant() < 0.0;
             assert_eq!(
-                p.dead.stable, !odd,
+                p.dead_load.stable, !odd,
                 "{force:?}, {moment:?} at {}",
                 p.parameter
             );
-            swinging += usize::from(p.dead.may_flutter);
+            swinging += usize::from(p.dead_load.may_flutter);
             println!(
                 "{force:?} {moment:?} {} {} {}",
-                p.parameter, p.dead.stable, p.dead.may_flutter
+                p.parameter, p.dead_load.stable, p.dead_load.may_flutter
             );
         }
     }

@@ -59,7 +59,7 @@ fn a_column_of_limbs_buckles_to_either_side() {
     assert_eq!(at.len(), 3);
     let mut across: Vec<(f64, bool)> = at
         .iter()
-        .map(|p| (p.equilibrium.tool.translation.y, p.dead.stable))
+        .map(|p| (p.equilibrium.tool.translation.y, p.dead_load.stable))
         .collect();
     across.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert!(across[1].0.abs() < 1e-9 && !across[1].1, "{across:?}");
@@ -68,7 +68,7 @@ fn a_column_of_limbs_buckles_to_either_side() {
     for p in &at {
         assert_eq!(p.equilibrium.found_by, FoundBy::Continuation);
         let down = 1.0 - p.equilibrium.tool.translation.x;
-        if p.dead.stable {
+        if p.dead_load.stable {
             assert!((down / came_down(3.5) - 1.0).abs() < 0.08, "{down}");
         }
     }
@@ -93,8 +93,8 @@ fn a_truss_has_three_shapes_at_one_load() {
             let own = 2.0 * k * (l - b.hypot(h)) * z / l;
             assert!((own + force).abs() < 1e-6, "{force}: {own}");
             assert_eq!(
-                p.dead.unstable_modes,
-                usize::from(!p.dead.stable),
+                p.dead_load.unstable_modes,
+                usize::from(!p.dead_load.stable),
                 "{force}: {z}"
             );
         }

@@ -347,9 +347,14 @@ fn the_z_chain_forks_at_its_pitchfork() {
         close(&label, p.conjugate, n("F_x"), 2e-8);
         close(&label, p.slope, n("K_x"), 1e-6);
         let stable = row["stable"].as_bool().unwrap();
-        assert_eq!(p.held.stable, stable, "{label}");
-        assert_eq!(p.dead.stable, stable && n("K_x") > 0.0, "{label}");
-        close(&label, p.held.share_to_buckling.unwrap(), n("mu"), 1e-7);
+        assert_eq!(p.displacement_control.stable, stable, "{label}");
+        assert_eq!(p.dead_load.stable, stable && n("K_x") > 0.0, "{label}");
+        close(
+            &label,
+            p.displacement_control.share_to_buckling.unwrap(),
+            n("mu"),
+            1e-7,
+        );
     }
 }
 
@@ -374,7 +379,7 @@ fn the_s_chain_passes_through_figure_5_7() {
     }
     for p in &c.branches[0].points {
         assert_eq!(
-            p.held.stable,
+            p.displacement_control.stable,
             p.conjugate > -1.0,
             "straight at {}",
             p.conjugate
@@ -390,7 +395,10 @@ fn the_s_chain_passes_through_figure_5_7() {
         );
         for (shape, stable) in [("stable", true), ("unstable", false)] {
             let label = format!("{shape} at {delta}");
-            let same: Vec<_> = here.iter().filter(|p| p.held.stable == stable).collect();
+            let same: Vec<_> = here
+                .iter()
+                .filter(|p| p.displacement_control.stable == stable)
+                .collect();
             assert_eq!(same.len(), 2, "{label}");
             for p in same {
                 close(&label, p.conjugate, number(&row[shape]["F_x"]), 2e-8);
@@ -728,7 +736,11 @@ fn a_bar_on_an_inclined_spring_forks_transcritically() {
             } else {
                 &mut above
             }) += 1;
-            assert_eq!(p.dead.stable, expected > 0.5, "stable where the load rises");
+            assert_eq!(
+                p.dead_load.stable,
+                expected > 0.5,
+                "stable where the load rises"
+            );
         }
     }
     assert!(below > 2 && above > 2);
@@ -759,7 +771,7 @@ fn a_pushed_shape_snaps_where_its_displacement_ends() {
     let to = &jumps[0].to[0];
     assert_point(&c, to);
     close("at", to.parameter, 0.05 - 0.0095788571, 1e-9);
-    assert!(to.held.stable && to.equilibrium.nodes[0].translation.y > 0.2);
+    assert!(to.displacement_control.stable && to.equilibrium.nodes[0].translation.y > 0.2);
 }
 
 /// Random spatial chains under random loads, conditions mixed: equilibria and curves never fail,

@@ -74,10 +74,14 @@ fn a_round_clamped_rod_buckles_into_one_family() {
         .filter(|p| p.parameter > 1.001 * critical)
     {
         assert!(p.in_family());
-        assert!(p.dead.stable && p.held.stable, "at {}", p.parameter);
+        assert!(
+            p.dead_load.stable && p.displacement_control.stable,
+            "at {}",
+            p.parameter
+        );
         assert_eq!(p.unstable_modes(), [0, 0], "at {}", p.parameter);
-        assert_eq!(p.dead.neutral, ["the whole shape"]);
-        assert_eq!(p.dead.inertia.zero, 1);
+        assert_eq!(p.dead_load.neutral, ["the whole shape"]);
+        assert_eq!(p.dead_load.inertia.zero, 1);
     }
     // Elastica under a dead load, the tip turned by 60 deg: P / P_E = (2 K(k) / pi)^2, k = sin 30 deg.
     let turned = |p: &kinetostat::continuation::CurvePoint| p.equilibrium.tip.rotation.angle();
@@ -88,7 +92,7 @@ fn a_round_clamped_rod_buckles_into_one_family() {
     for p in bent {
         let turn = turned(p).to_degrees();
         close("elastica", turn, 60.0, 0.6);
-        assert!(p.dead.stable && p.held.stable);
+        assert!(p.dead_load.stable && p.displacement_control.stable);
     }
     assert!(points(&c) < 400, "{} points", points(&c));
 }
@@ -121,7 +125,7 @@ fn a_round_rod_pushed_along_its_axis_stays_on_few_branches() {
     let near = buckled.points.iter().filter(|p| p.in_family());
     for p in near {
         assert!(
-            p.held.stable && p.unstable_modes()[0] == 0,
+            p.displacement_control.stable && p.unstable_modes()[0] == 0,
             "at {}",
             p.parameter
         );
@@ -214,7 +218,11 @@ fn a_round_rod_that_hardly_stretches_buckles_into_one_family() {
             assert_eq!(buckled.ends, [BranchEnd::Range; 2], "{case}");
             for p in buckled.points.iter().filter(|p| p.parameter > 2.5) {
                 assert!(p.in_family(), "{case}");
-                assert!(p.dead.stable && p.held.stable, "{case} at {}", p.parameter);
+                assert!(
+                    p.dead_load.stable && p.displacement_control.stable,
+                    "{case} at {}",
+                    p.parameter
+                );
                 let down = 1.0 - p.equilibrium.tip.translation.x;
                 let expected = came_down(p.parameter);
                 assert!(

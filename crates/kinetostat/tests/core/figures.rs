@@ -37,6 +37,14 @@ impl Figures {
         }
     }
 
+    /// A time, which says so where it is too long and fails nothing: a busy machine is no fault of the program.
+    fn time(&mut self, name: &str, seconds: f64, most: f64) {
+        let asked = format!("at most {most} on a quiet machine");
+        let short = self.short.len();
+        self.print(name, json!(seconds), &asked, "s", seconds <= most);
+        self.short.truncate(short);
+    }
+
     fn at_most(&mut self, name: &str, measured: &Worst, most: f64, unit: &str) {
         let holds = measured.holds(most);
         let expected = format!("at most {most:e}");

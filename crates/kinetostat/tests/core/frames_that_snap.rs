@@ -374,8 +374,8 @@ fn lees_frame_has_limits_of_the_deflection_too() {
     assert_eq!(count(SpecialKind::DisplacementLimit), 2);
     // Stable up to the first limit, and again after the second.
     let points = &curves.branches[0].points;
-    assert!(points.iter().filter(|p| p.dead.stable).count() > 10);
-    assert!(points.last().unwrap().dead.stable);
+    assert!(points.iter().filter(|p| p.dead_load.stable).count() > 10);
+    assert!(points.last().unwrap().dead_load.stable);
 }
 
 #[test]

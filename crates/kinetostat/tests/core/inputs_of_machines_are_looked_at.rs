@@ -167,7 +167,7 @@ fn path(change: impl Fn(&mut CurveSettings, &mut f64)) -> Result<Vec<f64>> {
     let growing = Wrench::new(vector![0.3, 0.2, 0.0], Vector3::zeros());
     let path = posture.curves(&Parameter::end_wrench(growing), &end, &settings)?;
     let direction = Twist::new(vector![1.0, 0.0, 0.0], Vector3::zeros());
-    let held = posture.held_along(&direction, &[0.0, along], Some(posture.rest_state()))?;
+    let held = posture.displaced_along(&direction, &[0.0, along], Some(posture.rest_state()))?;
     let points = path.branches[0].points.iter().map(|p| p.parameter);
     Ok(points.chain(held.points.iter().map(|p| p.force)).collect())
 }

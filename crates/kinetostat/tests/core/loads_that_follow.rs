@@ -205,7 +205,7 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let t = straight_stiffness(springs, follower, p.parameter);
                 let Some(awaited) = by_hand(&t) else { continue };
                 let case = format!("{springs:?}, {follower}, {}", p.parameter);
-                let reported = (p.dead.stable, p.dead.may_flutter());
+                let reported = (p.dead_load.stable, p.dead_load.may_flutter());
                 assert_eq!(reported, awaited, "curve, {case}");
                 let both = t.determinant() > 0.0;
                 seen[match awaited {

@@ -102,7 +102,7 @@ proptest! {
             "{} {expected}", found.distance_m);
         if expected > 1e-8 {
             let out = posture.target().translation.vector - frame.translation.vector;
-            prop_assert!(found.way.linear().dot(&out.normalize()) > 0.999_999);
+            prop_assert!(found.towards.linear().dot(&out.normalize()) > 0.999_999);
             prop_assert!(found.motion.linear().dot(&out.normalize()).abs() > 0.999_99);
         }
         if expected > 1e-6 {
@@ -141,10 +141,10 @@ proptest! {
         let b = middle.to_radians();
         let machine = arm(&somewhere(turn), &parts, &[0.5, 0.2, 0.3, first, b, last]);
         let found = nearest(&at_home(&machine), 3.0);
-        let turned = found.way.angular().norm() * found.distance_m;
+        let turned = found.towards.angular().norm() * found.distance_m;
         prop_assert!(found.followed);
         prop_assert!((turned - b).abs() <= 1e-7 * b, "{turned} {b}");
-        prop_assert!(found.way.linear().norm() < 1e-5);
+        prop_assert!(found.towards.linear().norm() < 1e-5);
     }
 }
 
@@ -205,7 +205,7 @@ fn a_wrist_beside_the_first_axis_is_as_far_from_the_shoulder_s_singularity() {
             found.description()
         );
         // Across the plane of the arm nothing moves there.
-        assert!(found.way.linear().norm() > 0.999_999);
+        assert!(found.towards.linear().norm() > 0.999_999);
     }
 }
 
@@ -250,7 +250,7 @@ fn a_wrist_near_zero_is_as_far_from_singular_as_its_fifth_joint_moves_the_tool()
         }
         let found = nearest(&posture, 0.1);
         assert!(found.followed);
-        let span = found.way.0 * found.distance_m;
+        let span = found.towards.0 * found.distance_m;
         let span = DVector::from_fn(6, |i, _| span[i] * if i < 3 { 1.0 } else { length });
         let turned = somewhere([0.3, -0.2, 0.5]).rotation;
         let size = left.norm();

@@ -77,8 +77,11 @@ pub fn truss_path_apart() -> [f64; 3] {
             // dF/dz > 0 holds under a dead load; held it always does.
             let l = b.hypot(z);
             let slope = 1.0 - unloaded * b * b / l.powi(3);
-            assert!(slope.abs() < 1e-6 || p.dead.stable == (slope > 0.0), "{z}");
-            assert!(p.held.stable || std::ptr::eq(path, &by_load));
+            assert!(
+                slope.abs() < 1e-6 || p.dead_load.stable == (slope > 0.0),
+                "{z}"
+            );
+            assert!(p.displacement_control.stable || std::ptr::eq(path, &by_load));
             let expected = 2.0 * k * slope;
             assert!(
                 (p.slope - expected).abs() < 1e-6 * k,
@@ -229,8 +232,8 @@ fn against_energy(
         worst.add((gradient - wrench(p)).largest_entry() / size);
         let hessian = legs.hessian(pose);
         let stabilities = [
-            (p.held.stable, free.to_vec()),
-            (p.dead.stable, [driven, free].concat()),
+            (p.displacement_control.stable, free.to_vec()),
+            (p.dead_load.stable, [driven, free].concat()),
         ];
         for (found, directions) in stabilities {
             if directions.is_empty() {

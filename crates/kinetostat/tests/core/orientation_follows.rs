@@ -157,10 +157,10 @@ proptest! {
             least(curve.iter().map(|c| (c - from).norm()))
         };
         let here = pose.translation.vector;
-        let there = here + gained.way.linear() * gained.distance_m;
+        let there = here + gained.towards.linear() * gained.distance_m;
         let far = nearest(&here);
         prop_assert!(nearest(&there) < 0.1 * far + 3e-5, "{} of {far}: {}", nearest(&there), gained.description());
-        let span = gained.distance_m * gained.way.linear().norm();
+        let span = gained.distance_m * gained.towards.linear().norm();
         prop_assert!((0.9 * far - 3e-5..=3.0 * far).contains(&span), "{span} against {far}");
     }
 

@@ -537,7 +537,7 @@ pub fn truss_apart() -> [f64; 2] {
     let posture = machine.posture(&home).unwrap();
     let displacements: Vec<f64> = (0..=44).map(|i| -0.005 * f64::from(i)).collect();
     let up = Twist::new(Vector3::z(), Vector3::zeros());
-    let curve = posture.held_along(&up, &displacements, None).unwrap();
+    let curve = posture.displaced_along(&up, &displacements, None).unwrap();
     assert!(curve.ended.is_none());
     let free = (b * b + h * h).sqrt();
     let mut worst = Worst::new();
@@ -655,7 +655,7 @@ fn a_posture_near_a_singular_one_says_how_far_and_where() {
             "{}",
             first.distance_m
         );
-        assert!(first.way.linear().z < -0.999);
+        assert!(first.towards.linear().z < -0.999);
         if z == 0.001 {
             assert!(first.motion.linear().z.abs() > 0.99);
         }
@@ -696,7 +696,7 @@ fn a_delta_near_its_flat_posture_says_how_far_it_is() {
             first.distance_m,
             first.description()
         );
-        assert!(first.way.linear().z > 0.999, "{}", first.description());
+        assert!(first.towards.linear().z > 0.999, "{}", first.description());
     }
 }
 
@@ -742,7 +742,7 @@ fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
             );
             // Back by a turn about the plane's axis.
             let axis = planar.plane.rotation * Vector3::z();
-            let turn = first.way.angular().dot(&axis) * length;
+            let turn = first.towards.angular().dot(&axis) * length;
             assert!((turn + side).abs() < 1e-3, "{turn} {}", first.description());
             let gained = first.motion.angular().dot(&axis) * length;
             assert!(gained.abs() > 0.99, "{}", first.description());
@@ -778,7 +778,7 @@ fn a_stretched_leg_of_a_3_rrr_says_how_far_the_platform_may_go() {
             first.description()
         );
         let away = planar.plane.rotation * -Vector3::x();
-        assert!(first.way.linear().dot(&away) > 0.999_999);
+        assert!(first.towards.linear().dot(&away) > 0.999_999);
         assert!(first.motion.linear().dot(&away).abs() > 0.999_99);
     }
 }

@@ -222,7 +222,7 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_reported() {
                 }
                 assert!(found.followed, "{}", found.description());
                 // There the legs of that stage meet.
-                let target = moved(posture.target(), &Twist(found.way.0 * found.distance_m));
+                let target = moved(posture.target(), &Twist(found.towards.0 * found.distance_m));
                 let there = machine
                     .posture(PostureRequest::pose(&target).near(&posture))
                     .unwrap();
@@ -238,7 +238,7 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_reported() {
                 );
                 // And nowhere much nearer, on any way of the tool.
                 let scaled =
-                    Vector6::from_fn(|i, _| found.way.0[i] * if i < 3 { 1.0 } else { length });
+                    Vector6::from_fn(|i, _| found.towards.0[i] * if i < 3 { 1.0 } else { length });
                 let far = found.distance_m * scaled.norm();
                 assert!(!crossed(&machine, &stages, 0.85 * far), "{far}");
             }

@@ -206,13 +206,13 @@ fn an_answer_behind_a_limit_point_is_recognised() {
         let rest = posture.deflected_by(&Wrench::zero()).unwrap();
         let loaded = posture.deflected_by(&force(0.0, 0.0, -push)).unwrap();
         assert!(loaded.displacement.linear().z < -h, "it was pushed through");
-        let limit = posture.snaps_on_the_way(&rest, &loaded).unwrap();
+        let limit = posture.snaps_before(&rest, &loaded).unwrap();
         assert_limit(&limit.expect("it snaps"), b, h, k, push);
         // Pulled up it never does, nor below the limit.
         let (share, _) = limit_by_hand(b, h, k, push);
         for pull in [push, -0.9 * share * push] {
             let loaded = posture.deflected_by(&force(0.0, 0.0, pull)).unwrap();
-            assert_eq!(posture.snaps_on_the_way(&rest, &loaded).unwrap(), None);
+            assert_eq!(posture.snaps_before(&rest, &loaded).unwrap(), None);
         }
     }
 }
@@ -246,11 +246,11 @@ fn a_limit_beyond_the_load_is_not_on_the_way() {
                 let loaded = loaded.unwrap();
                 assert!(loaded.stable(), "{case}");
                 assert!(loaded.displacement.linear().z > down, "{case}");
-                let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
+                let snap = posture.snaps_before(&rest, &loaded).unwrap();
                 assert_eq!(snap, None, "{case}");
             } else if let Ok(loaded) = loaded {
                 assert!(loaded.displacement.linear().z < -h, "{case}");
-                let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
+                let snap = posture.snaps_before(&rest, &loaded).unwrap();
                 let snap = snap.unwrap_or_else(|| panic!("{case}: no snap is reported"));
                 assert_limit(&snap, b, h, k, push);
                 beyond_limit += 1;

@@ -501,8 +501,8 @@ fn point(
     assert!(p.arc.is_finite(), "arc {}", p.arc);
     assert!(!p.slope.is_nan(), "slope is NaN");
     let n = problem.chain.coordinate_count();
-    checks::stability(&p.held, n);
-    checks::stability(&p.dead, n);
+    checks::stability(&p.displacement_control, n);
+    checks::stability(&p.dead_load, n);
     point_at(problem, parameter, p.parameter, &p.equilibrium);
 }
 

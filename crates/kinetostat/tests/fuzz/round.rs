@@ -67,7 +67,8 @@ impl RoundRod {
         }
         let points = others.iter().flat_map(|bent| &bent.points);
         let beyond = points.filter(|p| p.parameter > 1.01 * critical);
-        let mut wrong = beyond.filter(|p| !(p.in_family() && p.dead.stable && p.held.stable));
+        let mut wrong = beyond
+            .filter(|p| !(p.in_family() && p.dead_load.stable && p.displacement_control.stable));
         wrong
             .next()
             .map(|p| format!("does not stay at {}", p.parameter))

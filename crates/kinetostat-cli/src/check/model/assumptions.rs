@@ -250,7 +250,7 @@ impl AssumptionsFinding {
     ) {
         let far = loaded.displacement.linear().norm();
         self.warnings.extend(folds(far, posture.mechanism().size()));
-        if let Ok(Some(limit)) = posture.snaps_on_the_way(rest, loaded) {
+        if let Ok(Some(limit)) = posture.snaps_before(rest, loaded) {
             let snaps = snaps(&limit);
             self.in_words.push(snaps.message.clone());
             self.warnings.push(snaps);

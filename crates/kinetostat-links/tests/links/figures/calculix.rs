@@ -8,8 +8,8 @@ use std::process::{Command, Stdio};
 
 use kinetostat_links::{
     CondensationRequest, Dof, Nodes, SYMMETRIC_TO, SectionShape, Shear, Superelement, Text, Tie,
-    Units, cantilever, condense, free_test, identify, judge, read_displacements, read_nodes,
-    read_superelement, unit_loads,
+    Units, cantilever, check_stiffness, condense, free_test, identify, read_displacements,
+    read_nodes, read_superelement, unit_loads,
 };
 use kinetostat_testing::{largest, largest_size};
 use nalgebra::{Matrix6, Rotation3, Vector3};
@@ -133,7 +133,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     // Beam theory with shear; E 210 GPa, nu 0.3. The mesh is stiffer: its ends can neither contract
     // across nor warp.
     let found = by_matrix.stiffness;
-    let checked = judge(&found, SYMMETRIC_TO);
+    let checked = check_stiffness(&found, SYMMETRIC_TO);
     assert!(
         checked.is_definite() && checked.findings.is_empty(),
         "{checked:?}"

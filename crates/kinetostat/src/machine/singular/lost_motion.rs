@@ -30,8 +30,8 @@ pub(crate) struct LostMotion {
     /// Singular value here as a share of the largest.
     pub share: f64,
     /// Motion of the tool from here to there.
-    pub way: Vector6<f64>,
-    /// The singular posture was found; if not, the way is of first order.
+    pub towards: Vector6<f64>,
+    /// The singular posture was found; if not, it is of first order.
     pub followed: bool,
     /// Motion of the limb's tip that is lost there.
     pub motion: Vector6<f64>,
@@ -361,7 +361,7 @@ impl Posture {
             let singular = LostMotion {
                 limb,
                 share: 0.0,
-                way: Vector6::zeros(),
+                towards: Vector6::zeros(),
                 followed: true,
                 motion: Vector6::zeros(),
             };
@@ -371,10 +371,11 @@ impl Posture {
                 continue;
             }
             let mut nearest: Option<LostMotion> = None;
-            let size = |way: &Vector6<f64>| {
-                way.fixed_rows::<3>(0)
+            let size = |towards: &Vector6<f64>| {
+                towards
+                    .fixed_rows::<3>(0)
                     .norm()
-                    .max(way.fixed_rows::<3>(3).norm() * length)
+                    .max(towards.fixed_rows::<3>(3).norm() * length)
             };
             for which in (rank.saturating_sub(3)..rank).rev() {
                 let (condition, value) = search.condition(limb, &here, which);
@@ -406,14 +407,14 @@ impl Posture {
                 let next = LostMotion {
                     limb,
                     share,
-                    way,
+                    towards: way,
                     followed,
                     motion,
                 };
                 let better = |old: &LostMotion| match (old.followed, followed) {
                     (false, true) => true,
                     (true, false) => false,
-                    _ => size(&next.way) < size(&old.way),
+                    _ => size(&next.towards) < size(&old.towards),
                 };
                 if nearest.as_ref().is_none_or(better) {
                     nearest = Some(next);

@@ -41,8 +41,8 @@ pub struct NearSingularity {
     /// Motion of the tool to the singular posture, base axes, its longest part 1 m (rotations at the
     /// natural length). For a motion gained the steepest descent of the singular value, for one lost
     /// the least motion (sum of squares) that ends where it is lost. Zero at a singular posture.
-    pub way: Twist,
-    /// How far the singular posture is on that way, m (rotations at the natural length).
+    pub towards: Twist,
+    /// How far the singular posture is in that direction, m (rotations at the natural length).
     pub distance_m: f64,
     /// The singular posture was found; if not, the distance is a first-order estimate, singular value
     /// by its slope.
@@ -70,7 +70,7 @@ impl NearSingularity {
         if self.distance_m == 0.0 {
             return format!("singular posture: {what}");
         }
-        let motion_there = motion_description(&mainly(&self.way));
+        let motion_there = motion_description(&mainly(&self.towards));
         let how = if self.followed {
             "found by following that way"
         } else {
@@ -174,17 +174,17 @@ impl Posture {
         let length = self.mechanism.scale().length;
         let mut list: Vec<NearSingularity> = self.motion_gained(within_m).into_iter().collect();
         list.extend(self.lost_motions(within_m).into_iter().map(|lost| {
-            let far = longest_part(&lost.way, length);
+            let far = longest_part(&lost.towards, length);
             // Joints at a border of the workspace are known to the root of rounding.
             let here = far <= 1e-10 * length;
             NearSingularity {
                 kind: SingularityKind::Lost,
                 limb: Some(self.mechanism.limbs()[lost.limb].name.clone()),
                 share: if here { 0.0 } else { lost.share },
-                way: Twist(if here {
+                towards: Twist(if here {
                     Vector6::zeros()
                 } else {
-                    normal(&(lost.way / far), length)
+                    normal(&(lost.towards / far), length)
                 }),
                 distance_m: if here { 0.0 } else { far },
                 followed: lost.followed,
@@ -284,7 +284,7 @@ impl Posture {
             share: if singular { 0.0 } else { value / most },
             distance_m: found.unwrap_or(first) * longest_part(&descent, length),
             followed: singular || found.is_some(),
-            way: Twist(normal(&descent, length)),
+            towards: Twist(normal(&descent, length)),
             motion: Twist(normal(motion, length)),
         })
     }

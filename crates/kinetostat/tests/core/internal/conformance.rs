@@ -442,7 +442,7 @@ fn every_law_holds_a_platform_as_in_the_general_engine() {
                 &own,
                 &Answer::of(&general.tool, &coordinates, &general.stiffness.matrix),
             );
-            let stability = found.verdict(i).expect(&place);
+            let stability = found.stability(i).expect(&place);
             assert_eq!(stability.stable, general.stable(), "{place}");
             let shares = (stability.share_to_buckling, general.share_to_buckling());
             let (Some(a), Some(b)) = shares else {

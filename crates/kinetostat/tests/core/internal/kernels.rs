@@ -26,7 +26,7 @@ fn bar() -> Matrix6<f64> {
 }
 
 /// Three sliders with struts between universal joints, one strut longer than drawn.
-fn sliders() -> Mechanism {
+pub(super) fn sliders() -> Mechanism {
     let mut builder = Mechanism::builder("sliders").gravity(Vector3::new(0.0, 0.0, -9.81));
     let tool = builder.platform(Platform {
         mass: 3.0,
@@ -109,7 +109,7 @@ fn answers(machine: &Mechanism, joints: Option<&[f64]>, count: usize) -> Vec<u64
         bent.commands,
         bent.actuator_forces,
         bent.stiffness,
-        bent.verdicts,
+        bent.stability,
     ];
     let mut found = [free.status, bent.status].concat();
     if joints.is_none() {

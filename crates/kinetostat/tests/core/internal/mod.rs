@@ -1,5 +1,6 @@
 //! Parts of the core that its interface does not show, each by itself.
 
+mod along_path;
 mod bilinear;
 mod block_elimination;
 mod conformance;

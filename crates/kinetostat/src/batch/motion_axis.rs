@@ -9,12 +9,12 @@ use crate::spatial::MotionKind;
 
 /// Axis and place of a motion that a coordinate or a command drives, base axes.
 #[derive(Clone, Copy)]
-pub(super) struct Place<S: Simd> {
+pub(super) struct MotionAxis<S: Simd> {
     pub axis: Vec3<S>,
     pub origin: Vec3<S>,
 }
 
-impl<S: Simd> Place<S> {
+impl<S: Simd> MotionAxis<S> {
     /// Twist of a body at `point` per unit of the motion, base axes.
     #[inline(always)]
     pub fn twist(&self, kind: MotionKind, point: &Vec3<S>) -> [Lanes<S>; 6] {

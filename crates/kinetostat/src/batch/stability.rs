@@ -10,7 +10,7 @@ use super::tangent;
 use super::vectors::{carried, constant, dot};
 use super::wrenches::Mat6;
 
-impl<S: Simd> Machine<'_, S> {
+impl<S: Simd> Machine<S> {
     /// Tangent stiffness of the platform at its point, base axes, and the smallest relative pivot: of
     /// the limbs, less the change of the platform's own weight's moment.
     #[inline(always)]
@@ -18,7 +18,7 @@ impl<S: Simd> Machine<'_, S> {
         let zero = Lanes::new(simd, 0.0);
         let mut sum = [[zero; 6]; 6];
         let mut regular = Lanes::new(simd, 1.0);
-        for (limb, plan) in self.limbs.iter().zip(self.actual) {
+        for (limb, plan) in self.limbs.iter().zip(self.actual.iter()) {
             let (own, pivot) = tangent::stiffness(simd, plan, limb, &self.gravity);
             regular = regular.least_of(pivot);
             for i in 0..6 {
@@ -44,10 +44,10 @@ impl<S: Simd> Machine<'_, S> {
     }
 
     /// Whether the equilibrium holds (one or zero), force per motion in the softest direction of the
-    /// tool, share of the way to buckling (not a number without inner motions), as in [`super::Verdict`]; and the smallest
+    /// tool, share of the way to buckling (not a number without inner motions), as in [`super::PostureStability`]; and the smallest
     /// relative pivot on the way: a platform that nothing holds, or that runs away, is judged alone.
     #[inline(always)]
-    pub fn verdict(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+    pub fn stability(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
         apart!(simd, {
             let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
             let mut own = Symmetric::zero(simd);
@@ -59,7 +59,11 @@ impl<S: Simd> Machine<'_, S> {
             let (compliance, mut regular) = own.inverse(simd);
             let softest = largest(compliance.a);
             let mut share_to_buckling = None;
-            let limbs = self.shapes.iter_mut().zip(self.actual).zip(&self.limbs);
+            let limbs = self
+                .shapes
+                .iter_mut()
+                .zip(self.actual.iter())
+                .zip(&self.limbs);
             for ((shape, plan), limb) in limbs {
                 if let Some((own, pivot)) = shape.share_to_buckling(plan, limb, &self.gravity) {
                     regular = regular.least_of(pivot);
