@@ -20,8 +20,8 @@ pub(crate) fn assembly_query(args: &AssembleArgs) -> Answer<AssemblyQuery> {
     let files = InputFiles::default();
     let (mut model, path) = files.model(&args.model, std::path::Path::new(""))?;
     for text in &args.deviation {
-        let refuse = |reason: &str| Failure::input(format!("--deviation '{text}': {reason}"));
-        for deviation in written(text, &model).map_err(|reason| refuse(&reason))? {
+        let refuse = |reason: &str| refused(text, reason);
+        for deviation in written(text, &model)? {
             model = model.deviating(deviation).map_err(|error| {
                 let first = error.problems().first();
                 let (message, help) = first.map_or_else(
@@ -46,13 +46,20 @@ pub(crate) fn assembly_query(args: &AssembleArgs) -> Answer<AssemblyQuery> {
     Ok(AssemblyQuery { query, perfect })
 }
 
+fn refused(deviation: &str, reason: &str) -> Failure {
+    Failure::input(format!("--deviation '{deviation}': {reason}"))
+}
+
 /// `LIMB:AT:WHAT` as deviations of one limb, or of all.
-fn written(text: &str, model: &Model) -> Result<Vec<Deviation>, String> {
+fn written(text: &str, model: &Model) -> Answer<Vec<Deviation>> {
     const FORM: &str = "write LIMB:AT:WHAT, as in \"leg x:line:1deg about x\", \"leg y:bar:0.2mm longer\" or \"*:foot:1mm along z\"";
-    let (place, what) = text.rsplit_once(':').ok_or(FORM)?;
-    let (limb, at) = place.split_once(':').ok_or(FORM)?;
-    let mut made = what_is_wrong(what.trim())
-        .ok_or_else(|| format!("'{}' is not understood; {FORM}", what.trim()))?;
+    let no_form = || refused(text, FORM);
+    let (place, what) = text.rsplit_once(':').ok_or_else(no_form)?;
+    let (limb, at) = place.split_once(':').ok_or_else(no_form)?;
+    let mut made = what_is_wrong(what.trim()).ok_or_else(|| {
+        let reason = format!("'{}' is not understood; {FORM}", what.trim());
+        refused(text, &reason)
+    })?;
     made.at = at.trim().to_owned();
     let limbs: Vec<String> = match limb.trim() {
         "*" => model.document.limb.iter().map(|l| l.name.clone()).collect(),

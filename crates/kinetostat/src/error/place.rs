@@ -34,6 +34,8 @@ pub enum Part {
     Actuator(String),
     /// A link of a chain.
     Link(String),
+    /// A body with mass of a chain.
+    Body(String),
 }
 
 /// Where something went wrong: in what, in which part, and during which task.
@@ -144,6 +146,7 @@ impl fmt::Display for Place {
             Part::Spring(name) => ("spring", name),
             Part::Actuator(name) => ("actuator", name),
             Part::Link(name) => ("link", name),
+            Part::Body(name) => ("body", name),
         };
         write!(f, ": {kind} '{name}'")
     }

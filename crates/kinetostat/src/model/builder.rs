@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Part, Place, Result};
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
 use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, scaled};
 use crate::model::springs::parallelogram::ParallelogramLaw;
@@ -65,11 +65,14 @@ fn unit(axis: usize) -> Vector3<f64> {
     v
 }
 
+/// What is wrong, and in which part of the chain.
+type Mistake = (Option<Part>, String);
+
 /// Builds a [`Chain`], base first. Mistakes are collected and reported by [`Self::build`].
 #[derive(Clone, Debug)]
 pub struct ChainBuilder {
     chain: Chain,
-    mistake: Option<String>,
+    mistake: Option<Mistake>,
 }
 
 /// Smallest eigenvalue of a scaled stiffness matrix that is distinct from rounding.
@@ -103,25 +106,37 @@ impl ChainBuilder {
         }
     }
 
-    pub(crate) fn fault(&mut self, text: String) {
-        self.mistake.get_or_insert(text);
+    /// Keeps what is wrong with the chain, if it is the first mistake.
+    fn fault(&mut self, text: String) {
+        self.mistake.get_or_insert((None, text));
+    }
+
+    /// Keeps what is wrong with a part of the chain, if it is the first mistake.
+    pub(crate) fn fault_of(&mut self, part: Part, text: String) {
+        self.mistake.get_or_insert((Some(part), text));
     }
 
     fn unit_axis(&mut self, name: &str, axis: Vector3<f64>) -> Unit<Vector3<f64>> {
         Unit::try_new(axis, 1e-12)
             .filter(|a| a.iter().all(|x| x.is_finite()))
             .unwrap_or_else(|| {
-                self.fault(format!(
-                    "'{name}': the axis [{}, {}, {}] has no direction",
-                    axis.x, axis.y, axis.z
-                ));
+                self.fault_of(
+                    Part::Coordinate(name.to_owned()),
+                    format!(
+                        "the axis [{}, {}, {}] has no direction",
+                        axis.x, axis.y, axis.z
+                    ),
+                );
                 Vector3::x_axis()
             })
     }
 
     fn coordinate(&mut self, name: String, role: Role, kind: MotionKind, home: f64) -> usize {
         if !home.is_finite() {
-            self.fault(format!("'{name}': the start value is {home}"));
+            self.fault_of(
+                Part::Coordinate(name.clone()),
+                format!("the start value is {home}"),
+            );
         }
         self.chain.coordinates.push(Coordinate {
             name,
@@ -181,13 +196,19 @@ impl ChainBuilder {
         if let Some((low, high)) = spec.limits
             && !(low <= spec.home && spec.home <= high)
         {
-            self.fault(format!(
-                "actuator '{name}': its home {} is outside its limits {low} .. {high}",
-                spec.home
-            ));
+            self.fault_of(
+                Part::Actuator(name.to_owned()),
+                format!(
+                    "its home {} is outside its limits {low} .. {high}",
+                    spec.home
+                ),
+            );
         }
         if !spec.home.is_finite() {
-            self.fault(format!("actuator '{name}': its home is {}", spec.home));
+            self.fault_of(
+                Part::Actuator(name.to_owned()),
+                format!("its home is {}", spec.home),
+            );
         }
         self.chain.actuators.push(Actuator {
             name: name.to_owned(),
@@ -212,9 +233,10 @@ impl ChainBuilder {
     #[must_use]
     pub fn screw(mut self, name: &str, spec: ActuatorSpec, lead: f64) -> Self {
         if spec.kind != MotionKind::Prismatic {
-            self.fault(format!(
-                "screw '{name}': a screw slides; its actuator turns"
-            ));
+            self.fault_of(
+                Part::Actuator(name.to_owned()),
+                format!("a screw slides; its actuator turns"),
+            );
         }
         let axis = spec.axis;
         let turn = format!("{name}.turn");
@@ -333,7 +355,10 @@ impl ChainBuilder {
     pub fn home(mut self, name: &str, value: f64) -> Self {
         match self.chain.coordinates.iter_mut().find(|c| c.name == name) {
             Some(_) if !value.is_finite() => {
-                self.fault(format!("'{name}': the start value is {value}"));
+                self.fault_of(
+                    Part::Coordinate(name.to_owned()),
+                    format!("the start value is {value}"),
+                );
             }
             Some(coordinate) => coordinate.home = value,
             None => self.fault(format!("home: there is no coordinate '{name}' before it")),
@@ -381,9 +406,10 @@ impl ChainBuilder {
             || directions.windows(2).any(|w| w[0] >= w[1])
             || directions.iter().any(|&d| d > 5)
         {
-            self.fault(format!(
-                "spring '{name}': directions must increase and lie in 0..6"
-            ));
+            self.fault_of(
+                Part::Spring(name.to_owned()),
+                format!("directions must increase and lie in 0..6"),
+            );
             return;
         }
         let first = self.chain.coordinates.len();
@@ -461,18 +487,20 @@ impl ChainBuilder {
         inertia: Matrix3<f64>,
     ) -> Self {
         if !(mass.is_finite() && mass >= 0.0) {
-            self.fault(format!(
-                "body '{name}': its mass is {mass} kg, a number not below zero is needed"
-            ));
+            self.fault_of(
+                Part::Body(name.to_owned()),
+                format!("its mass is {mass} kg, a number not below zero is needed"),
+            );
         }
         if centre_of_mass
             .iter()
             .chain(inertia.iter())
             .any(|x| !x.is_finite())
         {
-            self.fault(format!(
-                "body '{name}': centre of mass or inertia is not finite"
-            ));
+            self.fault_of(
+                Part::Body(name.to_owned()),
+                format!("centre of mass or inertia is not finite"),
+            );
         }
         let offset = Pose::translation(centre_of_mass.x, centre_of_mass.y, centre_of_mass.z);
         self.chain.elements.push(Element::Rigid(offset));
@@ -497,42 +525,41 @@ impl ChainBuilder {
             segment: None,
         };
         if block.rest.iter().any(|x| !usable(*x)) {
-            self.fault(format!(
-                "spring '{name}': its rest position is not finite, or beyond 1e60"
-            ));
+            self.fault_of(
+                Part::Spring(name.to_owned()),
+                format!("its rest position is not finite, or beyond 1e60"),
+            );
         }
         self.chain.springs.push(block);
     }
 
+    /// What is wrong with a spring.
     fn check_spring(block: &SpringBlock) -> Option<String> {
         let posture = vec![0.3; block.first + 6];
         let k = block.stiffness_at(&posture);
-        let name = &block.name;
         if k.nrows() != block.len() || k.ncols() != block.len() {
             return Some(format!(
-                "spring '{name}': a {0} x {0} matrix is needed, {1} x {2} was given",
+                "a {0} x {0} matrix is needed, {1} x {2} was given",
                 block.len(),
                 k.nrows(),
                 k.ncols()
             ));
         }
         if let Some(fault) = block.law.fault() {
-            return Some(format!("spring '{name}': {fault}"));
+            return Some(fault.to_owned());
         }
         if k.iter().any(|x| !usable(*x)) {
-            return Some(format!(
-                "spring '{name}': its stiffness holds a number that is not finite, or beyond 1e60"
-            ));
+            return Some(
+                "its stiffness holds a number that is not finite, or beyond 1e60".to_owned(),
+            );
         }
         let scaled = scaled(&k);
         if (&scaled - scaled.transpose()).amax() > 1e-9 {
-            return Some(format!(
-                "spring '{name}': its stiffness matrix is not symmetric"
-            ));
+            return Some("its stiffness matrix is not symmetric".to_owned());
         }
         if let Some(i) = (0..k.nrows()).find(|&i| k[(i, i)] <= 0.0) {
             return Some(format!(
-                "spring '{name}': its stiffness {} is not positive (diagonal entry {}); a free direction is a passive joint",
+                "its stiffness {} is not positive (diagonal entry {}); a free direction is a passive joint",
                 k[(i, i)],
                 i + 1
             ));
@@ -544,7 +571,7 @@ impl ChainBuilder {
             .find(|&(i, j)| scaled[(i, j)].abs() > 1.0 + SINGULAR)
         {
             return Some(format!(
-                "spring '{name}': its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
+                "its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
                 i + 1,
                 j + 1
             ));
@@ -552,12 +579,12 @@ impl ChainBuilder {
         let least = scaled.symmetric_eigenvalues().min();
         if least < -SINGULAR {
             return Some(format!(
-                "spring '{name}': its stiffness matrix is not positive definite (smallest scaled eigenvalue {})",
+                "its stiffness matrix is not positive definite (smallest scaled eigenvalue {})",
                 short(least)
             ));
         }
         (least <= SINGULAR).then(|| {
-            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest scaled eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
+            format!("its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest scaled eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
         })
     }
 
@@ -569,7 +596,8 @@ impl ChainBuilder {
     pub fn build(mut self) -> Result<Chain> {
         let place = Place::chain(self.chain.name.as_str());
         self = self.node("tip");
-        if let Some(reason) = self.mistake {
+        if let Some((part, reason)) = self.mistake {
+            let place = part.map_or_else(|| place.clone(), |part| place.with_part(part));
             return Err(Error::model(place, reason));
         }
         let mut chain = self.chain;
@@ -590,8 +618,11 @@ impl ChainBuilder {
                 ));
             }
         }
-        if let Some(reason) = chain.springs.iter().find_map(Self::check_spring) {
-            return Err(Error::model(place, reason));
+        for spring in &chain.springs {
+            if let Some(reason) = Self::check_spring(spring) {
+                let place = place.with_part(Part::Spring(spring.name.clone()));
+                return Err(Error::model(place, reason));
+            }
         }
         chain.scale = natural_scale(&chain);
         Ok(chain)

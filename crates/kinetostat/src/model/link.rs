@@ -23,12 +23,13 @@ use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+use crate::error::Part;
 use crate::model::beam::BeamSection;
 use crate::model::builder::ChainBuilder;
 use crate::model::springs::block::{Segment, SpringLaw};
 use crate::model::springs::bowing::BowingLaw;
 use crate::model::springs::logarithm::LogarithmLaw;
-use crate::model::uniform::{compliance_per_length, moved, segment_compliance};
+use crate::model::uniform::{NoSegment, compliance_per_length, moved, segment_compliance};
 use crate::spatial::{Pose, turn_matrix};
 
 /// How a segment moves, and what energy that costs. Unloaded stiffness does not depend on it.
@@ -125,7 +126,7 @@ impl LinkSpec {
     }
 
     /// Stiffness of one segment in the coordinates of its convention.
-    fn segment_stiffness(&self) -> Result<Matrix6<f64>, String> {
+    fn segment_stiffness(&self) -> Result<Matrix6<f64>, NoSegment> {
         let h = self.piece();
         let strain = self.convention == LinkConvention::ConstantStrain;
         let end = match &self.elasticity {
@@ -136,7 +137,7 @@ impl LinkSpec {
                 let per_length = Vector6::new(e * s.area, shear, shear, twist, bend_y, bend_z);
                 return Ok(Matrix6::from_diagonal(&(per_length / h)));
             }
-            LinkElasticity::Section(section) => section.cantilever(h).map_err(|e| e.to_string())?,
+            LinkElasticity::Section(section) => section.cantilever(h)?,
             LinkElasticity::Matrix(matrix) if self.segments == 1 && !strain => *matrix,
             LinkElasticity::Matrix(matrix) => {
                 let per_length = compliance_per_length(matrix, self.length)?;
@@ -148,13 +149,9 @@ impl LinkSpec {
                 let stiffness = middle
                     .try_inverse()
                     .filter(|k| k.cholesky().is_some())
-                    .ok_or_else(|| {
-                        if strain {
-                            "its matrix leaves no shear strain, which a constant strain needs"
-                        } else {
-                            "the matrix of a segment is not positive definite"
-                        }
-                        .to_owned()
+                    .ok_or(match strain {
+                        true => NoSegment::NoShear,
+                        false => NoSegment::IndefiniteSegment,
                     })?;
                 if strain {
                     return Ok(stiffness);
@@ -233,19 +230,21 @@ impl ChainBuilder {
         mut self,
         name: &str,
         spec: &LinkSpec,
-        of: impl Fn(usize) -> Result<Matrix6<f64>, String>,
+        of: impl Fn(usize) -> Result<Matrix6<f64>, NoSegment>,
     ) -> Self {
         let length = spec.length;
         if !(length.is_finite() && length > 0.0) {
-            self.fault(format!(
-                "link '{name}': its length is {length}, a positive number of metres is needed"
-            ));
+            self.fault_of(
+                Part::Link(name.to_owned()),
+                format!("its length is {length}, a positive number of metres is needed"),
+            );
             return self;
         }
         if spec.segments == 0 {
-            self.fault(format!(
-                "link '{name}': it has no segment, at least 1 is needed"
-            ));
+            self.fault_of(
+                Part::Link(name.to_owned()),
+                format!("it has no segment, at least 1 is needed"),
+            );
             return self;
         }
         let bending_stiffness = spec.bending_stiffness();
@@ -271,7 +270,7 @@ impl ChainBuilder {
             let (law, share, rotations_first) = match of(k - 1) {
                 Ok(matrix) => law_of(matrix),
                 Err(reason) => {
-                    self.fault(format!("link '{name}': {reason}"));
+                    self.fault_of(Part::Link(name.to_owned()), reason.to_string());
                     return self;
                 }
             };
@@ -310,9 +309,10 @@ impl ChainBuilder {
     pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
         let length = offset.norm();
         if !(length.is_finite() && length > 0.0) {
-            self.fault(format!(
-                "link '{name}': its length is {length}, a positive number of metres is needed"
-            ));
+            self.fault_of(
+                Part::Link(name.to_owned()),
+                format!("its length is {length}, a positive number of metres is needed"),
+            );
             return self;
         }
         let turn = Rotation3::rotation_between(&Vector3::x(), offset)

@@ -43,38 +43,52 @@ fn bending_part(per_length: &Matrix6<f64>) -> Matrix6<f64> {
     part
 }
 
+/// Why a link has no stiffness of one segment.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NoSegment {
+    #[error("its stiffness matrix is not positive definite")]
+    Indefinite,
+    #[error("{NO_BEAM}: it bends more in one half than in the other; take one segment")]
+    Uneven,
+    #[error(
+        "{NO_BEAM}: its tip moves less under a force than its bending alone would make it; take one segment"
+    )]
+    StifferThanItsBending,
+    #[error("its matrix leaves no shear strain, which a constant strain needs")]
+    NoShear,
+    #[error("the matrix of a segment is not positive definite")]
+    IndefiniteSegment,
+    #[error("{0}")]
+    Section(#[from] crate::error::Error),
+}
+
+const NO_BEAM: &str =
+    "only a uniform beam can be divided into segments, and its matrix is not that of one";
+
 /// Compliance per length (strains per force and moment) of the uniform beam with a given stiffness
 /// at its end.
 pub(crate) fn compliance_per_length(
     end: &Matrix6<f64>,
     length: f64,
-) -> Result<Matrix6<f64>, String> {
+) -> Result<Matrix6<f64>, NoSegment> {
     const BEAM: f64 = 1e-6;
     let compliance = end
         .try_inverse()
         .filter(is_positive)
-        .ok_or("its stiffness matrix is not positive definite")?;
+        .ok_or(NoSegment::Indefinite)?;
     let rates = to_middle(length);
     let middle = rates * compliance * rates.transpose();
     let size = |i: usize| middle[(i, i)].sqrt();
-    let no_beam = |what: &str| {
-        format!(
-            "only a uniform beam can be divided into segments, and its matrix is not that of one: {what}; \
-             take one segment"
-        )
-    };
     for (lateral, angle) in [(1, 4), (1, 5), (2, 4), (2, 5)] {
         if middle[(lateral, angle)].abs() > BEAM * size(lateral) * size(angle) {
-            return Err(no_beam("it bends more in one half than in the other"));
+            return Err(NoSegment::Uneven);
         }
     }
     let mut per_length = middle / length;
     per_length -= bending_part(&per_length) * (length * length / 12.0);
     let scaled = Matrix6::from_fn(|i, j| per_length[(i, j)] * length / (size(i) * size(j)));
     if scaled.symmetric_eigenvalues().min() < -BEAM {
-        return Err(no_beam(
-            "its tip moves less under a force than its bending alone would make it",
-        ));
+        return Err(NoSegment::StifferThanItsBending);
     }
     Ok(per_length)
 }

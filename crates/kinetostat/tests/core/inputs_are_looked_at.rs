@@ -1,6 +1,7 @@
 //! Numbers that are none, zero, negative or absurd in the scalar inputs of the public functions: an
 //! error that names the argument, or a finite answer. And messages about what was requested wrongly.
 
+use kinetostat::error::{Part, Place};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainProblem, EndCondition, Error, LinkSpec, MotionKind,
     Pose, Prescribed, Result, Settings, Wrench,
@@ -8,7 +9,7 @@ use kinetostat::{
     reference::{ChainBlocks, eliminate_passive, planar_beam, with_hinge_at_root},
     solve_chain, unloaded_stiffness,
 };
-use nalgebra::{Matrix6, Vector3, Vector6, vector};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
 
 use crate::common::arm;
 
@@ -309,4 +310,51 @@ fn messages_say_what_was_asked_wrongly() {
         words.contains("not symmetric") && words.contains("(6, 2)"),
         "{words}"
     );
+}
+
+#[test]
+fn a_mistake_in_a_chain_names_the_part() {
+    let axis = Vector3::z();
+    let spec = |stiffness| ActuatorSpec::new(MotionKind::Revolute, axis, stiffness);
+    let flat = Matrix6::from_diagonal(&vector![1e6, 1e6, 1e6, 1e4, 1e4, 0.0]);
+    let mut nowhere = spec(1e4);
+    nowhere.home = f64::NAN;
+    let start = || Chain::builder("arm");
+    let cases = [
+        (
+            start().actuator("elbow", nowhere),
+            Part::Actuator("elbow".into()),
+            "chain 'arm': actuator 'elbow': its home is NaN",
+        ),
+        (
+            start().actuator("elbow", spec(-1.0)),
+            Part::Spring("elbow".into()),
+            "chain 'arm': spring 'elbow': its stiffness -1 is not positive",
+        ),
+        (
+            start().spring6("bar", &flat, [0.0; 6]),
+            Part::Spring("bar".into()),
+            "chain 'arm': spring 'bar': its stiffness 0 is not positive (diagonal entry 6)",
+        ),
+        (
+            start().link("bar", &tube(), -0.7),
+            Part::Link("bar".into()),
+            "chain 'arm': link 'bar': its length is -0.7, a positive number of metres is needed",
+        ),
+        (
+            start().passive("hinge", MotionKind::Revolute, Vector3::zeros(), 0.0),
+            Part::Coordinate("hinge".into()),
+            "chain 'arm': coordinate 'hinge': the axis [0, 0, 0] has no direction",
+        ),
+        (
+            start().body("head", -3.0, Vector3::zeros(), Matrix3::zeros()),
+            Part::Body("head".into()),
+            "chain 'arm': body 'head': its mass is -3 kg",
+        ),
+    ];
+    for (builder, part, message) in cases {
+        let error = builder.build().unwrap_err();
+        assert_eq!(error.place().and_then(Place::part), Some(&part), "{error}");
+        assert!(error.to_string().starts_with(message), "{error}");
+    }
 }
