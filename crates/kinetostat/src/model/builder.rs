@@ -235,7 +235,7 @@ impl ChainBuilder {
         if spec.kind != MotionKind::Prismatic {
             self.fault_of(
                 Part::Actuator(name.to_owned()),
-                format!("a screw slides; its actuator turns"),
+                "a screw slides; its actuator turns".to_owned(),
             );
         }
         let axis = spec.axis;
@@ -408,7 +408,7 @@ impl ChainBuilder {
         {
             self.fault_of(
                 Part::Spring(name.to_owned()),
-                format!("directions must increase and lie in 0..6"),
+                "directions must increase and lie in 0..6".to_owned(),
             );
             return;
         }
@@ -499,7 +499,7 @@ impl ChainBuilder {
         {
             self.fault_of(
                 Part::Body(name.to_owned()),
-                format!("centre of mass or inertia is not finite"),
+                "centre of mass or inertia is not finite".to_owned(),
             );
         }
         let offset = Pose::translation(centre_of_mass.x, centre_of_mass.y, centre_of_mass.z);
@@ -527,7 +527,7 @@ impl ChainBuilder {
         if block.rest.iter().any(|x| !usable(*x)) {
             self.fault_of(
                 Part::Spring(name.to_owned()),
-                format!("its rest position is not finite, or beyond 1e60"),
+                "its rest position is not finite, or beyond 1e60".to_owned(),
             );
         }
         self.chain.springs.push(block);

@@ -243,7 +243,7 @@ impl ChainBuilder {
         if spec.segments == 0 {
             self.fault_of(
                 Part::Link(name.to_owned()),
-                format!("it has no segment, at least 1 is needed"),
+                "it has no segment, at least 1 is needed".to_owned(),
             );
             return self;
         }
