@@ -53,21 +53,29 @@ pub fn reference_forces() -> Vec<Vector3<f64>> {
         .collect()
 }
 
-/// A machine under forces on its tool (N, base axes), one after the other, from its equilibrium at rest. With
-/// `assumed`, the first one that is far too much ends the list.
+/// Where forces on a tool come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForcesFrom {
+    /// They were given: each of them is answered.
+    User,
+    /// They are assumed: the first one that is far too much for the machine ends the list.
+    Assumption,
+}
+
+/// A machine under forces on its tool (N, base axes), one after the other, from its equilibrium at rest.
 #[must_use]
 pub fn under_forces(
     posture: &Posture,
     rest: &MechanismEquilibrium,
     forces: &[Vector3<f64>],
-    assumed: bool,
+    from: ForcesFrom,
 ) -> Vec<(Vector3<f64>, LoadOutcome)> {
     let compliance = rest.compliance();
     let length = natural_length(posture.mechanism());
     let mut list = Vec::new();
     for force in forces {
         let linear: Vector3<f64> = compliance.springs.fixed_view::<3, 3>(0, 0) * force;
-        if assumed && linear.norm() > TOO_MUCH * length {
+        if from == ForcesFrom::Assumption && linear.norm() > TOO_MUCH * length {
             list.push((*force, LoadOutcome::TooMuch(linear.norm())));
             break;
         }

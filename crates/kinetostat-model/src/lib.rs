@@ -86,7 +86,7 @@ pub use model::{Model, json_schema, read_model};
 pub use plausibility::link_matrix::doubts_of_link_matrix;
 pub use plausibility::numbers::odd_angles;
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
-pub use problem::{ModelError, Problem, Severity, shortened};
+pub use problem::{ModelError, Problem, Severity, TextStyle, shortened};
 
 /// The examples of the README run.
 #[cfg(doctest)]

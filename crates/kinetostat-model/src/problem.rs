@@ -119,11 +119,23 @@ pub struct Problem {
     styled: String,
 }
 
+/// How a message is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextStyle {
+    /// Characters only.
+    Plain,
+    /// With the colours of a terminal.
+    Terminal,
+}
+
 impl Problem {
-    /// The message with the line it refers to; `styled` adds terminal colours.
+    /// The message with the line it refers to.
     #[must_use]
-    pub fn rendered(&self, styled: bool) -> &str {
-        if styled { &self.styled } else { &self.plain }
+    pub fn rendered(&self, style: TextStyle) -> &str {
+        match style {
+            TextStyle::Plain => &self.plain,
+            TextStyle::Terminal => &self.styled,
+        }
     }
 
     /// A problem that another reader found in `text`, at the bytes of `span`; `path` is its path to
@@ -368,14 +380,14 @@ impl ModelError {
         &self.problems
     }
 
-    /// The messages with the lines they refer to; `styled` adds terminal colours.
+    /// The messages with the lines they refer to.
     #[must_use]
-    pub fn rendered(&self, styled: bool) -> String {
+    pub fn rendered(&self, style: TextStyle) -> String {
         let mut text = self
             .problems
             .iter()
             .take(Self::SHOWN)
-            .map(|p| p.rendered(styled))
+            .map(|p| p.rendered(style))
             .collect::<Vec<_>>()
             .join("\n\n");
         if self.problems.len() > Self::SHOWN {
@@ -390,7 +402,7 @@ impl ModelError {
 
 impl fmt::Display for ModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.rendered(false))
+        f.write_str(&self.rendered(TextStyle::Plain))
     }
 }
 

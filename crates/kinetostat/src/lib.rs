@@ -90,6 +90,7 @@
 //! starts go to all threads. `simd`: the kernels of [`batch`] for vector registers, chosen at run time. The numbers are
 //! the same without the last two.
 
+pub use nalgebra;
 
 pub mod batch;
 pub mod chain;
@@ -105,14 +106,8 @@ pub mod model;
 pub mod number;
 mod parallel;
 pub mod reference;
-pub mod settings;
+mod settings;
 pub mod spatial;
-
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
 
 pub use chain::directions::{Direction, DirectionKind};
 pub use chain::equilibrium::Equilibrium;
@@ -125,9 +120,10 @@ pub use continuation::settings::CurveSettings;
 pub use equilibrium::all_of_chain::equilibria;
 pub use equilibrium::chain::solve_chain;
 pub use equilibrium::critical::critical_load_factor;
-pub use error::{Error, Result};
+pub use error::{Error, Place, Result};
 pub use machine::equilibrium::MechanismEquilibrium;
 pub use machine::posture::Posture;
+pub use machine::request::PostureRequest;
 pub use machine::stiffness::UnloadedStiffness;
 pub use model::beam::BeamSection;
 pub use model::builder::{ActuatorSpec, ChainBuilder};
@@ -141,4 +137,9 @@ pub use model::loads::strut::Anchor;
 pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
 pub use settings::Settings;
-pub use spatial::{CartesianStiffness, MotionKind, Pose, Twist, Wrench};
+pub use spatial::{CartesianStiffness, Directions, MotionKind, Pose, Twist, Wrench};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

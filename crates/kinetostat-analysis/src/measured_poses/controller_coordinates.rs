@@ -5,6 +5,7 @@ use kinetostat_model::Model;
 
 use crate::forward::ForwardKinematics;
 use crate::measured_poses::explanation::Axis;
+use crate::measured_poses::search::Effort;
 
 /// The controller of a model: the axes of its controller, or else its actuators.
 #[derive(Clone, Copy, Debug)]
@@ -35,10 +36,13 @@ impl<'m> ControllerCoordinates<'m> {
         }
     }
 
-    /// Thousands of poses can be computed: the machine is a plain product of its joints.
+    /// How many explanations can be tried.
     #[must_use]
-    pub fn is_quick(&self) -> bool {
-        self.forward.is_plain_product()
+    pub fn effort(&self) -> Effort {
+        match self.forward.is_plain_product() {
+            true => Effort::Thousands,
+            false => Effort::Few,
+        }
     }
 
     /// What the model says of each axis; `kinds` are those of the axes.

@@ -16,4 +16,4 @@ mod search;
 pub use controller_coordinates::{ControllerCoordinates, ControllerPoseError};
 pub use explanation::{Axis, Coupling, Explanation, Forward, Frame};
 pub use measurement::{Difference, MeasuredPose, Tolerance, difference};
-pub use search::{Explained, explain, remaining_differences};
+pub use search::{Effort, Explained, explain, remaining_differences};

@@ -43,15 +43,22 @@ pub fn remaining_differences(
 /// Rows that screen an explanation before all are computed.
 const SCREEN: usize = 8;
 
+/// How many explanations are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// Thousands: the machine is a plain product of joints, whose pose takes a microsecond.
+    Thousands,
+    /// Those that change little: the machine has loops, which are closed for every pose.
+    Few,
+}
+
 /// Tries explanations of the differences between measured poses and those of a model.
-///
-/// `quick` says that the machine is a plain product of joints, so that thousands can be tried.
 #[must_use]
 pub fn explain(
     forward: &Forward<'_>,
     rows: &[MeasuredPose],
     axes: &[Axis],
-    quick: bool,
+    effort: Effort,
     tolerance: Tolerance,
 ) -> Explained {
     let mut found = Explained {
@@ -61,6 +68,7 @@ pub fn explain(
     let screen = &rows[..rows.len().min(SCREEN)];
     let mut nearest: Option<(f64, Explanation)> = None;
     let mut least = usize::MAX;
+    let quick = effort == Effort::Thousands;
     let mut tries = changes(axes, quick);
     // Stable: the order of the list decides between equals.
     tries.sort_by_key(Explanation::cost);

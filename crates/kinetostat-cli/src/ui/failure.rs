@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use kinetostat_machining::RunError;
 use kinetostat_machining::number::apart;
-use kinetostat_model::{ModelError, shortened};
+use kinetostat_model::{ModelError, TextStyle, shortened};
 use kinetostat_program::WriteError;
 
 use crate::ui::pose::pose_text;
@@ -108,12 +108,12 @@ impl Failure {
 
 impl From<ModelError> for Failure {
     fn from(error: ModelError) -> Self {
-        let plain = error.rendered(false);
+        let plain = error.rendered(TextStyle::Plain);
         Self {
             code: Code::WrongInput,
             // The model crate has made its text safe; its line structure is wanted.
             plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
-            styled: Some(error.rendered(true)),
+            styled: Some(error.rendered(TextStyle::Terminal)),
             place: None,
         }
     }

@@ -4,7 +4,7 @@
 use crate::load::law::CornerLoad;
 use crate::number::{counted, largest, largest_length};
 use crate::result::run_result::RunResult;
-use crate::result::tolerance::unchanged_text;
+use crate::result::tolerance::{Unchanged, unchanged_text};
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
@@ -12,7 +12,13 @@ impl RunResult {
     pub fn unchanged_text(&self) -> Option<String> {
         let s = &self.summary;
         (s.unchanged && self.tolerance.held != Some(false))
-            .then(|| unchanged_text(s.within_tolerance_before, s.max_position_error_before_mm))
+            .then_some(match s.within_tolerance_before {
+                true => Unchanged::WithinTolerance {
+                    before_mm: s.max_position_error_before_mm,
+                },
+                false => Unchanged::BelowLastDigit,
+            })
+            .map(unchanged_text)
     }
 
     /// What is assumed at sharp corners, how many steps that concerns, and what becomes of the claim

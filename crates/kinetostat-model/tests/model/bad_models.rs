@@ -1,6 +1,6 @@
 //! Wrong models: each message says where, what, and what to do.
 
-use kinetostat_model::{Model, read_model};
+use kinetostat_model::{Model, TextStyle, read_model};
 
 const GOOD: &str = r#"schema = 1
 
@@ -242,7 +242,10 @@ fn all_mistakes_are_shown_at_once_in_the_order_of_the_file() {
         ]
     );
     assert_eq!(error.problems()[0].path, "chain.arm.elements[4].length_mm");
-    assert!(error.rendered(true).contains('\u{1b}') && !error.to_string().contains('\u{1b}'));
+    assert!(
+        error.rendered(TextStyle::Terminal).contains('\u{1b}')
+            && !error.to_string().contains('\u{1b}')
+    );
 }
 
 /// Every two of these mistakes, of form and of meaning, are shown together, in the order of lines.
@@ -318,7 +321,7 @@ fn text_of_megabytes_is_not_shown_whole() {
             edited("[[limb]]\n", &format!("[\"{text}\"]\na = 1\n[[limb]]\n")),
         ] {
             let error = Model::from_toml(&bad, "bad.toml").expect_err("a mistake");
-            for shown in [error.to_string(), error.rendered(true)] {
+            for shown in [error.to_string(), error.rendered(TextStyle::Terminal)] {
                 assert!(shown.len() < 20_000, "{} bytes", shown.len());
             }
             for p in error.problems() {

@@ -5,7 +5,7 @@ use kinetostat::{Error, MechanismEquilibrium, Posture};
 use kinetostat_analysis::instability::{InstabilityShares, NOTICEABLE};
 use kinetostat_analysis::push_stiffness::{PushStiffness, PushStiffnesses};
 use kinetostat_analysis::reference_load::{
-    CarriedLoad, LoadOutcome, SMALL, reference_forces, under_forces,
+    CarriedLoad, ForcesFrom, LoadOutcome, SMALL, reference_forces, under_forces,
 };
 use kinetostat_machining::{
     NEAR_SINGULAR, NearSingular, Warning, WarningCode, natural_length, near_singular,
@@ -159,7 +159,11 @@ impl AssumptionsFinding {
         let mut free = Vec::new();
         let mut unstable: Option<Vector3<f64>> = None;
         // What was requested is answered by what `deflect` finds, whatever first order says.
-        for (case, outcome) in under_forces(posture, rest, &forces, force.is_none()) {
+        let from = match force {
+            Some(_) => ForcesFrom::User,
+            None => ForcesFrom::Assumption,
+        };
+        for (case, outcome) in under_forces(posture, rest, &forces, from) {
             match outcome {
                 LoadOutcome::TooMuch(first_order) => {
                     self.too_much(&case, first_order);

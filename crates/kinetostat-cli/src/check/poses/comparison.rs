@@ -100,7 +100,7 @@ pub(crate) fn compare(
     };
     let measured: Vec<MeasuredPose> = rows.iter().map(|p| p.measured.clone()).collect();
     let forward = |shown: &[f64]| controller.tool(shown);
-    let explained = explain(&forward, &measured, &axes, controller.is_quick(), tolerance);
+    let explained = explain(&forward, &measured, &axes, controller.effort(), tolerance);
     let agrees = explained.fitting.first() == Some(&Explanation::default());
     let explanations: Vec<String> = match agrees {
         true => Vec::new(),
