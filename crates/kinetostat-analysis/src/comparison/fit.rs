@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::number::smaller;
+use kinetostat::number::{larger, smaller};
 use kinetostat::{
     MotionKind, Pose, Twist,
     linalg::SingularValues,
@@ -175,8 +175,8 @@ impl Fit<'_> {
         let mut left = (0.0_f64, 0.0_f64);
         for difference in residual.as_slice().chunks(6) {
             let size = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
-            left.0 = left.0.max(size(&difference[..3]));
-            left.1 = left.1.max(size(&difference[3..]) / self.length);
+            left.0 = larger(left.0, size(&difference[..3]));
+            left.1 = larger(left.1, size(&difference[3..]) / self.length);
         }
         m.largest_difference = left;
         Some(m)

@@ -34,7 +34,7 @@ pub(crate) struct AssembleArgs {
     #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) moment: Option<Vec<f64>>,
     /// Along a straight line instead of at one place, mm, base axes
-    #[arg(long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true, help_heading = "Along a line", value_parser = number, conflicts_with_all = ["at", "rotation", "joints", "pendant"])]
+    #[arg(long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true, help_heading = "Along a line", value_parser = number, conflicts_with_all = ["at", "rotation", "joints", "controller", "pendant"])]
     pub(crate) along: Option<Vec<f64>>,
     /// Points of the line [default: 41]
     #[arg(long, value_name = "N", help_heading = "Along a line", allow_negative_numbers = true, value_parser = whole, requires = "along")]

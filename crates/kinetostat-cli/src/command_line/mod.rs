@@ -215,6 +215,7 @@ mod tests {
         texts(&Cli::command(), &mut found);
         let known = [
             "axes",
+            "controller",
             "grow",
             "home",
             "joints",

@@ -2,8 +2,8 @@
 //!
 //! It takes a job, or a table of corrections, and writes the compensated program with its report, result and
 //! points. The run itself is in the crate `kinetostat-machining`: `run/compensate.rs` goes through its stages, and a
-//! point that the machine cannot reach is refused where the corrections are found, in `field.rs`
-//! (`cause_and_advice`).
+//! point that the machine cannot reach is refused where the corrections are found, in `field.rs` (`cause_and_advice`
+//! says it; the core's `machine/inverse` finds it).
 
 pub(crate) mod arguments;
 mod correction_table;

@@ -30,7 +30,7 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
     if is_job || args.program.program.is_some() {
         if args.place.given() {
             return Err(Failure::input(
-                "--at, --joints and --pendant ask for one place, --program for all of a program: keep one of them",
+                "--at, --joints and --controller ask for one place, --program for all of a program: keep one of them",
             ));
         }
         return along_program(&args, is_job).map_err(|failure| {

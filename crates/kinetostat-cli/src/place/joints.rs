@@ -81,7 +81,7 @@ pub(crate) fn values_text(label: &str, values: &[JointValue]) -> String {
     wrapped(&format!("{label}: {}", list.join(", ")), 0)
 }
 
-/// Commands (m, rad) of `--joints` or `--pendant`; `None` if neither is given. What is not named
+/// Commands (m, rad) of `--joints` or `--controller`; `None` if neither is given. What is not named
 /// stays at home.
 pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>> {
     let m = &model.mechanism;
@@ -93,19 +93,26 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
             .collect();
         return read("--joints", &place.joints, &names, commands).map(Some);
     }
-    if place.pendant.is_empty() {
-        return Ok(None);
-    }
+    let (option, values) = match (place.controller.is_empty(), place.pendant.is_empty()) {
+        (true, true) => return Ok(None),
+        (false, _) => ("--controller", &place.controller),
+        (true, false) => {
+            eprintln!(
+                "warning: --pendant is called --controller now; the old name goes with the next version"
+            );
+            ("--pendant", &place.pendant)
+        }
+    };
     let Some(controller) = &model.controller else {
-        return Err(Failure::input(
-            "--pendant: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
-        ));
+        return Err(Failure::input(format!(
+            "{option}: the model has no [controller] that says what the controller shows; give the model's own joint values with --joints, or write the section (kinetostat model schema)",
+        )));
     };
     let axes = controller.axes();
     let names = on_axes(controller);
     let shown = controller.coordinates(&commands).unwrap_or_default();
     let start = shown.iter().zip(axes).map(|(x, a)| x * a.unit.in_si());
-    let shown = read("--pendant", &place.pendant, &names, start.collect())?;
+    let shown = read(option, values, &names, start.collect())?;
     let shown: Vec<f64> = shown
         .iter()
         .zip(axes)

@@ -12,7 +12,7 @@ use kinetostat::number::larger;
 pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     let mut out = query.heading();
     if !a.pendant.is_empty() {
-        out.push_str(&joints::values_text("On the pendant", &a.pendant));
+        out.push_str(&joints::values_text("On the controller", &a.pendant));
         out.push('\n');
     }
     let state = if a.loaded {

@@ -1,4 +1,4 @@
-//! `kinetostat assemble`: the Orthoglide with errors against reference values that another program
+//! `kinetostat assemble`: the Orthoglide with errors against numbers that another program
 //! computed (tables 6.1 and 6.2, milling), determinate machines, and what is refused.
 
 #![allow(clippy::print_stdout)] // figures
@@ -162,7 +162,7 @@ fn figure_a_degree_about_every_slider_strains_as_in_table_6_2() {
     );
 }
 
-/// Non-linear equilibria and the machine as drawn under the milling force: reference values 2.2, 2.5.
+/// Non-linear equilibria and the machine as drawn under the milling force (`kinetostat/tests/golden/orthoglide_errors_and_milling.json`).
 #[test]
 fn errors_and_milling_together_keep_the_machine_as_drawn_apart() {
     let file = golden("orthoglide_milling.json");
@@ -207,7 +207,7 @@ fn errors_and_milling_together_keep_the_machine_as_drawn_apart() {
     }
 }
 
-/// Figures 6.6 and 6.7: eleven points of the line from Q2 to Q5 (reference values 2.5).
+/// Figures 6.6 and 6.7: eleven points of the line from Q2 to Q5 [R 6.4].
 #[test]
 fn figure_along_the_milling_line_the_sum_is_not_the_total() {
     for (case, deviation, largest, mean) in [

@@ -100,7 +100,7 @@ fn stiffness_has_units_axes_and_point() {
 #[test]
 fn deflect_at_a_place() {
     let here = workplace();
-    // Reference values, part 2, 2.5: Q0 under (215, -10, -25) N and (1, 21.5, 0) N m.
+    // `kinetostat/tests/golden/orthoglide_milling.json`: Q0 under (215, -10, -25) N and (1, 21.5, 0) N m.
     let said = run(
         here.path(),
         &[

@@ -142,7 +142,7 @@ fn a_place_is_given_by_joints_of_the_model_or_of_the_controller() {
     let pendant = axes.iter().zip(shown).map(|(n, x)| format!("{n}={x}deg"));
     for (flag, words) in [
         ("--joints", joints.collect::<Vec<_>>()),
-        ("--pendant", vec![pendant.collect::<Vec<_>>().join(",")]),
+        ("--controller", vec![pendant.collect::<Vec<_>>().join(",")]),
     ] {
         for command in ["stiffness", "deflect"] {
             let mut line = vec![command, "arm.toml", "--json", flag];
@@ -167,10 +167,16 @@ fn a_place_is_given_by_joints_of_the_model_or_of_the_controller() {
             assert!(said.err.contains("J3 -33.342 deg"), "{}", said.err);
         }
     }
+    // The name of the option before is taken, and said to be old.
+    let [now, before] = ["--controller", "--pendant"]
+        .map(|option| run(here.path(), &["stiffness", "arm.toml", option, "J1=10"]).answered());
+    assert_eq!(now.out, before.out);
+    assert!(before.err.contains("--pendant is called --controller now"));
+    assert!(!now.err.contains("is called"));
     // What is not named stays at home.
     let said = run(
         here.path(),
-        &["stiffness", "arm.toml", "--pendant", "J2=0.5rad"],
+        &["stiffness", "arm.toml", "--controller", "J2=0.5rad"],
     )
     .answered();
     assert!(
@@ -183,13 +189,16 @@ fn a_place_is_given_by_joints_of_the_model_or_of_the_controller() {
         (["--joints", "joint_1"], "as in J1=10"),
         (["--joints", "joint_1=3mm"], "in deg or rad"),
         (["--joints", "joint_1=1,joint_1=2"], "is given twice"),
-        (["--pendant", "joint_1=3"], "There are J1, J2"),
+        (["--controller", "joint_1=3"], "There are J1, J2"),
     ] {
         let said = run(here.path(), &["stiffness", "arm.toml", words[0], words[1]]);
         assert_eq!(said.code, 1, "{said:?}");
         assert!(said.err.contains(needle), "{words:?}: {said:?}");
     }
-    let said = run(here.path(), &["stiffness", "heavy_6r", "--pendant", "J1=3"]);
+    let said = run(
+        here.path(),
+        &["stiffness", "heavy_6r", "--controller", "J1=3"],
+    );
     assert!(said.err.contains("no [controller]"), "{said:?}");
 }
 
@@ -210,7 +219,7 @@ fn poses_that_agree_are_reported_to_agree() {
     let (said, json) = compared(&model(plain, CONTROLLER), &table(axes, shown, same));
     assert_eq!(json["agrees"], true, "{}", said.err);
     assert!(
-        said.err.contains("joint values of the pendant"),
+        said.err.contains("joint values of the controller"),
         "{}",
         said.err
     );

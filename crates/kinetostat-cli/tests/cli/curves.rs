@@ -6,7 +6,7 @@ use crate::common::run;
 use kinetostat_testing::Worst;
 use serde_json::Value;
 
-/// reference-values.md: Delta 0.110931613194, F -1.03347699957.
+/// The column of the book's chapter on buckling, computed by another program: Delta 0.110931613194, F -1.03347699957.
 #[test]
 fn figure_the_z_chain_buckles_at_its_pitchfork() {
     let here = workplace();

@@ -177,7 +177,7 @@ fn the_drawing_and_the_table_of_a_machine() {
     }
 }
 
-/// Reference values, part 2, section 2.3: Q2b outside has its peak of 0.01138 kN at 4.64 mm.
+/// Figure 5.7 of the report, computed by another program: Q2b outside has its peak of 0.01138 kN at 4.64 mm.
 #[test]
 fn figure_the_orthoglide_snaps_through_its_flat_posture() {
     let here = tempfile::tempdir().expect("a directory");

@@ -481,7 +481,7 @@ fn numbers_inside_texts_are_refused_with_their_option() {
                 "--section",
             ),
             ("stiffness model.toml --joints shoulder=@", "--joints"),
-            ("stiffness shown.toml --pendant J1=@", "--pendant"),
+            ("stiffness shown.toml --controller J1=@", "--controller"),
             (
                 "import urdf r.urdf --base a --tip b --home j=@deg",
                 "--home",

@@ -1,6 +1,6 @@
 //! Where everything stands at home, and the passive joints that close the loops there.
 
-use kinetostat::{Pose, spatial::pose_residual};
+use kinetostat::{Pose, number::larger, spatial::pose_residual};
 use nalgebra::{DMatrix, DVector};
 
 use crate::urdf::robot::Robot;
@@ -189,8 +189,8 @@ fn search(
     }
     (0..closings.len()).fold((0.0, 0.0), |(distance, angle): (f64, f64), k| {
         (
-            distance.max(residual.rows(6 * k, 3).norm()),
-            angle.max(residual.rows(6 * k + 3, 3).norm()),
+            larger(distance, residual.rows(6 * k, 3).norm()),
+            larger(angle, residual.rows(6 * k + 3, 3).norm()),
         )
     })
 }

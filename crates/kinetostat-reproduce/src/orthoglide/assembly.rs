@@ -57,8 +57,8 @@ fn springs(row: &mut Row, posture: &Posture, deflections: &[Vec<f64>]) {
                         1_f64.to_degrees(),
                     ),
                 };
-                *size = size.max(deflection.abs() * unit);
-                *load = load.max(torque.abs());
+                *size = larger(*size, deflection.abs() * unit);
+                *load = larger(*load, torque.abs());
             }
         }
     }

@@ -210,7 +210,7 @@ impl Configuration {
                 a.stiffness,
                 "N/mm",
                 if q == "Q2" {
-                    "the report defines it and does not print it; reference values 2.3 say 406 for a reason that is not known: the stiffness behind their own section 2.4 gives this number. Tried: drives of 1e8 to 1e12 N/m (402.0 to 408.7), bars of 310.05 mm (408.2), secants over 1 mm (398.4 and 417.7)"
+                    "the report defines it and does not print it; another calculation says 406 for a reason that is not known: the stiffness that it uses elsewhere gives this number. Tried: drives of 1e8 to 1e12 N/m (402.0 to 408.7), bars of 310.05 mm (408.2), secants over 1 mm (398.4 and 417.7)"
                 } else {
                     "the report defines it and does not print it"
                 },

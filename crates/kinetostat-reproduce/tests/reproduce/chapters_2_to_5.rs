@@ -1,4 +1,4 @@
-//! Chapters 2 to 5 against the reference values, part 1: computed there by independent programs
+//! Chapters 2 to 5 against numbers of independent programs: computed there
 //! (energy minimisation, high-precision Newton) and held here digit by digit.
 
 use kinetostat_reproduce::{Entry, Item, one};
@@ -346,7 +346,7 @@ fn limit_points_of_figure_4_4() {
         "1.021837818",
     );
     for (what, value) in [
-        // Newton in 40 digits; the reference values stop at 1.01096193478.
+        // Newton in 40 digits; the other programs stop at 1.01096193478.
         ("G/G*", "1.010961934781130"),
         ("node y", "0.216530824546"),
         ("F_x", "-1.953205835430"),

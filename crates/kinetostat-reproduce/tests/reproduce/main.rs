@@ -1,4 +1,4 @@
-//! The numbers of the report, computed again, beside reference values: one module per part of it.
+//! The numbers of the report, computed again, beside those of independent programs: one module per part of it.
 //!
 //! One binary instead of many, because linking dominates the time of a test run.
 

@@ -1,4 +1,4 @@
-//! The Orthoglide's entries against the reference values, part 2: computed there by an independent
+//! The Orthoglide's entries against numbers computed by an independent
 //! program and written here digit by digit. Statuses, notes and plots too.
 
 use kinetostat_reproduce::{Entry, Item, Status, one};
@@ -79,7 +79,7 @@ fn sound(entry: &Entry) {
     }
 }
 
-/// Reference values, part 2, section 2.1, bars of 310 mm: linear shift (mm), joint (deg), exact shift.
+/// By the independent program, bars of 310 mm: linear shift (mm), joint (deg), exact shift.
 const TABLE_6_1: [(&str, [f64; 3], f64, [f64; 3]); 5] = [
     (
         "Q0",
@@ -141,7 +141,7 @@ fn table_6_1_agrees_to_first_order() {
 /// Point, shift (mm), rotation (deg) and the columns of [`COLUMNS`].
 type Row = (&'static str, [f64; 3], [f64; 3], [f64; 5]);
 
-/// Reference values, part 2, section 2.2, "correct (own matrix, finite eps)".
+/// By the independent program, each leg with its own matrix and finite errors.
 const TABLE_6_2: [Row; 5] = [
     (
         "Q0",

@@ -45,13 +45,13 @@ impl AlongPath {
         let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
         // One posture at home tells whether kernels find the stability.
         let home = mechanism.platforms()[mechanism.tool()].home;
-        let judged = batch.as_ref().and_then(|b| {
+        let assessed = batch.as_ref().and_then(|b| {
             b.equilibrium(&[home], &[Wrench::zero()], Details::Stability)
                 .ok()
         });
         Self {
             mechanism: mechanism.clone(),
-            stability_by_kernels: judged.is_some_and(|j| j.status == [Status::Vectorised]),
+            stability_by_kernels: assessed.is_some_and(|j| j.status == [Status::Vectorised]),
             batch,
             length: mechanism.natural_length(),
         }

@@ -10,7 +10,7 @@
 //! Newton on the bordered system under step control, and falls back on growing the load from an
 //! unloaded posture. A failure says up to which share of the load it came.
 //!
-//! Long chains are solved by sweeps along them (`sweep.rs`), with cost and memory that grow with the
+//! Long chains are solved by sweeps along them (`chain/sweep`), with cost and memory that grow with the
 //! number of coordinates; what a sweep cannot do falls back on dense matrices.
 
 use nalgebra::DMatrix;

@@ -10,6 +10,7 @@
 //! [ J^T  H-K ] [ x ]
 //! K_C = (J_theta K^-1 J_theta^T)^-1 with passive joints eliminated        [R 3.10, 3.13, 4.28]
 //! N^T (K - H) N > 0, N the null space of J: the shape is stable           [R 5.16-5.21]
+//! mu, the largest eigenvalue of H against K there: the buckling margin, 1 is buckling (`stability.rs`)
 //! ```
 
 pub(crate) mod compliance;

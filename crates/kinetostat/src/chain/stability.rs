@@ -1,4 +1,4 @@
-//! Does a shape hold [R 5.16-5.21]?
+//! Does a shape hold, and by which buckling margin [R 5.16-5.21]?
 //!
 //! With the end held, the chain can still move along the null space `N` of its Jacobian. The shape
 //! is stable iff `S_c = N^T (H - K) N` is negative definite; equivalently iff the bordered matrix

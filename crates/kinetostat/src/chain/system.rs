@@ -9,6 +9,7 @@ use crate::chain::sweep::stages::{ChainMethod, SWEEP_FROM, Sweep};
 use crate::model::chain::Chain;
 use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::model::loads::load::Load;
+use crate::number::larger;
 use crate::spatial::{Pose, Wrench};
 
 /// Matrices and residuals of a chain at one state; buffers are reused between iterations.
@@ -252,9 +253,8 @@ impl System {
         let (mut squares, mut largest) = (0.0, 0.0_f64);
         for (i, s) in scales[6..].iter().enumerate() {
             squares += (self.unbalanced(i) * s).powi(2);
-            largest = largest
-                .max((self.torque[i] * s).abs())
-                .max((self.spring_torque[i] * s).abs());
+            largest = larger(largest, (self.torque[i] * s).abs());
+            largest = larger(largest, (self.spring_torque[i] * s).abs());
         }
         (squares, largest)
     }

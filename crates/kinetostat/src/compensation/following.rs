@@ -107,11 +107,11 @@ fn corrected<T>(
     for step in 1..=CORRECTIONS {
         let (mut solver, residual) = posture.converged_solver(wrench, state)?;
         spent += residual.iterations;
-        let miss = position - solver.state.platforms[tool].translation.vector;
-        let miss = DVector::from_column_slice(miss.as_slice());
-        let miss = &free * (free.transpose() * miss);
+        let distance = position - solver.state.platforms[tool].translation.vector;
+        let distance = DVector::from_column_slice(distance.as_slice());
+        let distance = &free * (free.transpose() * distance);
         let before = left;
-        left = miss.norm();
+        left = distance.norm();
         let settled = left < 1e-11 * length && left > 0.5 * before;
         if left < 1e-13 * length || settled || (step == CORRECTIONS && left < 1e-9 * length) {
             let residual = Residual {
@@ -124,7 +124,7 @@ fn corrected<T>(
             return Ok((posture, desired, concluded));
         }
         state = solver.state.clone();
-        goal += Vector3::new(miss[0], miss[1], miss[2]);
+        goal += Vector3::new(distance[0], distance[1], distance[2]);
         // On a curved surface of places the goal lies beside it by second order.
         let (next, _) = mechanism.followed_to_nearest(&posture, &goal, wanted)?;
         posture = carry(next);

@@ -193,10 +193,10 @@ fn undo_drift(
 ) -> Residual {
     let tool = solver.mechanism.tool();
     for _ in 0..4 {
-        let miss = pose_residual(desired, &solver.state.platforms[tool]);
+        let deviation = pose_residual(desired, &solver.state.platforms[tool]);
         let mut drift = Twist::zero();
         for k in (3..6).filter(|&k| directions[k]) {
-            drift.0[k] = miss.0[k];
+            drift.0[k] = deviation.0[k];
         }
         if drift.angular().norm() < 1e-14 || solver.unknowns == Unknowns::Pose {
             break;
@@ -242,13 +242,13 @@ fn fixed_point(
         solver.state = posture.rest_state();
         let residual = solver.solve_robustly()?;
         spent += residual.iterations;
-        let mut miss = pose_residual(desired, &solver.state.platforms[tool]);
+        let mut deviation = pose_residual(desired, &solver.state.platforms[tool]);
         for k in 0..6 {
             if !directions[k] {
-                miss.0[k] = 0.0;
+                deviation.0[k] = 0.0;
             }
         }
-        left = miss.linear().norm() + miss.angular().norm() * length;
+        left = deviation.linear().norm() + deviation.angular().norm() * length;
         // The last steps may turn in rounding; what is left then is no failure.
         if left < 1e-12 * length || (step == STEPS && left < 1e-9 * length) {
             return Ok(Residual {
@@ -256,7 +256,7 @@ fn fixed_point(
                 ..residual
             });
         }
-        target = crate::spatial::moved(&target, &miss);
+        target = crate::spatial::moved(&target, &deviation);
     }
     // Each step was an equilibrium under the full load; it is the target that was not found.
     Err(Error::NotConverged {

@@ -45,7 +45,7 @@ pub(super) fn not_converged(
             "{place}: no equilibrium found in {iterations} iterations: with these numbers the deflections grow beyond all limits; the largest share of the load with an equilibrium is {share:.3}. Look for a load, a length or a stiffness in the wrong unit"
         ),
         None => format!(
-            "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {} m, and torques of {} times the largest without balance)",
+            "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a closure of {} m, and torques of {} times the largest out of equilibrium)",
             // A smaller residual is the rounding of its arithmetic.
             number::short(if closure < 1e-12 { 0.0 } else { closure }),
             number::short(torque)

@@ -6,7 +6,7 @@ use kinetostat::{
 };
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
-/// The identified Orthoglide (reference values, part 2, section 1), SI.
+/// The identified Orthoglide (the book, reference numbers), SI.
 pub struct Orthoglide {
     pub bar_length: f64,
     /// Rotation of leg i about its own actuator line, rad.

@@ -6,7 +6,7 @@
 //! H_spatial = H_Euler + J_E^T D J_E,      K_spatial = B^-T (K_Euler - D) B^-1
 //! ```
 //!
-//! (theory note, section 1). Everything on the Euler side is computed here by differences.
+//! (errata, chapter 5: 5.10 to 5.21). Everything on the Euler side is computed here by differences.
 
 use crate::common::{RandomChain, Recipe, Rng, random_chain};
 use crate::oracle::{scaled_solve, springs};

@@ -1,4 +1,4 @@
-//! The Orthoglide against the reference values, part 2 [R chapters 5.5.3, 6]: every number was
+//! The Orthoglide against an independent program [R chapters 5.5.3, 6]: every number was
 //! computed by an independent program to 13 digits. Printed values are checked to the print.
 
 use crate::common::{

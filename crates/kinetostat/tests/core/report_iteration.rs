@@ -1,6 +1,6 @@
 //! The report's own iteration by name: its rate is max |mu|, it cannot stay on unstable shapes, and
 //! under tension it alternates; exact Newton beside it is quadratic, also where `H` is not symmetric
-//! (theory note, section 1, table of iterations).
+//! (the book, errata of 4.16).
 
 use crate::common::{Recipe, Rng, assert_chain_equilibrium, close, planar_column, random_chain};
 use crate::curves_and_bifurcations::{held, z_chain, z_unloaded};

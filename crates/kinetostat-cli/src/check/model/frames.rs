@@ -256,7 +256,7 @@ pub(crate) fn frames_text(f: &Frames) -> String {
         ));
     }
     if !f.pendant.is_empty() {
-        out.push_str("\nOn the pendant\n");
+        out.push_str("\nOn the controller\n");
         for axis in &f.pendant {
             out.push_str(&item(&format!(
                 "{} = {}, shown in {}",

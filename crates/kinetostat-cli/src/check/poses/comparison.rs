@@ -117,7 +117,7 @@ pub(crate) fn compare(
         model_source: source.to_owned(),
         poses_file: file.display().to_string(),
         joints_are: match model.controller {
-            Some(_) => "of the pendant",
+            Some(_) => "of the controller",
             None => "of the model",
         },
         tolerance_mm,

@@ -1,4 +1,4 @@
-//! Reference values, part 2: sections 2.4 and 2.5, Tables 6.1 and 6.2.
+//! The Orthoglide by an independent program (`tests/golden`): Tables 6.1 and 6.2.
 
 use super::{Figures, Worst};
 use crate::common::{Orthoglide, golden, matrix, number, numbers};

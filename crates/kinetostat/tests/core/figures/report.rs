@@ -1,4 +1,4 @@
-//! Reference values, part 1: eqs 3.25, 3.26, 3.34, 3.35, Tables 3.2 and 3.3, section 4.6.1.
+//! Numbers of an independent program: eqs 3.25, 3.26, 3.34, 3.35, Tables 3.2 and 3.3, section 4.6.1.
 
 use super::{Figures, Worst};
 use crate::beam_tables_3_2_and_3_3::{beam, expand, section};

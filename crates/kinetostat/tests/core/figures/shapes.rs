@@ -64,7 +64,7 @@ fn columns_that_bend() {
         }
     }
     f.at_most(
-        "Critical loads of every convention, theory note section 4",
+        "Critical loads of every convention, by the equations of the book (links that bend)",
         &digits,
         1.02,
         "half of the last digit there",

@@ -1,4 +1,4 @@
-//! The report's iteration and exact Newton (theory note, section 1), and frames that snap.
+//! The report's iteration and exact Newton (the book, governing equations), and frames that snap.
 
 use super::{Figures, Worst};
 use crate::euler_angles::compared;
