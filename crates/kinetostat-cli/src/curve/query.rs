@@ -64,6 +64,9 @@ impl CurveQuery {
 }
 
 /// Two different numbers, the smaller first.
+/// Largest displacement that a tool is pushed to, mm: as far as `--at` may lie.
+const FARTHEST_MM: f64 = 1e7;
+
 fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
     let (a, b) = (values[0], values[1]);
     if a == b {
@@ -182,6 +185,11 @@ fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer
         )
     })?;
     let (low, high) = ends("--displacement-mm", range)?;
+    if low.abs().max(high.abs()) > FARTHEST_MM {
+        return Err(Failure::input(
+            "--displacement-mm leads farther than 10 km; displacements are in mm",
+        ));
+    }
     query.range = (1e-3 * low, 1e-3 * high);
     query.measure = Measure::Force(1.0);
     let driven = Driven {

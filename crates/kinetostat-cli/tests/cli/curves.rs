@@ -669,6 +669,20 @@ fn a_curve_beyond_all_sense_says_so() {
         let mut codes = warnings.iter().map(|w| w["code"].clone());
         codes.any(|code| code == "large_displacement")
     };
-    assert!(pushed("1e9"));
+    assert!(pushed("1e6"));
     assert!(!pushed("5"));
+    // Farther than any machine stands nothing is computed: the first step was nothing but rounding.
+    let range = [
+        "--direction",
+        "0",
+        "0",
+        "1",
+        "--displacement-mm",
+        "0",
+        "1e9",
+    ];
+    let arguments = ["curve", "puu3"].into_iter().chain(range);
+    let refused = run(here.path(), &arguments.collect::<Vec<_>>());
+    assert_eq!(refused.code, 1, "{refused:?}");
+    assert!(refused.err.contains("farther than 10 km"), "{refused:?}");
 }
