@@ -32,5 +32,5 @@ pub(crate) enum ModelAction {
         #[arg(long)]
         json: bool,
     },
-    Draw(DrawArgs),
+    Draw(Box<DrawArgs>),
 }
