@@ -3,6 +3,12 @@
 //! Takes the question (a chain with its end condition, a posture with a wrench), tries Newton's iteration directly, then a
 //! load that grows, then other starts; where there is no equilibrium it says why. Built on `chain`, `machine` and
 //! `continuation`.
+//!
+//! ```text
+//! tau(q) + sum J_j^T G_j + J^T F = 0,  g(q) = t where the end is prescribed      [R 4.12-4.16]
+//! share s of the load grows: G = s G_1;  deflation: what is known repels the iteration
+//! critical load: det (K - s H) = 0 on the null space of J                        [R 5.16-5.21]
+//! ```
 
 pub(crate) mod all_of_chain;
 pub(crate) mod all_of_machine;

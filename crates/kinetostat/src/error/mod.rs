@@ -1,5 +1,8 @@
 //! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
 //! finding (singular, unstable, redundant) is a field of a result.
+//!
+//! Takes nothing from the other rooms; gives them one `Error`, with the place (`place`: mechanism, chain or limb and the
+//! part at fault) as types that a program can match, and the sentences for people (`messages`).
 
 mod load_limit;
 mod messages;
