@@ -5,21 +5,24 @@ use anyhow::{Context, Result, bail};
 
 use crate::{cargo, step};
 
+/// Runs a program of rounds, optimised and with panics that can be caught.
+fn example(what: &str, package: &str, name: &str, words: &[&str]) -> Result<()> {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--profile", "fuzz", "--package", package]);
+    command.args(["--example", name, "--"]).args(words);
+    step(what, &mut command)
+}
+
 /// Programs with every code, for a twelfth of the time: they are thousands in a second. One case is
 /// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`.
 fn codes(minutes: &str, seed: &str) -> Result<()> {
     let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--profile",
-        "fuzz",
-        "--package",
+    example(
+        "fuzz of codes",
         "kinetostat-program",
-    ]);
-    command.args(["--example", "fuzz_codes", "--", &minutes, seed]);
-    step("fuzz of codes", &mut command)
+        "fuzz_codes",
+        &[&minutes, seed],
+    )
 }
 
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
@@ -53,17 +56,7 @@ pub fn run(options: &[&str]) -> Result<()> {
 
 /// Chains under loads, through every query.
 fn chains(words: &[&str]) -> Result<()> {
-    let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--profile",
-        "fuzz",
-        "--package",
-        "kinetostat",
-    ]);
-    command.args(["--example", "fuzz_chains", "--"]).args(words);
-    step("fuzz of chains", &mut command)
+    example("fuzz of chains", "kinetostat", "fuzz_chains", words)
 }
 
 /// One figure of a good job or model at a time, in every wrong unit.
@@ -85,18 +78,10 @@ fn absurd_units() -> Result<()> {
 /// Programs under ridged tables, looked at in random places. One case is repeated with
 /// `cargo run --package kinetostat-program --example fuzz_maps -- case SEED`.
 fn maps(words: &[&str]) -> Result<()> {
-    let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--profile",
-        "fuzz",
-        "--package",
+    example(
+        "fuzz of programs under tables",
         "kinetostat-program",
-        "--example",
         "fuzz_maps",
-        "--",
-    ]);
-    command.args(words);
-    step("fuzz of programs under tables", &mut command)
+        words,
+    )
 }

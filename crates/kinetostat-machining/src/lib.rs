@@ -44,7 +44,7 @@ pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
 pub use result::summary::Summary;
 pub use result::tolerance::{
-    MissedTolerance, ToleranceResult, Unchanged, keeps_as_it_is, of_table, unchanged_text,
+    MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};

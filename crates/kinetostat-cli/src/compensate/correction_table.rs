@@ -6,7 +6,7 @@ use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Unchanged, Warning, WarningCode,
+    RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning, WarningCode,
     correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
     unchanged_text, wide_table,
 };
@@ -197,10 +197,7 @@ fn words(result: &MapResult<'_>) -> String {
         let before = result.max_position_error_before_mm;
         result
             .unchanged
-            .then_some(match result.within_tolerance_before {
-                true => Unchanged::WithinTolerance { before_mm: before },
-                false => Unchanged::BelowLastDigit,
-            })
+            .then(|| result.within_tolerance_before.then_some(before))
             .map(unchanged_text)
     });
     if let Some(said) = said {

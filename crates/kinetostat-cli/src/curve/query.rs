@@ -11,6 +11,7 @@ use crate::end_condition::holding::{Driven, Holding, axis_description, holding};
 use crate::end_condition::loads::{constant, constant_loads_text, no_growing_nodes, wrench};
 use crate::end_condition::moves::Moves;
 use crate::options::vector;
+use crate::place::query::FARTHEST;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{number, short, triple};
 
@@ -64,9 +65,6 @@ impl CurveQuery {
 }
 
 /// Two different numbers, the smaller first.
-/// Largest displacement that a tool is pushed to, mm: as far as `--at` may lie.
-const FARTHEST_MM: f64 = 1e7;
-
 fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
     let (a, b) = (values[0], values[1]);
     if a == b {
@@ -185,7 +183,7 @@ fn pushed(query: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer
         )
     })?;
     let (low, high) = ends("--displacement-mm", range)?;
-    if low.abs().max(high.abs()) > FARTHEST_MM {
+    if 1e-3 * larger(low.abs(), high.abs()) > FARTHEST {
         return Err(Failure::input(
             "--displacement-mm leads farther than 10 km; displacements are in mm",
         ));

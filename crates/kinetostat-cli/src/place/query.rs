@@ -22,6 +22,9 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::{short, triple};
 
+/// As far as a tool is looked for, m: farther is a wrong unit.
+pub(crate) const FARTHEST: f64 = 1e4;
+
 /// Everything about one place.
 pub(crate) struct PlaceQuery {
     pub(crate) name: String,
@@ -89,7 +92,7 @@ pub(crate) fn place_query_of(
             .target(),
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
-            if position.norm() > 1e4 {
+            if position.norm() > FARTHEST {
                 return Err(Failure::input(
                     "--at lies more than 10 km away; coordinates are in mm",
                 ));

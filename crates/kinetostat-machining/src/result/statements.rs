@@ -4,7 +4,7 @@
 use crate::load::law::CornerLoad;
 use crate::number::{counted, largest, largest_length};
 use crate::result::run_result::RunResult;
-use crate::result::tolerance::{Unchanged, unchanged_text};
+use crate::result::tolerance::unchanged_text;
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
@@ -12,11 +12,9 @@ impl RunResult {
     pub fn unchanged_text(&self) -> Option<String> {
         let s = &self.summary;
         (s.unchanged && self.tolerance.held != Some(false))
-            .then_some(match s.within_tolerance_before {
-                true => Unchanged::WithinTolerance {
-                    before_mm: s.max_position_error_before_mm,
-                },
-                false => Unchanged::BelowLastDigit,
+            .then(|| {
+                s.within_tolerance_before
+                    .then_some(s.max_position_error_before_mm)
             })
             .map(unchanged_text)
     }

@@ -38,23 +38,11 @@ pub fn keeps_as_it_is(before_mm: f64, after_mm: f64, tolerance_mm: f64, allowed_
     before_mm <= tolerance_mm || (before_mm <= allowed_mm && before_mm <= after_mm)
 }
 
-/// Why a program came back byte for byte.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Unchanged {
-    /// As it is, its largest error (mm) is within the tolerance.
-    WithinTolerance {
-        /// The largest error, mm.
-        before_mm: f64,
-    },
-    /// No correction reaches the last digit that is written.
-    BelowLastDigit,
-}
-
 /// What a program that came back byte for byte means: it was within the tolerance as it is, by so much, or there
 /// was nothing that could be written.
 #[must_use]
-pub fn unchanged_text(reason: Unchanged) -> String {
-    if let Unchanged::WithinTolerance { before_mm } = reason {
+pub fn unchanged_text(within_tolerance_mm: Option<f64>) -> String {
+    if let Some(before_mm) = within_tolerance_mm {
         return format!(
             "Nothing was corrected: as the program is, the tool is at most {} off, which is within the tolerance, \
              and it comes back byte for byte. A smaller --tolerance-um corrects that too.",

@@ -71,14 +71,7 @@ impl<S: Simd> Machine<S> {
     ) -> (Lanes<S>, Lanes<S>) {
         let off = self.correct(simd, directions, able);
         let away = self.reach(simd, 1, off.max(away * able));
-        for ((limb, plan), joints) in self
-            .limbs
-            .iter_mut()
-            .zip(self.actual.iter())
-            .zip(&self.joints)
-        {
-            limb.follow(plan, joints);
-        }
+        self.limbs_follow();
         (off.max(away), away)
     }
 }

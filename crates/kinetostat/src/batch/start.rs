@@ -91,15 +91,10 @@ impl<S: Simd> Machine<S> {
         if self.is_serial() {
             return good;
         }
-        for ((limb, plan), joints) in self
-            .limbs
-            .iter_mut()
-            .zip(self.actual.iter())
-            .zip(&self.joints)
-        {
+        for (limb, plan) in self.limbs.iter_mut().zip(self.actual.iter()) {
             limb.forget(plan, lost);
-            limb.follow(plan, joints);
         }
+        self.limbs_follow();
         good.least_of(self.update_compliance(simd, lost))
     }
 
@@ -115,15 +110,20 @@ impl<S: Simd> Machine<S> {
         away
     }
 
+    /// Limbs as they are bent, where the joints lead.
+    #[inline(always)]
+    pub fn limbs_follow(&mut self) {
+        let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+        for ((limb, plan), joints) in limbs.zip(&self.joints) {
+            limb.follow(plan, joints);
+        }
+    }
+
     /// Limbs unloaded where the joints lead.
     #[inline(always)]
     fn start_limbs(&mut self) {
-        for ((limb, plan), joints) in self
-            .limbs
-            .iter_mut()
-            .zip(self.actual.iter())
-            .zip(&self.joints)
-        {
+        let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+        for ((limb, plan), joints) in limbs.zip(&self.joints) {
             limb.start(plan, &joints.commands, &joints.passive);
         }
     }

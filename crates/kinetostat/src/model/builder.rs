@@ -112,8 +112,9 @@ impl ChainBuilder {
     }
 
     /// Keeps what is wrong with a part of the chain, if it is the first mistake.
-    pub(crate) fn fault_of(&mut self, part: Part, text: String) {
-        self.mistake.get_or_insert((Some(part), text));
+    pub(crate) fn fault_of(&mut self, part: fn(String) -> Part, name: &str, text: String) {
+        self.mistake
+            .get_or_insert_with(|| (Some(part(name.to_owned())), text));
     }
 
     fn unit_axis(&mut self, name: &str, axis: Vector3<f64>) -> Unit<Vector3<f64>> {
@@ -121,7 +122,8 @@ impl ChainBuilder {
             .filter(|a| a.iter().all(|x| x.is_finite()))
             .unwrap_or_else(|| {
                 self.fault_of(
-                    Part::Coordinate(name.to_owned()),
+                    Part::Coordinate,
+                    name,
                     format!(
                         "the axis [{}, {}, {}] has no direction",
                         axis.x, axis.y, axis.z
@@ -134,7 +136,8 @@ impl ChainBuilder {
     fn coordinate(&mut self, name: String, role: Role, kind: MotionKind, home: f64) -> usize {
         if !home.is_finite() {
             self.fault_of(
-                Part::Coordinate(name.clone()),
+                Part::Coordinate,
+                &name,
                 format!("the start value is {home}"),
             );
         }
@@ -197,7 +200,8 @@ impl ChainBuilder {
             && !(low <= spec.home && spec.home <= high)
         {
             self.fault_of(
-                Part::Actuator(name.to_owned()),
+                Part::Actuator,
+                name,
                 format!(
                     "its home {} is outside its limits {low} .. {high}",
                     spec.home
@@ -205,10 +209,7 @@ impl ChainBuilder {
             );
         }
         if !spec.home.is_finite() {
-            self.fault_of(
-                Part::Actuator(name.to_owned()),
-                format!("its home is {}", spec.home),
-            );
+            self.fault_of(Part::Actuator, name, format!("its home is {}", spec.home));
         }
         self.chain.actuators.push(Actuator {
             name: name.to_owned(),
@@ -234,7 +235,8 @@ impl ChainBuilder {
     pub fn screw(mut self, name: &str, spec: ActuatorSpec, lead: f64) -> Self {
         if spec.kind != MotionKind::Prismatic {
             self.fault_of(
-                Part::Actuator(name.to_owned()),
+                Part::Actuator,
+                name,
                 "a screw slides; its actuator turns".to_owned(),
             );
         }
@@ -356,7 +358,8 @@ impl ChainBuilder {
         match self.chain.coordinates.iter_mut().find(|c| c.name == name) {
             Some(_) if !value.is_finite() => {
                 self.fault_of(
-                    Part::Coordinate(name.to_owned()),
+                    Part::Coordinate,
+                    name,
                     format!("the start value is {value}"),
                 );
             }
@@ -407,7 +410,8 @@ impl ChainBuilder {
             || directions.iter().any(|&d| d > 5)
         {
             self.fault_of(
-                Part::Spring(name.to_owned()),
+                Part::Spring,
+                name,
                 "directions must increase and lie in 0..6".to_owned(),
             );
             return;
@@ -488,7 +492,8 @@ impl ChainBuilder {
     ) -> Self {
         if !(mass.is_finite() && mass >= 0.0) {
             self.fault_of(
-                Part::Body(name.to_owned()),
+                Part::Body,
+                name,
                 format!("its mass is {mass} kg, a number not below zero is needed"),
             );
         }
@@ -498,7 +503,8 @@ impl ChainBuilder {
             .any(|x| !x.is_finite())
         {
             self.fault_of(
-                Part::Body(name.to_owned()),
+                Part::Body,
+                name,
                 "centre of mass or inertia is not finite".to_owned(),
             );
         }
@@ -526,7 +532,8 @@ impl ChainBuilder {
         };
         if block.rest.iter().any(|x| !usable(*x)) {
             self.fault_of(
-                Part::Spring(name.to_owned()),
+                Part::Spring,
+                name,
                 "its rest position is not finite, or beyond 1e60".to_owned(),
             );
         }
@@ -597,7 +604,10 @@ impl ChainBuilder {
         let place = Place::chain(self.chain.name.as_str());
         self = self.node("tip");
         if let Some((part, reason)) = self.mistake {
-            let place = part.map_or_else(|| place.clone(), |part| place.with_part(part));
+            let place = match part {
+                Some(part) => place.with_part(part),
+                None => place,
+            };
             return Err(Error::model(place, reason));
         }
         let mut chain = self.chain;

@@ -226,6 +226,12 @@ impl ChainBuilder {
         self.link_in_pieces(name, &whole, of)
     }
 
+    /// A link is not as long as this.
+    fn no_length(&mut self, name: &str, length: f64) {
+        let text = format!("its length is {length}, a positive number of metres is needed");
+        self.fault_of(Part::Link, name, text);
+    }
+
     fn link_in_pieces(
         mut self,
         name: &str,
@@ -234,15 +240,13 @@ impl ChainBuilder {
     ) -> Self {
         let length = spec.length;
         if !(length.is_finite() && length > 0.0) {
-            self.fault_of(
-                Part::Link(name.to_owned()),
-                format!("its length is {length}, a positive number of metres is needed"),
-            );
+            self.no_length(name, length);
             return self;
         }
         if spec.segments == 0 {
             self.fault_of(
-                Part::Link(name.to_owned()),
+                Part::Link,
+                name,
                 "it has no segment, at least 1 is needed".to_owned(),
             );
             return self;
@@ -270,7 +274,7 @@ impl ChainBuilder {
             let (law, share, rotations_first) = match of(k - 1) {
                 Ok(matrix) => law_of(matrix),
                 Err(reason) => {
-                    self.fault_of(Part::Link(name.to_owned()), reason.to_string());
+                    self.fault_of(Part::Link, name, reason.to_string());
                     return self;
                 }
             };
@@ -309,10 +313,7 @@ impl ChainBuilder {
     pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
         let length = offset.norm();
         if !(length.is_finite() && length > 0.0) {
-            self.fault_of(
-                Part::Link(name.to_owned()),
-                format!("its length is {length}, a positive number of metres is needed"),
-            );
+            self.no_length(name, length);
             return self;
         }
         let turn = Rotation3::rotation_between(&Vector3::x(), offset)

@@ -210,7 +210,7 @@ fn a_machine_with_thirty_platforms() {
             ("equilibrium", loaded, 10.0),
             ("commands elsewhere", elsewhere, 60.0),
         ] {
-            f.time(&format!("{name}: time of {what}"), time, most);
+            Figures::time(&format!("{name}: time of {what}"), time, most);
         }
         put(
             &mut f,
