@@ -53,7 +53,8 @@ mod text;
 mod writing;
 
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};
-pub use checking::verify::{Verification, verify_written};
+pub use checking::verifier::Verification;
+pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, WriteError};
 pub use field::map::CorrectionMap;
 pub use field::request::{

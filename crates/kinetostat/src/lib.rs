@@ -76,8 +76,8 @@
 //! model          chains and mechanisms, spring laws, loads; Jacobians and Hessians of a chain
 //! chain          one chain at one state: its system (dense or by sweeps), stiffness, stability, Newton
 //! machine        a mechanism commanded for a target: inverse kinematics, posture, stiffness, platforms
-//! continuation   equilibria as one parameter grows, around limit points and through bifurcations
-//! equilibrium    the equilibrium to which a load leads, all that can be found, critical loads
+//! continuation   equilibria as one parameter grows, around limit points and through bifurcations; a machine under a load
+//! equilibrium    the equilibrium of a chain, all that can be found of a chain or a machine, critical loads
 //! compensation   the target to command so that the loaded tool is where it should be
 //! batch          many postures at once, one per lane of the processor's vector registers
 //! reference      the report's own forms and iterations, for those who check, teach or simplify

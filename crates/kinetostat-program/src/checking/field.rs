@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::checking::verify::fail;
+use crate::checking::verifier::fail;
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request, Turning};
 use crate::irregular::irregular;

@@ -3,5 +3,7 @@
 //! places that the division did not choose.
 
 pub(crate) mod field;
+pub(crate) mod moves;
 pub(crate) mod text;
+pub(crate) mod verifier;
 pub(crate) mod verify;

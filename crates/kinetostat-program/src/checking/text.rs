@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::checking::verify::{Verifier, fail};
+use crate::checking::verifier::{Verifier, fail};
 use crate::error::WriteError;
 use crate::number::decimals_of;
 use crate::path::curve::Curve;

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 ///
 /// Nothing is found in them that an answer depends on: each group of postures writes over what it reads.
 #[derive(Default)]
-pub(super) struct Buffers(Mutex<Vec<Box<dyn Any + Send>>>);
+pub(crate) struct Buffers(Mutex<Vec<Box<dyn Any + Send>>>);
 
 impl Buffers {
     /// Takes buffers of a kind, or makes them.

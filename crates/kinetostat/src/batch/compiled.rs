@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use super::buffers::Buffers;
-use super::group::Places;
-use super::instruction_set::has_kernels;
-use super::plan::Plan;
-use super::run::Work;
-use super::status::{Engine, NoKernel, Status};
-use super::table::BLOCK;
+use crate::batch::buffers::Buffers;
+use crate::batch::machine::group::Places;
+use crate::batch::numbers::instruction_set::has_kernels;
+use crate::batch::plan::steps::Plan;
+use crate::batch::run::Work;
+use crate::batch::status::{Engine, NoKernel, Status};
+use crate::batch::table::BLOCK;
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;
@@ -18,7 +18,7 @@ use crate::model::mechanism::{Limb, Mechanism};
 use crate::parallel;
 
 /// Blocks of eight postures that a thread takes at a time.
-pub(super) const BLOCKS: usize = 32;
+pub(crate) const BLOCKS: usize = 32;
 
 /// A machine compiled for many postures.
 ///
@@ -45,14 +45,14 @@ pub(super) const BLOCKS: usize = 32;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Batch {
-    pub(super) mechanism: Mechanism,
+    pub(crate) mechanism: Mechanism,
     /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
-    pub(super) nominal: std::result::Result<Arc<[Plan]>, NoKernel>,
-    pub(super) actual: std::result::Result<Arc<[Plan]>, NoKernel>,
-    /// Loaded postures lie along a path: see [`super::path`].
-    pub(super) along: bool,
+    pub(crate) nominal: std::result::Result<Arc<[Plan]>, NoKernel>,
+    pub(crate) actual: std::result::Result<Arc<[Plan]>, NoKernel>,
+    /// Loaded postures lie along a path: see [`crate::batch::path`].
+    pub(crate) along: bool,
     /// Of kernels that have run.
-    pub(super) buffers: Buffers,
+    pub(crate) buffers: Buffers,
 }
 
 impl Batch {
@@ -80,7 +80,7 @@ impl Batch {
         Engine::of(&self.nominal)
     }
 
-    pub(super) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
+    pub(crate) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
         let place = || self.mechanism.place();
         let limbs = self.mechanism.limbs();
         let serial = limbs.len() == 1
@@ -106,7 +106,7 @@ impl Batch {
         Ok(Places::Joints { commands, each })
     }
 
-    /// For postures that lie along a path, each a start for the next: see [`super::path`].
+    /// For postures that lie along a path, each a start for the next: see [`crate::batch::path`].
     pub(crate) fn along_path(mut self) -> Self {
         self.along = true;
         self
@@ -119,12 +119,12 @@ impl Batch {
     }
 
     /// Number of actuators.
-    pub(super) fn commands(&self) -> usize {
+    pub(crate) fn commands(&self) -> usize {
         let limbs = self.mechanism.limbs().iter();
         limbs.map(|l| l.nominal.actuators().len()).sum()
     }
 
-    pub(super) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture> {
+    pub(crate) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture> {
         match places {
             Places::Poses(poses) => self.mechanism.posture(&poses[i]),
             Places::Joints { commands, each } => {
@@ -142,7 +142,7 @@ impl Batch {
     }
 }
 
-pub(super) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
+pub(crate) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
     if count <= BLOCKS * BLOCK {
         works.for_each(Work::run);
     } else {
@@ -187,7 +187,7 @@ fn compiled(
 }
 
 /// Answers of those that the kernels have left over; `None` where there is none.
-pub(super) fn left<T: Send>(
+pub(crate) fn left<T: Send>(
     status: &[Status],
     scalar: impl Fn(usize) -> Result<T> + Sync,
 ) -> Vec<(usize, Option<T>)> {

@@ -1,12 +1,12 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
-use super::compiled::{BLOCKS, Batch, in_parallel, left};
-use super::group::Places;
-use super::plan::Plan;
-use super::run::{Answers, Work};
-use super::shape::springs;
-use super::status::{Engine, Status};
-use super::table::{BLOCK, Table};
+use crate::batch::compiled::{BLOCKS, Batch, in_parallel, left};
+use crate::batch::limb::shape::springs;
+use crate::batch::machine::group::Places;
+use crate::batch::plan::steps::Plan;
+use crate::batch::run::{Answers, Work};
+use crate::batch::status::{Engine, Status};
+use crate::batch::table::{BLOCK, Table};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
@@ -29,7 +29,7 @@ pub struct BatchEquilibrium {
     /// Forces (N) or torques (N m) of the loads on all actuators, in the same order, as
     /// [`MechanismEquilibrium::actuator_forces`].
     pub actuator_forces: Table,
-    /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless wanted.
+    /// Tangent stiffness of the tool, 36 numbers as in [`crate::batch::BatchStiffness`]. Empty unless wanted.
     pub stiffness: Table,
     /// See [`Self::stability`]. Empty unless wanted: [`Details::Stability`].
     pub stability: Table,

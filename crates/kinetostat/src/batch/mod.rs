@@ -11,45 +11,19 @@
 //! threads or the width of the vectors. Along a path ([`AlongPath`]) it depends on the places before it in the list that
 //! is asked at once, too, far below what is written of it.
 
-mod actuators;
-mod apart;
 mod buffers;
-mod compensate;
-mod compile;
 mod compiled;
-mod corrector;
-mod eliminate;
 mod equilibria;
-mod freed;
-mod group;
-pub(crate) mod instruction_set;
-mod inwards;
-pub(crate) mod lanes;
-pub(crate) mod law;
-mod loaded;
-mod machine;
+pub(crate) mod limb;
+pub(crate) mod machine;
 mod models;
-mod motion_axis;
-mod newton;
-mod newton_stage;
-mod outwards;
+pub(crate) mod numbers;
 mod path;
-mod plan;
-mod platform;
-mod reach;
+pub(crate) mod plan;
 mod run;
-mod serial;
-mod shape;
-mod stability;
-mod start;
 mod status;
 mod stiffness;
-mod symmetric;
 mod table;
-mod tangent;
-mod unloaded;
-mod vectors;
-mod wrenches;
 
 pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Details, PostureStability};

@@ -1,6 +1,6 @@
 //! Machines that differ in parameters: stiffnesses, errors, masses, lengths.
 
-use super::compiled::Batch;
+use crate::batch::compiled::Batch;
 use crate::error::Result;
 use crate::model::mechanism::Mechanism;
 use crate::parallel;

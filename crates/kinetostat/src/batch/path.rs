@@ -8,15 +8,15 @@
 //! searches from neighbour to neighbour, which also has the words for points without an answer.
 //!
 //! Neighbours on a path are nearly the same problem. So a list is divided into as many runs as a block has lanes, one run
-//! in each lane, and within its run a posture starts from the one before ([`super::start`]). The runs depend on the length
+//! in each lane, and within its run a posture starts from the one before ([`crate::batch::machine::start`]). The runs depend on the length
 //! of the list alone, so that the bits are the same on every instruction set and in every thread.
 
 use std::f64::consts::{PI, TAU};
 
-use super::compiled::Batch;
-use super::equilibria::BatchEquilibrium;
-use super::equilibria::Details;
-use super::status::{Engine, Status};
+use crate::batch::compiled::Batch;
+use crate::batch::equilibria::BatchEquilibrium;
+use crate::batch::equilibria::Details;
+use crate::batch::status::{Engine, Status};
 use crate::model::chain::Role;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Directions, MotionKind, Pose, Wrench};

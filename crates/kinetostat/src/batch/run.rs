@@ -4,24 +4,24 @@ use std::sync::Arc;
 
 use pulp::{Simd, WithSimd};
 
-use super::buffers::Buffers;
-use super::group::{Group, Places};
-use super::instruction_set::InstructionSet;
-use super::lanes::Lanes;
-use super::loaded::{ALONG_PATH, EXACT};
-use super::machine::{Machine, bounded};
-use super::plan::Plan;
-use super::reach::Joints;
-use super::shape::Shape;
-use super::status::Status;
-use super::symmetric::Symmetric;
-use super::table::BLOCK;
-use super::unloaded::ForwardPass;
-use super::vectors::{carried, constant};
+use crate::batch::buffers::Buffers;
+use crate::batch::limb::loaded::{ALONG_PATH, EXACT};
+use crate::batch::limb::reach::Joints;
+use crate::batch::limb::shape::Shape;
+use crate::batch::limb::unloaded::ForwardPass;
+use crate::batch::machine::group::{Group, Places};
+use crate::batch::machine::loaded::{Machine, bounded};
+use crate::batch::numbers::instruction_set::InstructionSet;
+use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::symmetric::Symmetric;
+use crate::batch::numbers::vectors::{carried, constant};
+use crate::batch::plan::steps::Plan;
+use crate::batch::status::Status;
+use crate::batch::table::BLOCK;
 use crate::spatial::{Directions, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
-pub(super) enum Work<'a> {
+pub(crate) enum Work<'a> {
     Unloaded {
         plans: &'a [Plan],
         buffers: &'a Buffers,
@@ -48,8 +48,8 @@ pub(super) enum Work<'a> {
     },
 }
 
-/// Where the numbers of loaded postures go, as in [`super::BatchEquilibrium`].
-pub(super) struct Answers<'a> {
+/// Where the numbers of loaded postures go, as in [`crate::batch::BatchEquilibrium`].
+pub(crate) struct Answers<'a> {
     pub tool: &'a mut [f64],
     pub coordinates: &'a mut [f64],
     pub commands: &'a mut [f64],

@@ -83,7 +83,7 @@ pub enum Engine {
 
 impl Engine {
     /// Of a machine compiled into `plans`, or why it was not.
-    pub(super) fn of<T>(plans: &std::result::Result<T, NoKernel>) -> Self {
+    pub(crate) fn of<T>(plans: &std::result::Result<T, NoKernel>) -> Self {
         match plans {
             Ok(_) => Self::Vectorised,
             Err(reason) => Self::Scalar {

@@ -1,10 +1,10 @@
 //! Unloaded stiffness of many postures.
 
-use super::compiled::{BLOCKS, Batch, in_parallel, left};
-use super::group::Places;
-use super::run::Work;
-use super::status::{Engine, Status};
-use super::table::{BLOCK, Table};
+use crate::batch::compiled::{BLOCKS, Batch, in_parallel, left};
+use crate::batch::machine::group::Places;
+use crate::batch::run::Work;
+use crate::batch::status::{Engine, Status};
+use crate::batch::table::{BLOCK, Table};
 use crate::error::Result;
 use crate::machine::posture::Posture;
 use crate::model::kinematics::Kinematics;

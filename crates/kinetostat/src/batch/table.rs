@@ -3,7 +3,7 @@
 use crate::model::mechanism::Mechanism;
 
 /// Postures that lie side by side.
-pub(super) const BLOCK: usize = 8;
+pub(crate) const BLOCK: usize = 8;
 
 /// A row of numbers for each of many postures, as a structure of arrays in blocks of eight: the
 /// numbers of eight postures lie side by side, so that a vector register is stored at once.
@@ -23,7 +23,7 @@ impl PartialEq for Table {
 
 impl Table {
     /// Makes room for `count` rows of `width` numbers; old numbers stay until they are written over.
-    pub(super) fn reset(&mut self, width: usize, count: usize) {
+    pub(crate) fn reset(&mut self, width: usize, count: usize) {
         (self.width, self.count) = (width, count);
         self.data.resize(count.div_ceil(BLOCK) * width * BLOCK, 0.0);
     }
@@ -72,7 +72,7 @@ impl Table {
     }
 
     /// One of the commands in this row lies outside its actuator's limits.
-    pub(super) fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
+    pub(crate) fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
         let limbs = mechanism.limbs().iter();
         let mut own = limbs
             .flat_map(|l| l.nominal.actuators())
@@ -88,7 +88,7 @@ impl Table {
     }
 
     /// Sets the numbers of one posture.
-    pub(super) fn set_row(&mut self, posture: usize, number: impl Fn(usize) -> f64) {
+    pub(crate) fn set_row(&mut self, posture: usize, number: impl Fn(usize) -> f64) {
         for k in 0..self.width {
             let at = self.place(posture, k);
             self.data[at] = number(k);
@@ -96,7 +96,7 @@ impl Table {
     }
 
     /// The numbers in parts of so many blocks each; a table without columns has as many, all empty.
-    pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = &mut [f64]> {
+    pub(crate) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = &mut [f64]> {
         let each = self.width * BLOCK * blocks;
         let mut rest = self.data.as_mut_slice();
         (0..self.count.div_ceil(BLOCK * blocks)).map(move |_| {

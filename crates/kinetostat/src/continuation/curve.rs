@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
 use crate::continuation::curve_equilibrium::CurveEquilibrium;
-use crate::continuation::family::Family;
+use crate::continuation::linear::family::Family;
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 

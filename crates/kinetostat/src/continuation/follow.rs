@@ -2,13 +2,13 @@
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
-use crate::continuation::branch_switching::Traced;
-use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, Jump, Stop};
-use crate::continuation::jumps::{jumps, points_at};
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
-use crate::continuation::tracer::Tracer;
+use crate::continuation::tracing::branch_switching::Traced;
+use crate::continuation::tracing::jumps::{jumps, points_at};
+use crate::continuation::tracing::tracer::Tracer;
 use crate::error::Result;
 use crate::model::limits::check_number;
 

@@ -2,7 +2,7 @@
 
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
-use crate::continuation::tool_conditions::ToolConditions;
+use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::equilibrium::machine_search::{Known, MachineSearch};
 use crate::equilibrium::search::{Entry, Limits, search};

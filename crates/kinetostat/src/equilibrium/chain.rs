@@ -8,7 +8,7 @@ use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
 use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
 use crate::chain::sweep::stages::ChainMethod;
-use crate::continuation::chain_stability::stability_as_prescribed;
+use crate::continuation::chain::stability::stability_as_prescribed;
 use crate::error::{Error, Result};
 use crate::model::kinematics::Kinematics;
 use crate::settings::Settings;

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::scaling::nudged;
-use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::chain::system::ChainSystem;
 use crate::equilibrium::bounds::Bounds;
 use crate::model::chain::{Chain, Role};
 use crate::number::{larger, smaller};

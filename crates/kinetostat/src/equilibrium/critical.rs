@@ -15,12 +15,12 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::ChainProblem;
 use crate::chain::stability::ShapeStability;
-use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::chain::system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, SpecialKind};
 use crate::continuation::follow::follow_until;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
-use crate::continuation::tracer::Tracer;
+use crate::continuation::tracing::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{
     StabilityOf, Tangent, diverges, largest_one, largest_real, linear_prediction,

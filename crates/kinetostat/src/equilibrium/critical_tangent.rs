@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::passive::scaled_jacobian;
 use crate::chain::stability::share_to_buckling;
-use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::chain::system::ChainSystem;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;

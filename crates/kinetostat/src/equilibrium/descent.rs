@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::DirectionKind;
-use crate::continuation::tool_conditions::ToolConditions;
+use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Guide;
 use crate::spatial::{Twist, moved, pose_residual};

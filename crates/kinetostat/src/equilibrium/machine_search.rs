@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::DirectionKind;
+use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::settings::CurveSettings;
-use crate::continuation::tool_conditions::ToolConditions;
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};

@@ -1,8 +1,8 @@
 //! Equilibria: the one to which a load leads, all that can be found, and the load at which stability is lost.
 //!
-//! Takes the question (a chain with its end condition, a posture with a wrench), tries Newton's iteration directly, then a
-//! load that grows, then other starts; where there is no equilibrium it says why. Built on `chain`, `machine` and
-//! `continuation`.
+//! Takes the question (a chain with its end condition, a posture with what holds and loads its tool), tries Newton's
+//! iteration directly, then a load that grows, then other starts; where there is no equilibrium it says why. Built on
+//! `chain`, `machine` and `continuation`, where `Posture::deflected_by` stands.
 //!
 //! ```text
 //! tau(q) + sum J_j^T G_j + J^T F = 0,  g(q) = t where the end is prescribed      [R 4.12-4.16]
@@ -20,8 +20,6 @@ pub(crate) mod critical;
 pub(crate) mod critical_tangent;
 pub(crate) mod descent;
 pub(crate) mod found;
-pub(crate) mod growing_load;
-pub(crate) mod machine;
 pub(crate) mod machine_search;
 pub(crate) mod no_equilibrium;
 pub(crate) mod search;

@@ -3,8 +3,8 @@
 use nalgebra::DVector;
 
 use crate::chain::problem::ChainProblem;
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve_matrix::CurveMatrix;
+use crate::continuation::chain::system::ChainSystem;
+use crate::continuation::linear::curve_matrix::CurveMatrix;
 use crate::continuation::parameter::Parameter;
 use crate::error::Result;
 use crate::settings::Settings;

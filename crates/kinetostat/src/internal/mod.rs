@@ -9,14 +9,14 @@ use nalgebra::DMatrix;
 use pulp::Scalar;
 
 use crate::batch::Batch;
-use crate::batch::lanes::Lanes;
-use crate::batch::law;
+use crate::batch::limb::law;
+use crate::batch::numbers::lanes::Lanes;
 use crate::model::mechanism::Mechanism;
 use crate::model::springs::block::SpringBlock;
 use crate::model::springs::law::SpringLaw;
 
 pub use self::chain_curve::{ChainCurve, CurveState, CurveTangent};
-pub use crate::batch::instruction_set::InstructionSet;
+pub use crate::batch::numbers::instruction_set::InstructionSet;
 pub use crate::chain::divergence::diverging_motions;
 pub use crate::chain::passive::scaled_jacobian;
 pub use crate::chain::scaling::scales_of;

@@ -12,6 +12,7 @@
 pub(crate) mod assembly;
 pub(crate) mod constraints;
 pub(crate) mod directions;
+pub(crate) mod ends;
 pub(crate) mod equilibrium;
 pub(crate) mod explain;
 pub(crate) mod following;

@@ -9,20 +9,13 @@ use nalgebra::{DMatrix, Matrix3, Matrix6};
 
 use crate::chain::stiffness::ChainStiffness;
 use crate::linalg::sparse::Sparse;
+use crate::machine::ends::{Ends, ends};
 use crate::machine::graded::GradedPlatforms;
-use crate::machine::network::{Ends, ends};
 use crate::machine::platforms::solver::PlatformSolver;
-use crate::machine::state::MechanismState;
 use crate::model::loads::load::Load;
-use crate::spatial::{hat, rotational};
+use crate::spatial::hat;
 
 impl PlatformSolver<'_> {
-    /// What the force of a limb adds to the stiffness of the platform at its tip as the arm turns.
-    pub fn turned_force(&self, limb: usize, at: &MechanismState) -> Matrix6<f64> {
-        let f = at.wrenches[limb].force();
-        rotational(&(hat(&f) * hat(&self.arm(limb, at))))
-    }
-
     /// Where the limbs begin and end now.
     fn ends(&self) -> Vec<Ends> {
         let limbs = 0..self.mechanism.limbs().len();

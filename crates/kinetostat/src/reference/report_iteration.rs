@@ -20,8 +20,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::{ChainProblem, check_numbers};
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::system::Row;
+use crate::continuation::chain::system::ChainSystem;
+use crate::continuation::tracing::system::Row;
 use crate::error::{Place, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};

@@ -12,7 +12,7 @@ use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
-use crate::spatial::{Directions, Twist, Wrench, hat, rotational, shift_matrix};
+use crate::spatial::{Directions, Twist, Wrench, shift_matrix};
 
 /// Conditions on the motions of the platforms besides their equilibrium.
 struct Conditions {
@@ -156,33 +156,6 @@ impl PlatformSolver<'_> {
         }
         self.add_platform_loads(at, |on, by, block| add(&mut by_pose, on, by, block));
         (by_pose, by_target)
-    }
-
-    /// Adds the tangents of what acts on the platforms themselves, `-dW / d(motion)`.
-    pub fn add_platform_loads(
-        &self,
-        at: &MechanismState,
-        mut add: impl FnMut(usize, usize, &Matrix6<f64>),
-    ) {
-        let m = self.mechanism;
-        // A weight keeps its direction while its lever arm turns.
-        for (k, platform) in m.platforms().iter().enumerate().skip(1) {
-            let weight = m.gravity() * (platform.mass * self.share);
-            let arm = at.platforms[k].rotation * platform.centre_of_mass;
-            let block = -rotational(&(hat(&weight) * hat(&arm)));
-            add(k, k, &block);
-        }
-        let mut own = Vec::new();
-        for load in m.platform_loads() {
-            load.tangents(&at.platforms, &mut own);
-        }
-        for tangent in own {
-            let block = tangent.matrix * -self.share;
-            // The base does not move, nor does it matter what acts on it.
-            if tangent.on > 0 && tangent.by > 0 {
-                add(tangent.on, tangent.by, &block);
-            }
-        }
     }
 
     /// Motions that no limb can follow: rows `N^T (motion of the tip)` over the platforms' motions,

@@ -1,0 +1,233 @@
+//! The geometry, feeds and further axes of a written program, against the input's path.
+
+use crate::error::WriteError;
+use crate::irregular::irregular;
+use crate::number::larger;
+use crate::path::curve::{Curve, NO_LENGTH_MM};
+use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
+use crate::writing::written::Piece;
+
+use crate::checking::verifier::{Verifier, fail};
+
+/// Largest difference between a place as written and as read again, in mm: arithmetic only.
+const SAME_PLACE_MM: f64 = 1e-6;
+
+/// Largest relative error of the speed along the part.
+const SPEED_TOLERANCE: f64 = 1e-3;
+
+/// Seed of the places that this check looks at.
+const SEED: u64 = 2;
+
+impl Verifier<'_> {
+    /// Motions as read again against the pieces that were written.
+    pub(crate) fn check_moves(&mut self, output_path: &Path) -> Result<(), WriteError> {
+        let count = output_path.moves.len();
+        if count != self.pieces.len() {
+            return Err(fail(
+                0,
+                0,
+                format!(
+                    "{count} motions are read, {} were written",
+                    self.pieces.len()
+                ),
+            ));
+        }
+        let mut expected = (0, 0.0);
+        for (piece, read) in self.pieces.iter().zip(&output_path.moves) {
+            let Some(motion) = self.input_path.moves.get(piece.move_index) else {
+                return Err(fail(0, piece.output_line, "a piece of no move".to_owned()));
+            };
+            let broken = |what: String| Err(fail(motion.line, piece.output_line, what));
+            if (piece.move_index, piece.share_from) != expected {
+                return broken(
+                    "the pieces are not in the order of the path, or one is missing".to_owned(),
+                );
+            }
+            expected = if piece.share_to >= 1.0 {
+                (piece.move_index + 1, 0.0)
+            } else {
+                (piece.move_index, piece.share_to)
+            };
+            let same_curve = match piece.kept_arc {
+                true => is_same_arc(motion, read),
+                false => read.curve == Curve::Line,
+            };
+            if read.line != piece.output_line || read.kind != motion.kind || !same_curve {
+                return broken("the motion read is another than the one written".to_owned());
+            }
+            let start = (read.start - piece.commanded_from).norm();
+            let end = (read.end - piece.commanded_to).norm();
+            // Where an axis is not known yet, only its later places can be compared.
+            if end > SAME_PLACE_MM || start > SAME_PLACE_MM && motion.known == Knowledge::Whole {
+                return broken(format!(
+                    "its place is read {:.7} mm away from where it was written",
+                    start.max(end)
+                ));
+            }
+            self.check_distance(motion, piece, read)?;
+            self.check_speed(motion, piece, read)?;
+            check_extra_axes(motion, piece, read)?;
+        }
+        if expected != (self.input_path.moves.len(), 0.0) {
+            return Err(fail(
+                0,
+                0,
+                "the last moves of the input are missing".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn check_distance(
+        &mut self,
+        motion: &Move,
+        piece: &Piece,
+        read: &Move,
+    ) -> Result<(), WriteError> {
+        if motion.known != Knowledge::Whole {
+            return Ok(());
+        }
+        let rounding_of = |motion: &Move| {
+            let unit = motion.words.mm_per_unit;
+            unit * 10_f64.powi(-(self.writing.decimals_for(unit) as i32))
+        };
+        // The piece begins where the move before ended, perhaps rounded in coarser units.
+        let before = piece
+            .move_index
+            .checked_sub(1)
+            .map_or(0.0, |before| rounding_of(&self.input_path.moves[before]));
+        let rounding = rounding_of(motion).max(before);
+        let mut allowed = self.accounting.largest_correction_mm + rounding + SAME_PLACE_MM;
+        if motion.curve != Curve::Line {
+            // A chord is compared with its arc at equal shares, which are not quite the nearest points.
+            allowed += 2.0 * self.writing.chord_tolerance_mm;
+        }
+        let place = |k: u64| irregular(SEED, piece.output_line as u64, k);
+        for part in [place(0), place(1), place(2), 1.0] {
+            if motion.kind == MoveKind::Rapid && part < 1.0 {
+                continue;
+            }
+            let share = piece.share_from + (piece.share_to - piece.share_from) * part;
+            let commanded = read.point(part);
+            let distance = (commanded - motion.point(share)).norm();
+            self.found.largest_distance_mm = larger(self.found.largest_distance_mm, distance);
+            if distance > allowed {
+                return Err(fail(
+                    motion.line,
+                    piece.output_line,
+                    format!(
+                        "it leaves the input's path by {distance:.5} mm, {allowed:.5} mm are allowed"
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_speed(&mut self, motion: &Move, piece: &Piece, read: &Move) -> Result<(), WriteError> {
+        let Some(feed) = motion.feed.filter(|_| motion.kind == MoveKind::Feed) else {
+            return Ok(());
+        };
+        let Some(written) = read.feed.filter(|written| written.mode == feed.mode) else {
+            return Err(fail(
+                motion.line,
+                piece.output_line,
+                "the feed is lost".to_owned(),
+            ));
+        };
+        let length = match piece.kept_arc {
+            true => read.length_mm(),
+            false => (piece.commanded_to - piece.commanded_from).norm(),
+        };
+        let part = motion.length_between_mm(piece.share_from, piece.share_to);
+        let known = motion.known == Knowledge::Whole;
+        let speed = match feed.mode {
+            FeedMode::InverseTime if piece.corner_step && length > NO_LENGTH_MM => {
+                written.value * length / motion.length_mm()
+            }
+            FeedMode::InverseTime if part > 0.0 => written.value * part / motion.length_mm(),
+            FeedMode::PerMinute | FeedMode::PerRevolution
+                if known && part > 0.0 && length > NO_LENGTH_MM =>
+            {
+                written.value * part / length
+            }
+            _ => written.value,
+        };
+        if piece.feed_limited {
+            self.found.feed_limited_pieces += 1;
+            let own = match feed.mode {
+                FeedMode::InverseTime => written.value * length / motion.length_mm(),
+                _ => written.value,
+            };
+            let most = self.writing.max_feed_factor * feed.value * (1.0 + SPEED_TOLERANCE);
+            if own > most || speed > feed.value * (1.0 + SPEED_TOLERANCE) {
+                return Err(fail(
+                    motion.line,
+                    piece.output_line,
+                    "its feed is above the largest that is allowed".to_owned(),
+                ));
+            }
+            return Ok(());
+        }
+        let error = (speed / feed.value - 1.0).abs();
+        self.found.largest_speed_error = larger(self.found.largest_speed_error, error);
+        if error > SPEED_TOLERANCE {
+            return Err(fail(
+                motion.line,
+                piece.output_line,
+                format!("its speed along the part is off by {:.3} %", error * 100.0),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// An arc read again is the one that was there.
+fn is_same_arc(motion: &Move, read: &Move) -> bool {
+    read.curve != Curve::Line
+        && (0..=8)
+            .map(|k| f64::from(k) / 8.0)
+            .all(|share| (read.point(share) - motion.point(share)).norm() <= SAME_PLACE_MM)
+}
+
+/// The other axes are where their share of the block wants them.
+fn check_extra_axes(motion: &Move, piece: &Piece, read: &Move) -> Result<(), WriteError> {
+    let broken = |letter: char| {
+        Err(fail(
+            motion.line,
+            piece.output_line,
+            format!("axis {letter} does not reach its place"),
+        ))
+    };
+    for extra in &motion.extra {
+        let word = read
+            .extra
+            .iter()
+            .find(|word| word.letter == extra.letter)
+            .map(|word| word.word);
+        let share = piece.share_to - piece.share_from;
+        let last = piece.share_to >= 1.0;
+        let tolerance = 1.1e-5;
+        let right = match (extra.mode, extra.start) {
+            (ExtraMode::Incremental, _) => {
+                (word.unwrap_or(0.0) - extra.word * share).abs() <= tolerance
+            }
+            (ExtraMode::Absolute, Some(start)) => {
+                let wanted = start + (extra.word - start) * piece.share_to;
+                piece.corner_step || word.is_some_and(|word| (word - wanted).abs() <= tolerance)
+            }
+            _ => word == Some(extra.word) && last && share == 1.0,
+        };
+        if !right {
+            return broken(extra.letter);
+        }
+    }
+    match read
+        .extra
+        .iter()
+        .find(|word| !motion.extra.iter().any(|extra| extra.letter == word.letter))
+    {
+        Some(word) => broken(word.letter),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,142 @@
+//! A machine under load with the buffers of its limbs: from commands to equilibrium, several postures at once.
+
+use std::sync::Arc;
+
+use pulp::Simd;
+
+use crate::batch::limb::actuators;
+use crate::batch::limb::loaded::{EXACT, LoadedLimb, Precision};
+use crate::batch::limb::newton::Newton;
+use crate::batch::limb::reach::{Joints, Target};
+use crate::batch::limb::shape::Shape;
+use crate::batch::limb::unloaded::ForwardPass;
+use crate::batch::machine::corrector::AttachedLimb;
+use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::symmetric::Symmetric;
+use crate::batch::numbers::vectors::{Mat3, Vec3, identity};
+use crate::batch::plan::steps::Plan;
+
+/// One where all commands are angles and lengths that sines are exact for.
+#[inline(always)]
+pub(crate) fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
+    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+    let mut good = one;
+    for x in commands {
+        good = x.abs().where_less(one * 1e5, good, zero);
+    }
+    good
+}
+
+/// A machine with the buffers of its limbs.
+pub(crate) struct Machine<S: Simd> {
+    pub nominal: Arc<[Plan]>,
+    pub actual: Arc<[Plan]>,
+    pub passes: Vec<(ForwardPass<S>, ForwardPass<S>)>,
+    pub joints: Vec<Joints<S>>,
+    pub limbs: Vec<LoadedLimb<S>>,
+    /// Made when it is needed.
+    pub newton: Option<Newton<S>>,
+    /// Each limb as the platform sees it.
+    pub attached: Vec<AttachedLimb<S>>,
+    /// Inverse of the unloaded stiffness of the platform.
+    pub compliance: Symmetric<S>,
+    /// Centre of mass (m, axes of the tool) and mass of the platform.
+    pub body: ([f64; 3], f64),
+    pub gravity: [f64; 3],
+    /// Where the unloaded machine was that `attached` and `compliance` are of, and the smallest relative pivot there.
+    pub compliance_at: Target<S>,
+    pub regular: Lanes<S>,
+    /// How exactly equilibria are found.
+    pub precision: Precision,
+    /// The wanted place, and where the tool is commanded.
+    pub place: Target<S>,
+    pub target: Target<S>,
+    /// One in the lanes whose last posture was found.
+    pub found: Lanes<S>,
+    /// Where the tool is.
+    pub rotation: Mat3<S>,
+    pub point: Vec3<S>,
+    /// Of the loads on all actuators, N or N m.
+    pub forces: Vec<Lanes<S>>,
+    /// Of the limbs, where stability are asked for.
+    pub shapes: Vec<Shape<S>>,
+}
+
+impl<S: Simd> Machine<S> {
+    pub fn new(
+        simd: S,
+        nominal: &Arc<[Plan]>,
+        actual: &Arc<[Plan]>,
+        body: ([f64; 3], f64),
+        gravity: [f64; 3],
+    ) -> Self {
+        let plans = || nominal.iter().zip(actual.iter());
+        let zero = Lanes::new(simd, 0.0);
+        let nowhere = Target {
+            rotation: identity(simd),
+            point: [zero; 3],
+        };
+        Self {
+            nominal: Arc::clone(nominal),
+            actual: Arc::clone(actual),
+            passes: plans()
+                .map(|(n, a)| (ForwardPass::new(simd, n), ForwardPass::new(simd, a)))
+                .collect(),
+            joints: nominal.iter().map(|n| Joints::new(simd, n)).collect(),
+            limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
+            newton: None,
+            attached: vec![AttachedLimb::new(simd); actual.len()],
+            compliance: Symmetric::zero(simd),
+            body,
+            gravity,
+            compliance_at: nowhere,
+            regular: zero,
+            precision: EXACT,
+            place: nowhere,
+            target: nowhere,
+            found: zero,
+            rotation: identity(simd),
+            point: [Lanes::new(simd, 0.0); 3],
+            forces: vec![Lanes::new(simd, 0.0); actual.iter().map(|a| a.commands).sum()],
+            shapes: Vec::new(),
+        }
+    }
+
+    #[inline(always)]
+    pub fn actuator_forces(&mut self, simd: S) {
+        self.forces.fill(Lanes::new(simd, 0.0));
+        let mut first = 0;
+        for (limb, plan) in self.limbs.iter().zip(self.actual.iter()) {
+            let own = &mut self.forces[first..first + plan.commands];
+            actuators::forces(simd, plan, limb, own);
+            first += plan.commands;
+        }
+    }
+
+    /// One where the wrench and all answers are numbers, and squares of forces too.
+    #[inline(always)]
+    pub fn numbers(&self, simd: S, wrench: &[Lanes<S>; 6]) -> Lanes<S> {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let (mut good, mut all) = (one, zero);
+        for x in wrench {
+            good = x.abs().where_less(one * 1e100, good, zero);
+        }
+        for x in &self.point {
+            all = x.times_plus(zero, all);
+        }
+        for x in &self.forces {
+            all = x.times_plus(zero, all);
+        }
+        for limb in &self.limbs {
+            for x in &limb.coordinates {
+                all = x.times_plus(zero, all);
+            }
+        }
+        good.least_of(all + 1.0)
+    }
+
+    /// One limb without passive joints: its tip goes where the wrench leads.
+    pub fn is_serial(&self) -> bool {
+        self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.1 == 0.0
+    }
+}

@@ -1,0 +1,157 @@
+//! Equilibrium of a platform that several limbs hold: wrenches, passive joints and the platform are
+//! corrected in each pass by the unloaded machine's own compliance ([`crate::batch::machine::corrector`]).
+//!
+//! A pass is one step of Newton's iteration with the tangent of the unloaded machine, so that it contracts by the share of
+//! the way to buckling with the limbs' ends attached. That holds only if tip, torques and springs are of one state: springs
+//! go along with a change of their wrench on the way out ([`crate::batch::limb::outwards`]), and what they follow on the way back
+//! moves the tip at once ([`crate::batch::limb::inwards`]). Springs that follow a pass later, and with their end free, make it the root
+//! of that share, or the share of a free end: on the orthoglide under 215 N a third per pass instead of a twelfth.
+
+use pulp::Simd;
+
+use crate::batch::limb::loaded::{MOST_PASSES, MOST_TURN};
+use crate::batch::machine::group::REGULAR;
+use crate::batch::machine::loaded::Machine;
+use crate::batch::numbers::apart::apart;
+use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::vectors::{
+    carried, constant, cross, minus, select, turn_between, turned,
+};
+use crate::spatial::Directions;
+
+impl<S: Simd> Machine<S> {
+    /// Equilibrium under a dead wrench at the platform's point, with the tool at its place in these directions, if there are any: one in the
+    /// lanes that are done.
+    #[inline(always)]
+    pub fn converge_platform(
+        &mut self,
+        simd: S,
+        wrench: &[Lanes<S>; 6],
+        directions: Option<Directions>,
+        good: Lanes<S>,
+    ) -> Lanes<S> {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let mut active = (zero + REGULAR).where_less(good, one, zero);
+        let mut away = zero;
+        for pass in 0..MOST_PASSES {
+            let mut moving = self.pass(simd, wrench, active, pass == 0);
+            if let Some(directions) = directions {
+                let on;
+                (on, away) = self.correct_between_passes(simd, directions, active, away);
+                moving = moving.max(on);
+            }
+            active = moving;
+            if active.all_less(0.5) {
+                break;
+            }
+        }
+        let mut done = good * (one - active);
+        for (limb, plan) in self.limbs.iter_mut().zip(self.actual.iter()) {
+            // The last pass has moved the passive joints.
+            limb.outwards(plan, &self.gravity);
+            done = done * limb.sound(plan, MOST_TURN);
+        }
+        done
+    }
+
+    /// One pass in the lanes where `active` is one: one in those that go on.
+    #[inline(always)]
+    fn pass(&mut self, simd: S, wrench: &[Lanes<S>; 6], active: Lanes<S>, first: bool) -> Lanes<S> {
+        apart!(simd, {
+            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+            let mut moving = zero;
+            // The unbalanced wrench, to first order, with the platform where it is.
+            let mut unbalanced = self.borne(simd, wrench);
+            let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+            for ((limb, plan), attached) in limbs.zip(&mut self.attached) {
+                // Before the first pass nothing has changed, and the tip is still that of another posture.
+                match first {
+                    true => limb.outwards(plan, &self.gravity),
+                    false => {
+                        limb.outwards_after(plan, &self.gravity, &attached.change.wrench, active);
+                    }
+                }
+                limb.clear(plan);
+                let gone = limb.inwards_moving(plan, active);
+                let l = minus(&self.point, &limb.point);
+                let a = turn_between(&self.rotation, &limb.rotation);
+                let mut residual = [l[0], l[1], l[2], a[0], a[1], a[2]];
+                for k in 0..6 {
+                    residual[k] = residual[k] - gone[k];
+                }
+                for k in 0..6 {
+                    let unit = if k < 3 { plan.length } else { 1.0 };
+                    let most = self.precision.place * unit;
+                    moving = (one * most).where_less(residual[k].abs(), one, moving);
+                }
+                // On every coordinate, N or N m.
+                let torques = attached.noise * attached.noise * (limb.coordinates.len() as f64);
+                let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
+                moving = moving.max(limb.moving(rounding, &self.precision));
+                attached.change = attached.corrector.of_motion(&residual);
+                let mut torque = [zero; 6];
+                for (x, own) in torque.iter_mut().zip(&plan.passive) {
+                    *x = -limb.torque[*own];
+                }
+                attached
+                    .corrector
+                    .add_of_torque(&torque, &mut attached.change);
+                for k in 0..6 {
+                    unbalanced[k] = unbalanced[k] - limb.wrench[k] - attached.change.wrench[k];
+                }
+            }
+            let motion = self.compliance.times(&unbalanced);
+            let share = self.precision.torque;
+            let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+            for ((limb, plan), attached) in limbs.zip(&mut self.attached) {
+                let along = attached.corrector.of_motion(&motion);
+                let (mut change, mut size) = (zero, zero);
+                for k in 0..6 {
+                    let unit = if k < 3 { plan.length } else { 1.0 };
+                    let step = attached.change.wrench[k] + along.wrench[k];
+                    let to = limb.wrench[k] + step;
+                    let (x, w) = (step * unit, to * unit);
+                    change = x.times_plus(x, change);
+                    size = w.times_plus(w, size);
+                    attached.change.wrench[k] = step;
+                    limb.wrench[k] = select(active, to, limb.wrench[k]);
+                }
+                // What a residual of rounding makes of wrenches is rounding too: limbs that brace each other
+                // know their inner forces no better.
+                let allowed = (size * (share * share)).max(attached.noise * attached.noise);
+                moving = allowed.where_less(change, one, moving);
+                for (k, own) in plan.passive.iter().enumerate() {
+                    let x = limb.coordinates[*own];
+                    let to = x + attached.change.joints[k] + along.joints[k];
+                    limb.coordinates[*own] = select(active, to, x);
+                }
+            }
+            let turned = turned(&[motion[3], motion[4], motion[5]], &self.rotation);
+            for k in 0..3 {
+                self.point[k] = select(active, self.point[k] + motion[k], self.point[k]);
+            }
+            for k in 0..9 {
+                self.rotation[k] = select(active, turned[k], self.rotation[k]);
+            }
+            active * moving
+        })
+    }
+
+    /// The wrench at the platform's point and the platform's own weight.
+    #[inline(always)]
+    fn borne(&self, simd: S, wrench: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
+        let mut weight = constant(simd, &self.gravity);
+        for x in &mut weight {
+            *x = *x * self.body.1;
+        }
+        let nowhere = [Lanes::new(simd, 0.0); 3];
+        let arm = carried(&self.rotation, &constant(simd, &self.body.0), &nowhere);
+        let lever = cross(&arm, &weight);
+        let mut all = *wrench;
+        for k in 0..3 {
+            all[k] = all[k] + weight[k];
+            all[3 + k] = all[3 + k] + lever[k];
+        }
+        all
+    }
+}

@@ -1,0 +1,193 @@
+//! Where a search for equilibria starts: from the unloaded machine, or along a path from the posture before.
+
+use pulp::Simd;
+
+use crate::batch::limb::reach::{MOST_STEPS, Target};
+use crate::batch::machine::corrector::Corrector;
+use crate::batch::machine::group::{Group, REGULAR};
+use crate::batch::machine::loaded::{Machine, bounded};
+use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::symmetric::Symmetric;
+use crate::batch::numbers::vectors::{minus, product, product_transposed, select};
+use crate::spatial::Directions;
+
+/// The unloaded machine's own compliance, which corrects the passes of an equilibrium, is found anew where the machine
+/// has gone farther than this since (share of the natural length, rad): corrections that are off by so much hardly slow
+/// them down.
+const SAME_PLACE: f64 = 0.01;
+
+impl<S: Simd> Machine<S> {
+    /// A serial machine at these commands, unloaded: one in the lanes that can go on.
+    #[inline(always)]
+    pub fn start_at_joints(
+        &mut self,
+        simd: S,
+        group: &Group,
+        commands: &[f64],
+        each: usize,
+    ) -> Lanes<S> {
+        group.commands(simd, commands, each, &mut self.joints[0].commands);
+        let good = bounded(simd, &self.joints[0].commands);
+        if self.is_serial() {
+            return good;
+        }
+        // Where the commands lead the machine as it is drawn.
+        let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
+        forward.along(plan, false, plan.steps.len(), &self.joints[0].commands, &[]);
+        (self.rotation, self.point) = (forward.rotation, forward.point);
+        self.start_limbs();
+        good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
+    }
+
+    /// The machine commanded to a place, unloaded, its joints searched from home: one in the lanes that can go on.
+    #[inline(always)]
+    pub fn start_at(&mut self, simd: S, place: Target<S>) -> Lanes<S> {
+        let one = Lanes::new(simd, 1.0);
+        (self.place, self.target) = (place, place);
+        (self.rotation, self.point) = (place.rotation, place.point);
+        for (joints, plan) in self.joints.iter_mut().zip(self.nominal.iter()) {
+            joints.home(simd, plan, one);
+        }
+        let good = one - self.reach(simd, MOST_STEPS, one);
+        if self.is_serial() {
+            return good;
+        }
+        self.start_limbs();
+        good.least_of(self.update_compliance(simd, one))
+    }
+
+    /// The machine commanded to the next place of a path: it goes there as it is bent, with the correction that it has in
+    /// these directions. Lanes whose posture was not found start from home. One in the lanes that can go on.
+    #[inline(always)]
+    pub fn go_on(&mut self, simd: S, place: Target<S>, directions: Option<Directions>) -> Lanes<S> {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let lost = (zero + REGULAR).where_less(self.found, zero, one);
+        let shift = minus(&place.point, &self.place.point);
+        let turn = product_transposed(&place.rotation, &self.place.rotation);
+        let rotation = product(&turn, &self.rotation);
+        let target = product(&turn, &self.target.rotation);
+        let corrected = directions.unwrap_or_default();
+        for k in 0..3 {
+            self.point[k] = select(lost, place.point[k], self.point[k] + shift[k]);
+            let along = match corrected[k] {
+                true => self.target.point[k] + shift[k],
+                false => place.point[k],
+            };
+            self.target.point[k] = select(lost, place.point[k], along);
+        }
+        for k in 0..9 {
+            self.rotation[k] = select(lost, place.rotation[k], rotation[k]);
+            let along = match corrected[3] {
+                true => target[k],
+                false => place.rotation[k],
+            };
+            self.target.rotation[k] = select(lost, place.rotation[k], along);
+        }
+        self.place = place;
+        for (joints, plan) in self.joints.iter_mut().zip(self.nominal.iter()) {
+            joints.home(simd, plan, lost);
+        }
+        let good = one - self.reach(simd, MOST_STEPS, one);
+        if self.is_serial() {
+            return good;
+        }
+        for (limb, plan) in self.limbs.iter_mut().zip(self.actual.iter()) {
+            limb.forget(plan, lost);
+        }
+        self.limbs_follow();
+        good.least_of(self.update_compliance(simd, lost))
+    }
+
+    /// Joints that lead to the target, from where they are, in at most so many steps and in the lanes where
+    /// `active` is one: one in those that are not there yet.
+    #[inline(always)]
+    pub fn reach(&mut self, simd: S, steps: usize, active: Lanes<S>) -> Lanes<S> {
+        let mut away = Lanes::new(simd, 0.0);
+        let limbs = self.nominal.iter().zip(&mut self.joints);
+        for ((plan, joints), (forward, _)) in limbs.zip(&mut self.passes) {
+            away = away.max(joints.find(simd, plan, forward, &self.target, (steps, active)));
+        }
+        away
+    }
+
+    /// Limbs as they are bent, where the joints lead.
+    #[inline(always)]
+    pub fn limbs_follow(&mut self) {
+        let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+        for ((limb, plan), joints) in limbs.zip(&self.joints) {
+            limb.follow(plan, joints);
+        }
+    }
+
+    /// Limbs unloaded where the joints lead.
+    #[inline(always)]
+    fn start_limbs(&mut self) {
+        let limbs = self.limbs.iter_mut().zip(self.actual.iter());
+        for ((limb, plan), joints) in limbs.zip(&self.joints) {
+            limb.start(plan, &joints.commands, &joints.passive);
+        }
+    }
+
+    /// The unloaded machine's own compliance, limb by limb and of the platform, in the lanes that are `lost` or far from
+    /// where it was found last: the smallest relative pivot.
+    #[inline(always)]
+    fn update_compliance(&mut self, simd: S, lost: Lanes<S>) -> Lanes<S> {
+        let wanted = self.far(simd, lost);
+        if wanted.all_less(0.5) {
+            return self.regular;
+        }
+        let mut sum = Symmetric::zero(simd);
+        let mut regular = Lanes::new(simd, 1.0);
+        let limbs = self.actual.iter().zip(&self.joints);
+        for (((plan, joints), (_, forward)), attached) in
+            limbs.zip(&mut self.passes).zip(&mut self.attached)
+        {
+            let steps = plan.steps.len();
+            forward.along(plan, true, steps, &joints.commands, &joints.passive);
+            let factors = forward.eliminated(plan);
+            let own = factors.stiffness(simd);
+            regular = regular.least_of(own.regular);
+            let mut most = own.matrix.get(0, 0);
+            for k in 1..6 {
+                most = most.max(own.matrix.get(k, k));
+            }
+            let count = plan.passive.len();
+            let corrector = Corrector::new(simd, &factors, &own.matrix, plan.length, count);
+            attached.take(wanted, &corrector, most);
+            sum.add(&attached.corrector.stiffness);
+        }
+        let (compliance, own) = sum.inverse(simd);
+        self.compliance.take(wanted, &compliance);
+        self.regular = select(wanted, regular.least_of(own), self.regular);
+        for k in 0..9 {
+            let last = &mut self.compliance_at.rotation[k];
+            *last = select(wanted, self.target.rotation[k], *last);
+        }
+        for k in 0..3 {
+            let last = &mut self.compliance_at.point[k];
+            *last = select(wanted, self.target.point[k], *last);
+        }
+        self.regular
+    }
+
+    /// One in the lanes that are `lost`, or that have gone far from where the compliance was found.
+    #[inline(always)]
+    fn far(&self, simd: S, lost: Lanes<S>) -> Lanes<S> {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let mut most = zero;
+        let shift = minus(&self.target.point, &self.compliance_at.point);
+        for x in shift {
+            most = most.max(x.abs() * (1.0 / self.nominal[0].length));
+        }
+        for (to, from) in self
+            .target
+            .rotation
+            .iter()
+            .zip(&self.compliance_at.rotation)
+        {
+            most = most.max((*to - *from).abs());
+        }
+        // Where it was not a number it is anew too.
+        lost.max(most.where_less(one * SAME_PLACE, zero, one))
+    }
+}

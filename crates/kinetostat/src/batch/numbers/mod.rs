@@ -1,0 +1,12 @@
+//! Numbers of several postures: lanes of a vector register, and vectors, wrenches and matrices of them.
+//!
+//! Takes arrays of `f64`, gives the same operations for every lane; which instructions a processor has is asked once
+//! (`instruction_set`). Knows nothing of robots.
+
+pub(crate) mod apart;
+pub(crate) mod eliminate;
+pub(crate) mod instruction_set;
+pub(crate) mod lanes;
+pub(crate) mod symmetric;
+pub(crate) mod vectors;
+pub(crate) mod wrenches;

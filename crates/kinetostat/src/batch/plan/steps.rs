@@ -1,0 +1,199 @@
+//! The compiled form of a limb: a list of steps with constants folded, which the kernels go along.
+
+use crate::model::springs::law::SpringLaw;
+use crate::model::springs::parallelogram::ParallelogramLaw;
+use crate::spatial::MotionKind;
+
+/// How far a motion goes: `fixed + ratio * command + ratio * coordinate`, m or rad.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Amount {
+    pub fixed: f64,
+    pub command: Option<(usize, f64)>,
+    pub coordinate: Option<(usize, f64)>,
+}
+
+/// What holds the coordinate of one motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Support {
+    /// Nothing moves but the command, or the coordinate has a fixed value here.
+    Fixed,
+    /// A passive joint; its place among the plan's passive joints.
+    Passive(usize),
+    /// A spring of this compliance at rest, m/N or rad/(N m).
+    Spring(f64),
+}
+
+/// One motion about or along a coordinate axis of the frame reached.
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    pub kind: MotionKind,
+    /// 0, 1, 2: x, y, z.
+    pub axis: usize,
+    pub amount: Amount,
+    pub support: Support,
+    /// How its spring answers, if that is not linear, see [`crate::model::springs::single`].
+    pub law: Option<Box<SpringLaw>>,
+    /// Its place in [`Plan::screws`].
+    pub screw: usize,
+}
+
+/// A motion that a coordinate or a command drives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Screw {
+    pub kind: MotionKind,
+    pub coordinate: Option<(usize, f64)>,
+    pub command: Option<(usize, f64)>,
+}
+
+/// A motion that an unknown of a search, or a passive joint, drives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drive {
+    pub unknown: usize,
+    pub screw: usize,
+    pub ratio: f64,
+}
+
+/// Which equations a search solves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rows {
+    Position,
+    Rotation,
+    Both,
+}
+
+/// A search for joints of the unloaded limb: some of the passive joints, then the commands.
+#[derive(Clone, Debug)]
+pub(crate) struct Search {
+    pub rows: Rows,
+    /// Passive joints, by their place among the plan's.
+    pub passive: std::ops::Range<usize>,
+    /// Commands: all or none.
+    pub commands: usize,
+    /// Steps up to which the limb is followed.
+    pub end: usize,
+    /// What each unknown drives.
+    pub drives: Vec<Drive>,
+    /// Largest step of each unknown, m or rad.
+    pub most: [f64; 6],
+}
+
+/// Three passive rotations about one point at the end of a limb: they leave its orientation free.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sphere {
+    /// The step of the first of them.
+    pub step: usize,
+    /// From the centre to the platform's point, m, platform axes.
+    pub arm: [f64; 3],
+}
+
+/// A spring of up to six directions at one place, translations before rotations.
+#[derive(Clone, Debug)]
+pub(crate) struct Spring {
+    /// Coordinate of each direction `x y z rx ry rz`.
+    pub coordinates: [Option<usize>; 6],
+    /// The first of its places in [`Plan::screws`], one per direction that moves.
+    pub screw: usize,
+    /// Number of directions that move.
+    pub moving: usize,
+    /// Its compliance, row by row; zero where a direction does not move.
+    pub compliance: Box<[f64; 36]>,
+    /// Its stiffness, row by row.
+    pub stiffness: Box<[f64; 36]>,
+    pub law: Law,
+}
+
+/// How a spring of several directions answers.
+#[derive(Clone, Debug)]
+pub(crate) enum Law {
+    /// By its matrix.
+    Constant,
+    /// By strains of its own, see [`crate::model::springs::curved`]; with the compliance of the strains, row by
+    /// row.
+    Curved(SpringLaw, Box<[f64; 36]>),
+    /// Two bars whose compliance depends on a passive joint (its place among them).
+    Parallelogram(Box<ParallelogramLaw>, usize),
+}
+
+/// One factor of the product.
+#[derive(Clone, Debug)]
+pub(crate) enum Step {
+    /// A constant translation, m, axes of the frame reached.
+    Shift([f64; 3]),
+    /// A constant rotation, row by row.
+    Rotate([f64; 9]),
+    Joint(Joint),
+    Spring(Box<Spring>),
+    /// A mass (kg) with its centre here (m, axes of the frame reached).
+    Mass {
+        at: [f64; 3],
+        mass: f64,
+    },
+}
+
+/// Two crossing passive rotations about one point, then a commanded slide along the third axis through
+/// it: where the slide ends says what they are, without a search.
+#[derive(Clone, Debug)]
+pub(crate) struct Polar {
+    /// Step of the first rotation; the second is the next one.
+    pub first: usize,
+    /// Their axes.
+    pub axes: [usize; 2],
+    /// Frame of the first rotation as the base sees it: axes by rows, m.
+    pub rotation: [f64; 9],
+    pub point: [f64; 3],
+    /// Length of the slide: `fixed + ratio * command`, m; its sign at home.
+    pub command: usize,
+    pub fixed: f64,
+    pub ratio: f64,
+    pub sign: f64,
+    /// Sines and cosines of the rotations at home.
+    pub home: [(f64, f64); 2],
+}
+
+/// A limb as its steps.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub steps: Vec<Step>,
+    /// Motions that a coordinate or a command drives, from the base outwards.
+    pub screws: Vec<Screw>,
+    pub sphere: Option<Sphere>,
+    pub polar: Option<Polar>,
+    /// Number of coordinates of the chain.
+    pub coordinates: usize,
+    /// Number of commands.
+    pub commands: usize,
+    /// Coordinate of every passive joint that is not redundant.
+    pub passive: Vec<usize>,
+    /// What the passive joints drive, from the base outwards.
+    pub passive_drives: Vec<Drive>,
+    /// How joints are found, one search after the other.
+    pub searches: Vec<Search>,
+    /// Every coordinate drives one motion, by the ratio of one.
+    pub one_each: bool,
+    pub home: Vec<f64>,
+    pub home_commands: Vec<f64>,
+    /// Natural length, m.
+    pub length: f64,
+    /// Of every coordinate: what makes it a share of the natural length, or an angle.
+    pub units: Vec<f64>,
+}
+
+impl Plan {
+    /// Number of springs whose compliance depends on the posture.
+    pub fn parallelograms(&self) -> usize {
+        let own = |step: &&Step| match step {
+            Step::Spring(spring) => matches!(spring.law, Law::Parallelogram(..)),
+            _ => false,
+        };
+        self.steps.iter().filter(own).count()
+    }
+
+    /// Newton's iteration along the limb is compiled: serial, springs of constant matrices.
+    pub fn has_tangent(&self) -> bool {
+        let linear = |step: &Step| match step {
+            Step::Spring(spring) => matches!(spring.law, Law::Constant),
+            _ => true,
+        };
+        self.passive.is_empty() && self.steps.iter().all(linear)
+    }
+}

@@ -1,0 +1,11 @@
+//! Curves of a chain: all of its coordinates and reactions, and the parameter, are unknowns [R 4.12-4.16].
+//!
+//! Takes a chain with its end condition and what grows, gives what [`crate::continuation::tracing`] needs: residual,
+//! matrix, stability, an equilibrium with all of its numbers.
+
+pub(crate) mod corrector;
+pub(crate) mod curve;
+pub(crate) mod linearisation;
+pub(crate) mod stability;
+pub(crate) mod start;
+pub(crate) mod system;

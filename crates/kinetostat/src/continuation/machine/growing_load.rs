@@ -1,0 +1,202 @@
+//! Where a machine comes to rest under a load: by Newton's iteration, along a motion that costs nothing without load, or
+//! with a load that grows [R 5.5.3].
+
+use crate::chain::found_by::FoundBy;
+use crate::chain::problem::EndCondition;
+use crate::chain::scaling::{FAR, SHORT_STEP, gone};
+use crate::continuation::machine::free_motion::{AlongFreeMotions, Converged};
+use crate::continuation::machine::tool_conditions::ToolConditions;
+use crate::continuation::parameter::{LoadPattern, Parameter};
+use crate::continuation::settings::CurveSettings;
+use crate::error::{Error, LoadLimit, Result};
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::posture::Posture;
+use crate::machine::state::{MechanismState, check_state};
+use crate::number::larger;
+use crate::spatial::{Twist, Wrench, pose_residual};
+
+/// A limit below this share of the load is none.
+const LEAST_SHARE: f64 = 1e-9;
+
+/// Points times coordinates of a path that only explains why there is no equilibrium.
+const EFFORT: usize = 20_000;
+
+/// Secant and tangent compliances along a load that differ less belong to one smooth branch.
+const SMOOTH: f64 = 2.0;
+
+/// What Newton's iteration and the motions that cost nothing lead to.
+enum Reached<'p> {
+    Rest(Box<Converged<'p>>),
+    NoRest(NoRest),
+}
+
+/// Why neither found an equilibrium: Newton's error, and the motion along which the load still pushed nearly as at the start.
+struct NoRest {
+    newton: Error,
+    pushed: Option<Twist>,
+}
+
+impl Posture {
+    /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
+    /// beyond it: then the machine snaps before, and `loaded` lies on another branch. `rest` is
+    /// the equilibrium without the wrench of `loaded`. The load is followed only where secant and
+    /// tangents disagree or their stability differs.
+    ///
+    /// # Errors
+    /// Those of the equilibrium without load.
+    pub fn snaps_before(
+        &self,
+        rest: &MechanismEquilibrium,
+        loaded: &MechanismEquilibrium,
+    ) -> Result<Option<LoadLimit>> {
+        let wrench = loaded.wrench;
+        if wrench.0.norm() == 0.0 {
+            return Ok(None);
+        }
+        let by = |e: &MechanismEquilibrium| wrench.0.dot(&(e.compliance().springs * wrench.0));
+        let secant = pose_residual(&loaded.tool, &rest.tool).dot(&wrench);
+        let yields = [by(rest), by(loaded), secant];
+        let most = yields.iter().fold(0.0_f64, |most, y| larger(most, y.abs()));
+        let smooth = yields.iter().all(|y| *y * SMOOTH > most) || most == 0.0;
+        if smooth && loaded.stable() >= rest.stable() {
+            return Ok(None);
+        }
+        Ok(self.under_growing_load(&wrench)?.1)
+    }
+
+    /// Newton's equilibrium under a wrench from a state; where it finds none, along motions that cost nothing, or with
+    /// the load growing from rest.
+    pub(crate) fn converged_solver(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> Result<Converged<'_>> {
+        self.finite("the wrench", wrench.0.iter())?;
+        check_state(&self.mechanism, &start)?;
+        let none = match self.reached_directly(wrench, start)? {
+            Reached::Rest(found) => return Ok(*found),
+            Reached::NoRest(none) => none,
+        };
+        if wrench.0.norm() > 0.0
+            && let Ok((state, limit)) = self.under_growing_load(wrench)
+        {
+            if let Some(found) =
+                state.and_then(|state| self.finished(state, wrench, FoundBy::GrowingLoad))
+            {
+                return Ok(found);
+            }
+            if let Some(limit) = limit {
+                return Err(none.newton.at_limit(limit));
+            }
+            if let Ok(found) = self.grown(wrench) {
+                return Ok(found);
+            }
+        }
+        Err(self.no_rest(none, wrench))
+    }
+
+    /// What Newton finds from a state, or a motion that costs nothing leads to.
+    fn reached_directly(&self, wrench: &Wrench, start: MechanismState) -> Result<Reached<'_>> {
+        let mut solver = self.solver(start, Unknowns::Pose);
+        solver.wrench = *wrench;
+        let newton = match solver.solve_robustly() {
+            Ok(residual) => return Ok(Reached::Rest(Box::new((solver, residual)))),
+            Err(error) => error,
+        };
+        match self.along_free_motions(wrench) {
+            AlongFreeMotions::Rest(found) => Ok(Reached::Rest(found)),
+            AlongFreeMotions::Endless(motion) => Err(self.free_direction(&motion, wrench)),
+            AlongFreeMotions::Lost(pushed) => Ok(Reached::NoRest(NoRest { newton, pushed })),
+        }
+    }
+
+    fn no_rest(&self, none: NoRest, wrench: &Wrench) -> Error {
+        match none.pushed {
+            Some(motion) => self.free_direction(&motion, wrench),
+            None => none.newton,
+        }
+    }
+
+    /// Where the machine comes to rest without a wrench on its tool.
+    fn rest_without_wrench(&self) -> Result<MechanismState> {
+        let none = Wrench::zero();
+        match self.reached_directly(&none, self.rest_state())? {
+            Reached::Rest(found) => self.stable_state(&none, *found),
+            Reached::NoRest(reason) => Err(self.no_rest(reason, &none)),
+        }
+    }
+
+    /// The state at which a solver arrived, or the stable one to which the growing load leads where that lies far.
+    pub(crate) fn stable_state(
+        &self,
+        wrench: &Wrench,
+        (mut solver, residual): Converged<'_>,
+    ) -> Result<MechanismState> {
+        if !self.is_far(&solver.state) {
+            return Ok(solver.state);
+        }
+        let found = conclude(&mut solver, residual)?;
+        Ok(self.by_growing_load(wrench, &found).unwrap_or(found).state)
+    }
+
+    /// The load grown from rest in short steps.
+    pub(crate) fn grown(&self, wrench: &Wrench) -> Result<Converged<'_>> {
+        let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
+        solver.wrench = *wrench;
+        let at_rest = solver.evaluate().0;
+        let residual = solver.grow_load(&at_rest, SHORT_STEP)?;
+        Ok((solver, residual))
+    }
+
+    /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
+    /// which lies far: it may have passed the former.
+    pub(crate) fn by_growing_load(
+        &self,
+        wrench: &Wrench,
+        found: &MechanismEquilibrium,
+    ) -> Option<MechanismEquilibrium> {
+        if found.stable() || !self.is_far(&found.state) {
+            return None;
+        }
+        let (mut solver, residual) = self.grown(wrench).ok()?;
+        let grown = conclude(&mut solver, residual).ok()?;
+        grown.stable().then_some(grown)
+    }
+
+    /// Whether one step may have passed the equilibrium to which the growing load leads.
+    fn is_far(&self, state: &MechanismState) -> bool {
+        let limbs = self.mechanism.limbs().iter().zip(&self.limbs);
+        let moved = limbs
+            .zip(&state.coordinates)
+            .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, there));
+        moved.sum::<f64>() > FAR
+    }
+
+    /// State at the whole load, if the branch from rest reaches it without a limit; the first limit
+    /// at which it stops being stable.
+    fn under_growing_load(
+        &self,
+        wrench: &Wrench,
+    ) -> Result<(Option<MechanismState>, Option<LoadLimit>)> {
+        let load = Parameter::Load(LoadPattern {
+            end: *wrench,
+            loads: Vec::new(),
+        });
+        // What it may cost is bounded: it only says why there is no equilibrium.
+        let limbs = self.mechanism.limbs().iter();
+        let coordinates: usize = limbs.map(|l| l.actual.coordinate_count()).sum();
+        let mut settings = CurveSettings::within(0.0, 1.0);
+        settings.points = (EFFORT / coordinates.max(1)).clamp(10, settings.points);
+        let end = EndCondition::wrench(Wrench::zero());
+        let path = ToolConditions::new(self, &load, &end, &settings)?;
+        // Motions that cost nothing have no limit but rounding.
+        let rest = self.rest_without_wrench()?;
+        let (whole, limit) = path.growing(rest, |p| p.parameter <= LEAST_SHARE)?;
+        let limit = limit.map(|p| LoadLimit {
+            share: p.parameter,
+            displacement: p.equilibrium.displacement,
+        });
+        Ok((whole.map(|p| p.equilibrium.state), limit))
+    }
+}
