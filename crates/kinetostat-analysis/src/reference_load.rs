@@ -29,6 +29,7 @@ pub enum LoadOutcome {
 
 /// A machine under a load.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct CarriedLoad {
     /// The equilibrium.
     pub state: MechanismEquilibrium,

@@ -72,6 +72,7 @@ impl Watch for Unwatched {
 
 /// Why a run has no answer.
 #[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The program cannot be written.
     #[error("{0}")]

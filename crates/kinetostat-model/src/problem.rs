@@ -91,6 +91,7 @@ impl Finding {
 
 /// How grave a [`Problem`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Severity {
     /// The model cannot be used.
     Error,

@@ -20,13 +20,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         [flag, unit] if flag == "--units" && unit == "inch" => Some(Units::Inches),
         _ => return Err("only --units mm or --units inch may follow".into()),
     };
-    let reading = ReadOptions {
-        units,
-        ..ReadOptions::default()
+    let reading = {
+        let mut reading = ReadOptions::default();
+        reading.units = units;
+        reading
     };
-    let writing = WriteOptions {
-        header: Some(vec![format!("corrected by the map {map}")]),
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = Some(vec![format!("corrected by the map {map}")]);
+        writing
     };
 
     let program = Program::read(std::fs::read(input)?)?;

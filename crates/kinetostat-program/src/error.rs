@@ -8,6 +8,7 @@ use thiserror::Error;
 /// A program that is refused: where, what stands there, why, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("line {line}: `{found}`: {reason}; {remedy}")]
+#[non_exhaustive]
 pub struct ProgramError {
     /// Line of the file, counted from 1.
     pub line: usize,
@@ -62,6 +63,7 @@ pub struct MapError {
 
 /// Why no corrected program was written.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum WriteError {
     /// The field has no correction for a point of the path.
     #[error(

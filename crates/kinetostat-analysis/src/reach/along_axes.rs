@@ -29,6 +29,7 @@ pub struct ReachAlongAxes {
 
 /// What ends a path of the tool.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ReachEnd {
     /// Nothing within ten times the machine.
     NotFollowedFarther,

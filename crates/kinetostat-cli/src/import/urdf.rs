@@ -123,14 +123,16 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
         let (joint, value) = home_of(written)?;
         home.insert(joint, value);
     }
-    Ok(UrdfOptions {
-        base: args.base.clone(),
-        tip: args.tip.clone(),
-        loops,
-        passive: args.passive.clone(),
-        home,
-        stiffness,
-        section,
+    Ok({
+        let mut options = UrdfOptions::default();
+        options.base = args.base.clone();
+        options.tip = args.tip.clone();
+        options.loops = loops;
+        options.passive = args.passive.clone();
+        options.home = home;
+        options.stiffness = stiffness;
+        options.section = section;
+        options
     })
 }
 

@@ -89,16 +89,17 @@ pub(crate) fn machine_setup(
         Some(_) => named,
         None => format!("preset {named}"),
     };
-    let run_inputs = RunInputs {
-        model: model.name().to_owned(),
-        model_source: source,
-        model_deviations: deviation_descriptions(&model),
-        placement: placement_description(&placement),
-        tool: tool_words,
-        tool_orientation: orientation::description(&placement.tool_orientation),
-        stiffnesses: stiffness_list::stiffnesses(&model),
-        files: vec![model_file],
-        ..RunInputs::default()
+    let run_inputs = {
+        let mut run_inputs = RunInputs::default();
+        run_inputs.model = model.name().to_owned();
+        run_inputs.model_source = source;
+        run_inputs.model_deviations = deviation_descriptions(&model);
+        run_inputs.placement = placement_description(&placement);
+        run_inputs.tool = tool_words;
+        run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
+        run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
+        run_inputs.files = vec![model_file];
+        run_inputs
     };
     Ok((
         MachineSetup {

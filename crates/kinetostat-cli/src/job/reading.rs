@@ -12,12 +12,13 @@ use crate::ui::failure::{Answer, Failure};
 
 pub(crate) fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
     let table = job.map(|j| j.job.reading.clone()).unwrap_or_default();
-    let mut reading = ReadOptions {
-        units: flags.units.or(table.units).map(|u| match u {
+    let mut reading = {
+        let mut reading = ReadOptions::default();
+        reading.units = flags.units.or(table.units).map(|u| match u {
             UnitsWord::Mm => Units::Millimetres,
             UnitsWord::Inch => Units::Inches,
-        }),
-        ..ReadOptions::default()
+        });
+        reading
     };
     if let Some(mm) = chosen(
         job,

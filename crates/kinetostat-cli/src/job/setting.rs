@@ -100,9 +100,10 @@ fn tolerances(
     writing: &WritingFlags<'_>,
 ) -> Answer<(WriteOptions, [bool; 2])> {
     let tolerances = job.map(|j| j.job.tolerances.clone()).unwrap_or_default();
-    let mut write = WriteOptions {
-        again: writing.again,
-        ..WriteOptions::default()
+    let mut write = {
+        let mut new_writing = WriteOptions::default();
+        new_writing.again = writing.again;
+        new_writing
     };
     let path_mm = chosen(
         job,

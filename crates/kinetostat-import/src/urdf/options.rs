@@ -10,6 +10,7 @@ use crate::urdf::loops::LoopFile;
 
 /// What to make of a URDF.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct UrdfOptions {
     /// Link that stands; the root of the tree if not given.
     pub base: Option<String>,

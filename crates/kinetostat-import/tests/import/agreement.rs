@@ -6,7 +6,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 use kinetostat::{MotionKind, model::Kinematics};
-use kinetostat_import::{Imported, JointStiffness, UrdfOptions};
+use kinetostat_import::{Imported, JointStiffness};
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix4, Vector3};
 use serde_json::{Value, json};
@@ -229,9 +229,10 @@ pub const TREE: &str = r#"<robot name="tree">
 </robot>"#;
 
 fn tree(base: &str, stiffness: JointStiffness) -> Imported {
-    let options = UrdfOptions {
-        stiffness,
-        ..crate::between(base, "hand")
+    let options = {
+        let mut options = crate::between(base, "hand");
+        options.stiffness = stiffness;
+        options
     };
     import(TREE, &options)
 }

@@ -521,12 +521,13 @@ fn tables_of_stiffnesses_that_are_wrong() {
             "written twice",
         ),
     ] {
-        let options = UrdfOptions {
-            stiffness: JointStiffness::Table {
+        let options = {
+            let mut options = between("base", "tool");
+            options.stiffness = JointStiffness::Table {
                 file: "k.csv".into(),
                 text: text.into(),
-            },
-            ..between("base", "tool")
+            };
+            options
         };
         let said = import_urdf(GOOD, "good.urdf", &options)
             .unwrap_err()
@@ -572,12 +573,13 @@ fn loop_files_that_are_wrong() {
     ] {
         let wrong = right.replacen(from, to, 1);
         assert_ne!(wrong, right, "{from}");
-        let options = UrdfOptions {
-            loops: Some(LoopFile {
+        let options = {
+            let mut options = between("base", "tool");
+            options.loops = Some(LoopFile {
                 file: "loops.toml".into(),
                 text: wrong,
-            }),
-            ..between("base", "tool")
+            });
+            options
         };
         let said = import_urdf(GOOD, "good.urdf", &options)
             .unwrap_err()
@@ -648,9 +650,10 @@ fn damaged_files_never_panic() {
             text.splice(start..end, piece.chars());
         }
         let text: String = text.into_iter().collect();
-        let options = UrdfOptions {
-            tip: Some(tip.into()),
-            ..UrdfOptions::default()
+        let options = {
+            let mut options = UrdfOptions::default();
+            options.tip = Some(tip.into());
+            options
         };
         match import_urdf(&text, "damaged.urdf", &options) {
             Ok(_) => imported += 1,

@@ -127,18 +127,19 @@ child = { link = "upper_arm", origin_m = [-0.4, -0.3, 0] }
 "#;
 
 fn options() -> UrdfOptions {
-    UrdfOptions {
-        base: Some("base".into()),
-        tip: Some("flange".into()),
-        loops: Some(LoopFile {
+    {
+        let mut options = UrdfOptions::default();
+        options.base = Some("base".into());
+        options.tip = Some("flange".into());
+        options.loops = Some(LoopFile {
             file: "loops.toml".into(),
             text: LOOPS.into(),
-        }),
-        stiffness: JointStiffness::Table {
+        });
+        options.stiffness = JointStiffness::Table {
             file: "k.csv".into(),
             text: "name,value,unit\nturn,5e6,N m/rad\nscrew,2e8,N/m\ncrank,4e6,N m/rad\nnod,1e6,N m/rad\n".into(),
-        },
-        section: Some(Section {
+        };
+        options.section = Some(Section {
             tube: Some(Tube {
                 outer_diameter_mm: Some(300.0),
                 inner_diameter_mm: Some(260.0),
@@ -147,8 +148,8 @@ fn options() -> UrdfOptions {
             youngs_modulus_gpa: Some(210.0),
             poissons_ratio: Some(0.3),
             ..Section::default()
-        }),
-        ..UrdfOptions::default()
+        });
+        options
     }
 }
 
@@ -203,19 +204,21 @@ fn the_constraint_element_says_the_same_as_the_loop_file() {
         <child link='upper_arm'/><child_origin xyz='-0.4 -0.3 0'/></constraint></robot>";
     let urdf = heavy().replace("</robot>", elements);
     let passive = ["shoulder", "elbow", "foot", "bar_foot"];
-    let given = UrdfOptions {
-        loops: None,
-        passive: passive.map(str::to_owned).to_vec(),
-        home: [("screw".to_owned(), (MotionKind::Prismatic, 0.3))].into(),
-        ..options()
+    let given = {
+        let mut options = options();
+        options.loops = None;
+        options.passive = passive.map(str::to_owned).to_vec();
+        options.home = [("screw".to_owned(), (MotionKind::Prismatic, 0.3))].into();
+        options
     };
     let by_element = import(&urdf, &given);
     let by_file = import(&heavy(), &options());
     assert_eq!(by_element.toml, by_file.toml);
     // Without passive joints nothing can close.
-    let none = UrdfOptions {
-        passive: Vec::new(),
-        ..given
+    let none = {
+        let mut options = given;
+        options.passive = Vec::new();
+        options
     };
     let said = import_urdf(&urdf, "heavy.urdf", &none)
         .unwrap_err()
@@ -361,16 +364,17 @@ fn five_bar() -> String {
 }
 
 fn five_bar_options() -> UrdfOptions {
-    UrdfOptions {
-        base: Some("base".into()),
-        tip: Some("tool".into()),
-        loops: None,
-        passive: vec!["left_elbow".into(), "right_elbow".into()],
-        home: [("one", -1.9), ("two", -1.2)]
+    {
+        let mut options = options();
+        options.base = Some("base".into());
+        options.tip = Some("tool".into());
+        options.loops = None;
+        options.passive = vec!["left_elbow".into(), "right_elbow".into()];
+        options.home = [("one", -1.9), ("two", -1.2)]
             .map(|(name, angle)| (name.to_owned(), (MotionKind::Revolute, angle)))
-            .into(),
-        stiffness: JointStiffness::All(1e6),
-        ..options()
+            .into();
+        options.stiffness = JointStiffness::All(1e6);
+        options
     }
 }
 

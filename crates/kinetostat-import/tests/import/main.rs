@@ -24,10 +24,11 @@ pub fn import(urdf: &str, options: &UrdfOptions) -> Imported {
 
 /// Base and tip.
 pub fn between(base: &str, tip: &str) -> UrdfOptions {
-    UrdfOptions {
-        base: Some(base.into()),
-        tip: Some(tip.into()),
-        ..UrdfOptions::default()
+    {
+        let mut options = UrdfOptions::default();
+        options.base = Some(base.into());
+        options.tip = Some(tip.into());
+        options
     }
 }
 

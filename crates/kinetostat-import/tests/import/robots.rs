@@ -21,10 +21,11 @@ const ROBOTS: [(&str, usize); 8] = [
 fn robot(name: &str, options: UrdfOptions) -> Option<(String, Imported)> {
     let path = data()?.join(format!("{name}.urdf"));
     let text = read_text("URDF file", &path).unwrap_or_else(|e| panic!("{e}"));
-    let options = UrdfOptions {
-        base: Some("base_link".into()),
-        tip: Some("tool0".into()),
-        ..options
+    let options = {
+        let mut options = options;
+        options.base = Some("base_link".into());
+        options.tip = Some("tool0".into());
+        options
     };
     let imported = import_urdf(&text, name, &options).unwrap_or_else(|e| panic!("{e}"));
     Some((text, imported))
@@ -155,14 +156,15 @@ fn placeholders_of_real_files_are_noticed() {
 
 #[test]
 fn a_robot_with_stiffnesses_bends() {
-    let options = UrdfOptions {
-        stiffness: JointStiffness::All(2e6),
-        home: [(
+    let options = {
+        let mut options = UrdfOptions::default();
+        options.stiffness = JointStiffness::All(2e6);
+        options.home = [(
             "joint_5".to_owned(),
             (kinetostat::MotionKind::Revolute, 0.6),
         )]
-        .into(),
-        ..UrdfOptions::default()
+        .into();
+        options
     };
     let Some((_, imported)) = robot("fanuc_m900ib700", options) else {
         return;

@@ -1,7 +1,7 @@
 //! Choices of the import: stiffnesses, sections, bases inside the tree, joints beside the way.
 
 use kinetostat::MotionKind;
-use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
+use kinetostat_import::{JointStiffness, import_urdf};
 use kinetostat_model::schema::{Element, Section, Tube};
 use kinetostat_testing::LargestEntry;
 
@@ -19,13 +19,14 @@ const CHAIN: &str = r#"<robot name="chain">
 
 #[test]
 fn a_table_of_stiffnesses_is_used() {
-    let options = UrdfOptions {
-        stiffness: JointStiffness::Table {
+    let options = {
+        let mut options = between("a", "e");
+        options.stiffness = JointStiffness::Table {
             file: "k.csv".into(),
             text: "\u{feff}name, value, unit\r\n# measured in May\r\none, 2.0e9, N mm/rad\r\n\"two\", 5e3, N/mm\r\n"
                 .into(),
-        },
-        ..between("a", "e")
+        };
+        options
     };
     let imported = import(CHAIN, &options);
     assert_eq!(imported.rigid_drives, ["three"]);
@@ -52,10 +53,11 @@ fn links_can_be_beams() {
         poissons_ratio: Some(0.3),
         ..Section::default()
     };
-    let options = UrdfOptions {
-        section: Some(section),
-        stiffness: JointStiffness::All(1e6),
-        ..between("a", "e")
+    let options = {
+        let mut options = between("a", "e");
+        options.section = Some(section);
+        options.stiffness = JointStiffness::All(1e6);
+        options
     };
     let imported = import(CHAIN, &options);
     let links = imported.model.document.chain["arm"]
@@ -139,10 +141,11 @@ fn names_of_a_file_cannot_write_toml() {
 
 #[test]
 fn passive_joints_and_homes_can_be_named() {
-    let options = UrdfOptions {
-        passive: vec!["three".into()],
-        home: [("one".to_owned(), (MotionKind::Revolute, 0.5))].into(),
-        ..between("a", "e")
+    let options = {
+        let mut options = between("a", "e");
+        options.passive = vec!["three".into()];
+        options.home = [("one".to_owned(), (MotionKind::Revolute, 0.5))].into();
+        options
     };
     let imported = import(CHAIN, &options);
     assert_eq!(imported.actuators, ["one", "two"]);
@@ -166,9 +169,10 @@ fn a_home_of_the_wrong_kind_is_refused() {
             "1200 mm is outside the limits of the joint 'two', 0 to 1000 mm",
         ),
     ] {
-        let options = UrdfOptions {
-            home: [(joint.to_owned(), (kind, value))].into(),
-            ..between("a", "e")
+        let options = {
+            let mut options = between("a", "e");
+            options.home = [(joint.to_owned(), (kind, value))].into();
+            options
         };
         let said = import_urdf(CHAIN, "chain.urdf", &options)
             .expect_err("refused")
@@ -184,12 +188,13 @@ fn a_stiffness_of_a_follower_is_refused() {
         "<axis xyz=\"0 1 0\"/></joint>",
         "<axis xyz=\"0 1 0\"/><mimic joint=\"one\"/></joint>",
     );
-    let options = UrdfOptions {
-        stiffness: JointStiffness::Table {
+    let options = {
+        let mut options = between("a", "e");
+        options.stiffness = JointStiffness::Table {
             file: "k.csv".into(),
             text: "name,value,unit\nthree,1e6,N m/rad\n".into(),
-        },
-        ..between("a", "e")
+        };
+        options
     };
     let said = import_urdf(&urdf, "chain.urdf", &options)
         .expect_err("refused")

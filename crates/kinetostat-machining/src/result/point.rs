@@ -18,6 +18,7 @@ pub enum PointKind {
 
 /// One point of the path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PointResult {
     /// Line of the input program, from 1.
     pub line: usize,

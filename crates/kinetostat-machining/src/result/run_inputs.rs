@@ -6,6 +6,7 @@ use crate::load::law::CornerLoad;
 
 /// Model, program, load and tolerances of a run, in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RunInputs {
     /// Name of the model.
     pub model: String,

@@ -16,6 +16,7 @@ pub const RESULT_SCHEMA: u32 = 2;
 
 /// Result of a run over a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RunResult {
     /// [`RESULT_SCHEMA`].
     pub schema: u32,

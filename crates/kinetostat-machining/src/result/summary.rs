@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Figures of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// Points of the path that were solved.
     pub points: usize,

@@ -77,6 +77,7 @@ impl ToleranceResult {
 
 /// How a written program stands to its tolerance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ToleranceResult {
     /// [`RunResult::allowed_mm`](crate::RunResult::allowed_mm).
     pub allowed_mm: f64,

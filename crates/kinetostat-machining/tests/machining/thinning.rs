@@ -12,14 +12,15 @@ fn size(v: &[f64; 3]) -> f64 {
 fn a_single_spike_stays_wherever_it_is() {
     for spike in (1..50_000).step_by(1733) {
         let mut points: Vec<PointResult> = (0..50_000)
-            .map(|i| PointResult {
-                path_mm: f64::from(i),
-                error_before_mm: [0.1, 0.0, 0.0],
-                error_after_mm: [1e-4, 0.0, 0.0],
-                actuator_force: vec![1.0, -1.0],
-                actuator_correction: vec![0.0, 0.0],
-                stable: true,
-                ..PointResult::default()
+            .map(|i| {
+                let mut point = PointResult::default();
+                point.path_mm = f64::from(i);
+                point.error_before_mm = [0.1, 0.0, 0.0];
+                point.error_after_mm = [1e-4, 0.0, 0.0];
+                point.actuator_force = vec![1.0, -1.0];
+                point.actuator_correction = vec![0.0, 0.0];
+                point.stable = true;
+                point
             })
             .collect();
         points[spike].error_after_mm[1] = 3e-4;
@@ -38,10 +39,11 @@ fn a_single_spike_stays_wherever_it_is() {
 #[test]
 fn the_envelope_is_kept() {
     let points: Vec<PointResult> = (0..40_000_u32)
-        .map(|i| PointResult {
-            error_before_mm: [f64::from(i * 7919 % 1000), 0.0, 0.0],
-            error_after_mm: [f64::from(i * 104_729 % 997), 0.0, 0.0],
-            ..PointResult::default()
+        .map(|i| {
+            let mut point = PointResult::default();
+            point.error_before_mm = [f64::from(i * 7919 % 1000), 0.0, 0.0];
+            point.error_after_mm = [f64::from(i * 104_729 % 997), 0.0, 0.0];
+            point
         })
         .collect();
     let kept = thinned(&points, &[], 4000);

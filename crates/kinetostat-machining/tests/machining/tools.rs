@@ -42,9 +42,10 @@ fn run(
     write: bool,
 ) -> Result<Run, RunError> {
     let program = Program::read(TWO_TOOLS).expect("program");
-    let reading = ReadOptions {
-        tools: (!tools.is_empty()).then(|| tools.iter().map(|tool| tool.number).collect()),
-        ..ReadOptions::default()
+    let reading = {
+        let mut reading = ReadOptions::default();
+        reading.tools = (!tools.is_empty()).then(|| tools.iter().map(|tool| tool.number).collect());
+        reading
     };
     let path = interpret(&program, &reading).expect("path");
     let task = Task {

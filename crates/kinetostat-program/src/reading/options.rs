@@ -51,6 +51,7 @@ pub enum OtherAxes {
 
 /// Settings of the reading that the program cannot supply.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ReadOptions {
     /// Units in force before the first G20 or G21. `None` (the default) refuses a program that
     /// moves before it has named its units.

@@ -4,6 +4,7 @@ use crate::error::WriteError;
 
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct WriteOptions {
     /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
     /// Default 0.0005.

@@ -134,9 +134,10 @@ fn every_form_of_arc_is_read_as_its_circle_and_written_as_chords_of_it() {
         assert!((motion.length_mm() - length).abs() < 3e-4, "{text}");
 
         let field = |request: &Request| Ok(request.position_mm * 2e-3);
-        let writing = WriteOptions {
-            header: None,
-            ..WriteOptions::default()
+        let writing = {
+            let mut writing = WriteOptions::default();
+            writing.header = None;
+            writing
         };
         let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
         verify_written(&program, &path, &written, &reading, &writing).unwrap_or_else(|error| {
@@ -207,10 +208,11 @@ fn modal_arc_blocks_are_converted_too_and_the_mode_after_them_is_right() {
     let program = Program::read(text).unwrap();
     let reading = ReadOptions::default();
     let path = interpret(&program, &reading).unwrap();
-    let writing = WriteOptions {
-        header: None,
-        chord_tolerance_mm: 1.0,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing.chord_tolerance_mm = 1.0;
+        writing
     };
     // An arc that nothing is to be corrected on stays an arc.
     let shifted = |_: &Request| Ok(Vector3::new(0.1, 0.0, 0.0));

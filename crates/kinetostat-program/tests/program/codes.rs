@@ -24,9 +24,10 @@ fn read(text: &str) -> Result<(Program, Path), ProgramError> {
 /// The lines that stand for line 3 of a program of four lines.
 fn pieces_of_line_3(text: &str) -> Result<Vec<String>, ProgramError> {
     let (program, path) = read(text)?;
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = write_corrected(&program, &path, &bend, &writing, &Unwatched).unwrap();
     let reading = ReadOptions::default();
@@ -264,9 +265,10 @@ fn no_coordinate_changes_in_a_block_with_an_unknown_code() {
     // A builder's own code in a block of its own is the controller's matter and carried as it is.
     let text = "G21\nG0 X0 Y0 Z0\nM10\nM117 P3\nM777\nG1 X5 F100\n";
     let (program, path) = read(text).unwrap();
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = write_corrected(&program, &path, &NoCorrection, &writing, &Unwatched).unwrap();
     assert_eq!(written.bytes, text.as_bytes());

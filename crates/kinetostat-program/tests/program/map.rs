@@ -60,9 +60,10 @@ fn a_map_corrects_a_program() {
     let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F500\n").unwrap();
     let reading = ReadOptions::default();
     let path = interpret(&program, &reading).unwrap();
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = write_corrected(&program, &path, &map, &writing, &Unwatched).unwrap();
     verify_written(&program, &path, &written, &reading, &writing).unwrap();

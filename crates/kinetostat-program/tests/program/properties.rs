@@ -11,10 +11,11 @@ fn reading() -> ReadOptions {
     for (offset, given) in work_offsets_mm.iter_mut().zip(WORK) {
         *offset = Vector3::from(given);
     }
-    ReadOptions {
-        work_offsets_mm,
-        start_position_mm: Some(Vector3::from(START)),
-        ..ReadOptions::default()
+    {
+        let mut reading = ReadOptions::default();
+        reading.work_offsets_mm = work_offsets_mm;
+        reading.start_position_mm = Some(Vector3::from(START));
+        reading
     }
 }
 
@@ -246,13 +247,14 @@ fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves) {
     verify_written(&program, &path, &unchanged, &reading, &writing).unwrap();
 
     for decimals in [None, Some(6)] {
-        let writing = WriteOptions {
-            decimals,
-            header: Some(vec![
+        let writing = {
+            let mut writing = WriteOptions::default();
+            writing.decimals = decimals;
+            writing.header = Some(vec![
                 "model (heavy), 500 N".to_owned(),
                 "\u{e9}t\u{e9} ".repeat(100),
-            ]),
-            ..WriteOptions::default()
+            ]);
+            writing
         };
         let written = write_corrected(&program, &path, waves, &writing, &Unwatched).unwrap();
         let output = String::from_utf8_lossy(&written.bytes).into_owned();

@@ -43,9 +43,10 @@ fn program(name: &str) -> Option<Vec<u8>> {
 }
 
 fn millimetres() -> ReadOptions {
-    ReadOptions {
-        units: Some(Units::Millimetres),
-        ..ReadOptions::default()
+    {
+        let mut reading = ReadOptions::default();
+        reading.units = Some(Units::Millimetres);
+        reading
     }
 }
 
@@ -94,14 +95,16 @@ fn without_correction_the_straight_programs_come_back_byte_for_byte() {
         let Some(bytes) = program(name) else { return };
         for start in [None, Some(Vector3::zeros())] {
             let program = Program::read(bytes.clone()).unwrap();
-            let reading = ReadOptions {
-                start_position_mm: start,
-                ..millimetres()
+            let reading = {
+                let mut reading = millimetres();
+                reading.start_position_mm = start;
+                reading
             };
             let path = interpret(&program, &reading).unwrap();
-            let writing = WriteOptions {
-                header: None,
-                ..WriteOptions::default()
+            let writing = {
+                let mut writing = WriteOptions::default();
+                writing.header = None;
+                writing
             };
             let written =
                 write_corrected(&program, &path, &NoCorrection, &writing, &Unwatched).unwrap();
@@ -150,9 +153,10 @@ fn the_calibration_program_has_five_invalid_arcs_and_the_first_is_named_with_bot
     assert!(message.contains("mm at its start and"), "{message}");
 
     // With the tolerance relaxed all 80 are read; the mismatch is counted off their radii.
-    let relaxed = ReadOptions {
-        arc_tolerance_mm: 2.0,
-        ..ReadOptions::default()
+    let relaxed = {
+        let mut reading = ReadOptions::default();
+        reading.arc_tolerance_mm = 2.0;
+        reading
     };
     let path = interpret(&program, &relaxed).unwrap();
     let mismatches: Vec<f64> = path
@@ -188,9 +192,10 @@ fn cutter_compensation_and_missing_units_are_refused_when_interpreted() {
         .unwrap_err()
         .to_string();
     assert!(message.starts_with("line 4: "), "{message}");
-    let options = ReadOptions {
-        start_position_mm: Some(Vector3::zeros()),
-        ..ReadOptions::default()
+    let options = {
+        let mut reading = ReadOptions::default();
+        reading.start_position_mm = Some(Vector3::zeros());
+        reading
     };
     let Some(bytes) = program("helical-thread-milling") else {
         return;

@@ -5,9 +5,10 @@ use kinetostat_program::*;
 use nalgebra::Vector3;
 
 fn refusal(text: &[u8], start_known: bool) -> Option<ProgramError> {
-    let options = ReadOptions {
-        start_position_mm: start_known.then(Vector3::zeros),
-        ..ReadOptions::default()
+    let options = {
+        let mut reading = ReadOptions::default();
+        reading.start_position_mm = start_known.then(Vector3::zeros);
+        reading
     };
     match Program::read(text) {
         Err(error) => Some(error),
@@ -600,7 +601,7 @@ fn no_bytes_make_the_reader_panic() {
             prop_assert_eq!(program.bytes(), &bytes[..]);
             let reading = ReadOptions::default();
             if let Ok(path) = interpret(&program, &reading) {
-                let writing = WriteOptions { again: true, ..WriteOptions::default() };
+                let writing = { let mut writing = WriteOptions::default(); writing.again = true; writing };
                 let field = |request: &Request| Ok(0.01 * request.position_mm.map(|x| (x * 0.01).sin()));
                 match write_corrected(&program, &path, &field, &writing, &Unwatched) {
                     Ok(written) => {
@@ -624,9 +625,10 @@ fn harmless_words_of_vendors_pass_byte_for_byte() {
     assert_eq!(path.moves.len(), 1);
     assert_eq!(path.moves[0].line, 15);
     let field = |_: &Request| Ok(Vector3::new(0.1, 0.0, 0.0));
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
     let expected = text.replace("G0 X0 Y0 Z5", "G0 X0.1000 Y0 Z5");

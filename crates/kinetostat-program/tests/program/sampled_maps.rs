@@ -36,9 +36,10 @@ fn corrected(table: &str, text: &str) -> (String, Corrected, FieldCheck) {
     let program = Program::read(text).unwrap();
     let reading = ReadOptions::default();
     let path = interpret(&program, &reading).unwrap();
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = write_corrected(&program, &path, &map, &writing, &Unwatched).unwrap();
     verify_written(&program, &path, &written, &reading, &writing).unwrap();

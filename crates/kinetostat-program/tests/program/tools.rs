@@ -75,9 +75,10 @@ fn the_length_of_another_tool_is_warned_of() {
 
 #[test]
 fn with_a_table_of_tools_an_unknown_tool_and_a_change_beside_a_motion_are_refused() {
-    let with = |tools: &[u32]| ReadOptions {
-        tools: Some(tools.to_vec()),
-        ..ReadOptions::default()
+    let with = |tools: &[u32]| {
+        let mut reading = ReadOptions::default();
+        reading.tools = Some(tools.to_vec());
+        reading
     };
     let path = path_with(TWO_TOOLS, &with(&[1, 2])).unwrap();
     assert!(warned(&path, "one tool length").is_empty());
@@ -95,9 +96,10 @@ fn with_a_table_of_tools_an_unknown_tool_and_a_change_beside_a_motion_are_refuse
     let path = path_with("G21 G90\nG0 X0 Y0 Z0\nT1 M6\nG0 X5\n", &with(&[1])).unwrap();
     assert_eq!(warned(&path, "before the program has named a tool"), [2]);
     // What cuts before that needs a tool that is known.
-    let unnamed = ReadOptions {
-        tool_before_first: false,
-        ..with(&[1])
+    let unnamed = {
+        let mut reading = with(&[1]);
+        reading.tool_before_first = false;
+        reading
     };
     let path = path_with("G21 G90\nG0 X0 Y0 Z0\nT1 M6\nG1 X5 F9\n", &unnamed).unwrap();
     assert_eq!(warned(&path, "a tool without length"), [2]);
@@ -123,9 +125,10 @@ fn a_tool_that_is_no_number_is_refused() {
 
 #[test]
 fn other_axes_are_refused_by_line_unless_they_are_said_to_stand_still() {
-    let still = ReadOptions {
-        other_axes: OtherAxes::StandStill,
-        ..ReadOptions::default()
+    let still = {
+        let mut reading = ReadOptions::default();
+        reading.other_axes = OtherAxes::StandStill;
+        reading
     };
     for letter in "ABCUVW".chars() {
         for block in ["G0 X1 #0", "G1 #90 F100", "#-5.", "G92 #0"] {

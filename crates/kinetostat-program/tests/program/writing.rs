@@ -6,17 +6,19 @@ use nalgebra::Vector3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn bare() -> WriteOptions {
-    WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     }
 }
 
 fn at_origin() -> ReadOptions {
-    ReadOptions {
-        start_position_mm: Some(Vector3::zeros()),
-        other_axes: OtherAxes::StandStill,
-        ..ReadOptions::default()
+    {
+        let mut reading = ReadOptions::default();
+        reading.start_position_mm = Some(Vector3::zeros());
+        reading.other_axes = OtherAxes::StandStill;
+        reading
     }
 }
 
@@ -194,9 +196,10 @@ fn inches_have_five_decimals_and_more_are_given_on_request() {
         written("G20 G90\nG0 X1\n", &field),
         "G20 G90\nG0 X1.00100\n"
     );
-    let writing = WriteOptions {
-        decimals: Some(6),
-        ..bare()
+    let writing = {
+        let mut writing = bare();
+        writing.decimals = Some(6);
+        writing
     };
     let third = |_: &Request| Ok(Vector3::new(1.0 / 3.0, 0.0, 0.0));
     assert_eq!(
@@ -223,9 +226,10 @@ fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
 #[test]
 fn smaller_jumps_than_requested_get_no_step_and_are_accounted_for() {
     let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
-    let writing = WriteOptions {
-        corner_step_mm: Some(0.025),
-        ..bare()
+    let writing = {
+        let mut writing = bare();
+        writing.corner_step_mm = Some(0.025);
+        writing
     };
     let (output, result) = written_with(
         "G21 G90\nG1 X10 F600\nX20\nY10\n",
@@ -449,9 +453,10 @@ fn an_axis_that_the_program_never_states_is_never_written() {
 
 #[test]
 fn the_header_is_in_the_files_own_style_below_tape_mark_and_number() {
-    let writing = WriteOptions {
-        header: Some(vec!["model heavy_6r (v1)\n500 N \u{2192} x".to_owned()]),
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = Some(vec!["model heavy_6r (v1)\n500 N \u{2192} x".to_owned()]);
+        writing
     };
     let head = |text: &str| written_with(text, &shift, &at_origin(), &writing).0;
     assert_eq!(
@@ -486,9 +491,10 @@ fn a_marked_program_is_refused_unless_requested_again() {
             .starts_with("line 1: the program is marked as compensated already"),
         "{refused}"
     );
-    let writing = WriteOptions {
-        again: true,
-        ..bare()
+    let writing = {
+        let mut writing = bare();
+        writing.again = true;
+        writing
     };
     assert!(write_corrected(&program, &path, &shift, &writing, &Unwatched).is_ok());
 }
@@ -534,30 +540,34 @@ fn options_out_of_range_and_foreign_paths_are_refused() {
     let path = interpret(&program, &at_origin()).unwrap();
     for (writing, name) in [
         (
-            WriteOptions {
-                tolerance_mm: f64::NAN,
-                ..bare()
+            {
+                let mut writing = bare();
+                writing.tolerance_mm = f64::NAN;
+                writing
             },
             "tolerance_mm is NaN",
         ),
         (
-            WriteOptions {
-                chord_tolerance_mm: 0.0,
-                ..bare()
+            {
+                let mut writing = bare();
+                writing.chord_tolerance_mm = 0.0;
+                writing
             },
             "chord_tolerance_mm is 0",
         ),
         (
-            WriteOptions {
-                decimals: Some(2),
-                ..bare()
+            {
+                let mut writing = bare();
+                writing.decimals = Some(2);
+                writing
             },
             "decimals is 2",
         ),
         (
-            WriteOptions {
-                max_line_bytes: 10,
-                ..bare()
+            {
+                let mut writing = bare();
+                writing.max_line_bytes = 10;
+                writing
             },
             "max_line_bytes is 10",
         ),
@@ -583,9 +593,10 @@ fn a_field_without_end_is_stopped_at_the_largest_number_of_pieces() {
     };
     let program = Program::read("G21\nG0 X0\nG1 X100 F100\n").unwrap();
     let path = interpret(&program, &at_origin()).unwrap();
-    let writing = WriteOptions {
-        max_pieces: 1000,
-        ..bare()
+    let writing = {
+        let mut writing = bare();
+        writing.max_pieces = 1000;
+        writing
     };
     let error = write_corrected(&program, &path, &noise, &writing, &Unwatched).unwrap_err();
     assert_eq!(
@@ -715,9 +726,10 @@ fn blocks_marked_for_deletion_are_run_or_skipped_as_set() {
             .text
             .contains("block delete switch off")
     );
-    let reading = ReadOptions {
-        block_delete: BlockDelete::Skip,
-        ..at_origin()
+    let reading = {
+        let mut reading = at_origin();
+        reading.block_delete = BlockDelete::Skip;
+        reading
     };
     let (skipped, result) = written_with(text, &shift, &reading, &bare());
     assert_eq!(
@@ -801,9 +813,10 @@ fn the_feed_is_not_raised_beyond_its_factor_and_the_pieces_are_counted() {
         (seconds.0 - 36.0).abs() < 1e-9 && (seconds.1 - 150.0).abs() < 1e-9,
         "{seconds:?}"
     );
-    let free = WriteOptions {
-        max_feed_factor: 10.0,
-        ..bare()
+    let free = {
+        let mut writing = bare();
+        writing.max_feed_factor = 10.0;
+        writing
     };
     let (output, _) = written_with(text, &field, &at_origin(), &free);
     assert!(output.contains("G1 X50.0000 F500\nG93\nX0 F2"), "{output}");
@@ -829,9 +842,10 @@ fn a_step_that_cuts_backwards_is_warned_of_with_its_line() {
             .iter()
             .any(|warning| warning.line == 3 && warning.text.contains("cuts backwards"))
     );
-    let wide = WriteOptions {
-        backward_step_mm: 0.3,
-        ..bare()
+    let wide = {
+        let mut writing = bare();
+        writing.backward_step_mm = 0.3;
+        writing
     };
     let (_, result) = written_with(text, &field, &at_origin(), &wide);
     assert!(

@@ -240,10 +240,11 @@ mod tests {
         result.summary.max_rounding_error_mm = 0.000_1;
         result.run_inputs.compensated = true;
         result.run_inputs.tolerance_mm = 0.000_5;
-        result.points.push(PointResult {
-            force_n: [0.0, 0.0, -100.0],
-            stable: true,
-            ..PointResult::default()
+        result.points.push({
+            let mut point = PointResult::default();
+            point.force_n = [0.0, 0.0, -100.0];
+            point.stable = true;
+            point
         });
         result
     }

@@ -20,9 +20,10 @@ fn fixtures() -> Vec<(&'static str, RunResult)> {
         point.position_mm[1] *= 0.4;
         point.position_mm[0] *= 4.0;
     }
-    let blank_points = RunResult {
-        points: vec![PointResult::default(); 3],
-        ..RunResult::default()
+    let blank_points = {
+        let mut result = RunResult::default();
+        result.points = vec![PointResult::default(); 3];
+        result
     };
     let mut many = pocket_on_serial_robot(300);
     let repeated = many.run_inputs.actuators.clone();

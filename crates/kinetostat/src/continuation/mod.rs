@@ -3,7 +3,7 @@
 //!
 //! Takes an equilibrium and what grows, gives the curve through it with limit points, bifurcations, jumps and stability;
 //! and where a machine comes to rest when its load has grown. What a curve needs of a chain or a machine is one trait
-//! ([`tracing::system`]), implemented in `chain` and `machine`; the rest of `tracing` knows nothing else.
+//! (`tracing::system`), implemented in `chain` and `machine`; the rest of `tracing` knows nothing else.
 //!
 //! ```text
 //! linear    the linear problem at one point: K u' = P lambda', bordered, with its null directions

@@ -228,9 +228,10 @@ pub fn check(seed: u64) -> Result<CaseOutcome, String> {
         Ok(both) => both,
     };
     found.taken = true;
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.header = None;
+        writing
     };
     let written = match write_corrected(&program, &path, &bend, &writing, &Unwatched) {
         Ok(written) => written,

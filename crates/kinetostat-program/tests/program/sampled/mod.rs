@@ -335,16 +335,18 @@ pub fn check(seed: u64) -> Result<SampledOutcome, String> {
     let mut random = Random::new(seed);
     let table = table(&mut random);
     let (text, truths) = program(&mut random);
-    let writing = WriteOptions {
-        tolerance_mm: [0.0005, 0.0005, 0.002, 0.02][random.below(4)],
-        ..WriteOptions::default()
+    let writing = {
+        let mut writing = WriteOptions::default();
+        writing.tolerance_mm = [0.0005, 0.0005, 0.002, 0.02][random.below(4)];
+        writing
     };
     let said = |error: &dyn std::fmt::Display| format!("seed {seed}: {error}\n{text}");
     let map = CorrectionMap::read(table.csv().as_bytes()).map_err(|e| said(&e))?;
     let input = Program::read(text.as_bytes()).map_err(|e| said(&e))?;
-    let reading = ReadOptions {
-        start_position_mm: Some(Vector3::zeros()),
-        ..ReadOptions::default()
+    let reading = {
+        let mut reading = ReadOptions::default();
+        reading.start_position_mm = Some(Vector3::zeros());
+        reading
     };
     let path = interpret(&input, &reading).map_err(|e| said(&e))?;
     let written =

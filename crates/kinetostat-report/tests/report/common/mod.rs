@@ -63,10 +63,11 @@ fn summarise(result: &mut RunResult, all_points: usize) {
 
 /// A circular groove of 25 mm radius on a machine with three prismatic actuators; about 500 points.
 pub fn circle_groove() -> RunResult {
-    let mut result = RunResult {
-        schema: RESULT_SCHEMA,
-        kinetostat_version: "0.1.0".to_owned(),
-        ..RunResult::default()
+    let mut result = {
+        let mut result = RunResult::default();
+        result.schema = RESULT_SCHEMA;
+        result.kinetostat_version = "0.1.0".to_owned();
+        result
     };
     let run_inputs = &mut result.run_inputs;
     run_inputs.model = "Orthoglide, three translations".to_owned();
@@ -91,19 +92,20 @@ pub fn circle_groove() -> RunResult {
     run_inputs.compensated = true;
 
     let mut points = Vec::new();
-    let rapid = |line, path, position| PointResult {
-        line,
-        kind: PointKind::Rapid,
-        share: 1.0,
-        path_mm: path,
-        position_mm: position,
-        error_before_mm: [0.2, 0.18, 0.21],
-        stable: true,
-        actuator_force: vec![0.0; 3],
-        actuator_correction: vec![0.0; 3],
-        smallest_stiffness_n_per_mm: 2400.0,
-        share_to_buckling: Some(0.0),
-        ..PointResult::default()
+    let rapid = |line, path, position| {
+        let mut point = PointResult::default();
+        point.line = line;
+        point.kind = PointKind::Rapid;
+        point.share = 1.0;
+        point.path_mm = path;
+        point.position_mm = position;
+        point.error_before_mm = [0.2, 0.18, 0.21];
+        point.stable = true;
+        point.actuator_force = vec![0.0; 3];
+        point.actuator_correction = vec![0.0; 3];
+        point.smallest_stiffness_n_per_mm = 2400.0;
+        point.share_to_buckling = Some(0.0);
+        point
     };
     points.push(rapid(5, 0.0, [0.0, 0.0, 20.0]));
     points.push(rapid(6, 25.0, [25.0, 0.0, 20.0]));
@@ -126,42 +128,43 @@ pub fn circle_groove() -> RunResult {
             0.22 + 0.0011 * force[2] + 0.06 * c,
         ];
         let after = [0, 1, 2].map(|a| 0.000_32 * noise(3 * i + a));
-        points.push(PointResult {
-            line: if plunge {
+        points.push({
+            let mut point = PointResult::default();
+            point.line = if plunge {
                 8
             } else {
                 9 + usize::from(share > 0.5)
-            },
-            output_line: 12 + i,
-            kind: if i == 8 {
+            };
+            point.output_line = 12 + i;
+            point.kind = if i == 8 {
                 PointKind::Corner
             } else {
                 PointKind::Feed
-            },
-            share: (2.0 * share).fract(),
-            path_mm: 44.0
+            };
+            point.share = (2.0 * share).fract();
+            point.path_mm = 44.0
                 + if plunge {
                     2.0 * i as f64 / 8.0
                 } else {
                     2.0 + 25.0 * turn
-                },
-            position_mm: [25.0 * c, 25.0 * s, z],
-            error_before_mm: before,
-            error_after_mm: after,
-            correction_mm: before.map(|b| -b),
-            force_n: force,
-            residual_rotation_deg: 0.31 + 0.11 * (turn + 0.7).sin(),
-            tool_turn_deg: None,
-            actuator_force: vec![
+                };
+            point.position_mm = [25.0 * c, 25.0 * s, z];
+            point.error_before_mm = before;
+            point.error_after_mm = after;
+            point.correction_mm = before.map(|b| -b);
+            point.force_n = force;
+            point.residual_rotation_deg = 0.31 + 0.11 * (turn + 0.7).sin();
+            point.tool_turn_deg = None;
+            point.actuator_force = vec![
                 force[0] * 1.1 + 8.0,
                 force[1] * 1.1 - 5.0,
                 61.0 + 20.0 * (turn * 2.0).cos(),
-            ],
-            actuator_correction: before.map(|b| -b).to_vec(),
-            smallest_stiffness_n_per_mm: 2280.0 + 240.0 * (turn * 3.0).sin() + 90.0 * c,
-            share_to_buckling: Some(0.11 + 0.06 * (turn + 1.0).cos()),
-            stable: true,
-            ..PointResult::default()
+            ];
+            point.actuator_correction = before.map(|b| -b).to_vec();
+            point.smallest_stiffness_n_per_mm = 2280.0 + 240.0 * (turn * 3.0).sin() + 90.0 * c;
+            point.share_to_buckling = Some(0.11 + 0.06 * (turn + 1.0).cos());
+            point.stable = true;
+            point
         });
     }
     result.points = points;
@@ -221,31 +224,32 @@ pub fn pocket_on_serial_robot(points: usize) -> RunResult {
                 -0.5 - 0.001 * x,
             ];
             let torque = |k: f64| 900.0 / k - 1.3 * x / k + 40.0 * noise(i + 17) / k;
-            PointResult {
-                line: 10 + i * 20,
-                output_line: 20 + i * 21,
-                kind: if rapid {
+            {
+                let mut point = PointResult::default();
+                point.line = 10 + i * 20;
+                point.output_line = 20 + i * 21;
+                point.kind = if rapid {
                     PointKind::Rapid
                 } else {
                     PointKind::Feed
-                },
-                share: 0.5,
-                path_mm: 1.82 * i as f64 * 20.0,
-                position_mm: [x, y, -2.0 + 0.02 * y],
-                error_before_mm: before,
-                error_after_mm: [0, 1, 2].map(|a| 0.000_28 * noise(3 * i + a)),
-                correction_mm: before.map(|b| -b),
-                force_n: [200.0, 50.0, -120.0],
-                residual_rotation_deg: 0.09,
-                tool_turn_deg: None,
-                actuator_force: (1..=6).map(|k| torque(f64::from(k * k))).collect(),
-                actuator_correction: (1..=6_u8)
+                };
+                point.share = 0.5;
+                point.path_mm = 1.82 * i as f64 * 20.0;
+                point.position_mm = [x, y, -2.0 + 0.02 * y];
+                point.error_before_mm = before;
+                point.error_after_mm = [0, 1, 2].map(|a| 0.000_28 * noise(3 * i + a));
+                point.correction_mm = before.map(|b| -b);
+                point.force_n = [200.0, 50.0, -120.0];
+                point.residual_rotation_deg = 0.09;
+                point.tool_turn_deg = None;
+                point.actuator_force = (1..=6).map(|k| torque(f64::from(k * k))).collect();
+                point.actuator_correction = (1..=6_u8)
                     .map(|k| 0.05 / f64::from(k) + 0.0001 * x + 0.002 * noise(i + usize::from(k)))
-                    .collect(),
-                smallest_stiffness_n_per_mm: 410.0 + 0.2 * x - 0.3 * y + 3.0 * noise(i),
-                share_to_buckling: None,
-                stable: true,
-                ..PointResult::default()
+                    .collect();
+                point.smallest_stiffness_n_per_mm = 410.0 + 0.2 * x - 0.3 * y + 3.0 * noise(i);
+                point.share_to_buckling = None;
+                point.stable = true;
+                point
             }
         })
         .collect();
