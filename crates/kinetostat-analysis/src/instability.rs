@@ -44,7 +44,7 @@ pub struct LinkShare<'e> {
 }
 
 impl<'e> InstabilityShares<'e> {
-    /// Of an equilibrium of a posture.
+    /// The limb and the link of `state`, an equilibrium of `posture`, with the largest shares.
     #[must_use]
     pub fn of(posture: &Posture, state: &'e MechanismEquilibrium) -> Self {
         let links = state.limbs.iter().flat_map(|l| {

@@ -17,7 +17,7 @@ pub const RESULT_SCHEMA: u32 = 2;
 /// Result of a run over a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
-    /// [`RESULT_SCHEMA`].
+    /// [`RESULT_SCHEMA`] of the program that made it.
     pub schema: u32,
     /// Version of kinetostat that made it.
     pub kinetostat_version: String,

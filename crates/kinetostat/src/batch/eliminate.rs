@@ -158,7 +158,7 @@ impl<S: Simd> Eliminated<S> {
         x
     }
 
-    /// And back.
+    /// `H_0 ... H_(m-1) x`: out of the reflected axes.
     #[inline(always)]
     pub fn reflected_back(&self, mut x: [Lanes<S>; 6]) -> [Lanes<S>; 6] {
         for k in (0..self.m).rev() {

@@ -40,7 +40,7 @@ pub struct CriticalPoint {
     pub kind: Option<SpecialKind>,
     /// Motion of all coordinates in the critical mode (m, rad), largest component 1.
     pub mode: Vec<f64>,
-    /// The equilibrium there.
+    /// Equilibrium under `factor` times the pattern.
     pub equilibrium: Equilibrium,
 }
 

@@ -51,7 +51,7 @@ pub struct PlatformStability {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct LimbEquilibrium {
-    /// Name of the limb.
+    /// Name of the limb, as in the model.
     pub name: String,
     /// Wrench of the platform on the limb's tip, about it, base axes.
     pub wrench: Wrench,
@@ -85,7 +85,7 @@ impl LimbEquilibrium {
     }
 }
 
-/// A mechanism in equilibrium.
+/// A mechanism in equilibrium: tool, limbs and platforms, with their wrenches, stiffness and stability.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MechanismEquilibrium {

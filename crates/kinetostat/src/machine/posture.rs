@@ -133,7 +133,7 @@ impl Mechanism {
 }
 
 impl Posture {
-    /// The mechanism.
+    /// The mechanism of which this is a posture, nominal and as built.
     #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
         &self.mechanism
