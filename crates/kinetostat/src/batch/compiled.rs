@@ -6,7 +6,7 @@ use super::buffers::Buffers;
 use super::group::Places;
 use super::instruction_set::has_kernels;
 use super::plan::Plan;
-use super::run::Work;
+use super::run::Job;
 use super::status::{Engine, NoKernel, Status};
 use super::table::BLOCK;
 use crate::error::{Error, Result};
@@ -142,11 +142,11 @@ impl Batch {
     }
 }
 
-pub(super) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
+pub(super) fn in_parallel<'a>(jobs: impl Iterator<Item = Job<'a>>, count: usize) {
     if count <= BLOCKS * BLOCK {
-        works.for_each(Work::run);
+        jobs.for_each(Job::run);
     } else {
-        parallel::map(works.collect(), Work::run);
+        parallel::map(jobs.collect(), Job::run);
     }
 }
 

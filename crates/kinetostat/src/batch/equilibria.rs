@@ -3,7 +3,7 @@
 use super::compiled::{BLOCKS, Batch, in_parallel, left};
 use super::group::Places;
 use super::plan::Plan;
-use super::run::{Answers, Work};
+use super::run::{Answers, Job};
 use super::shape::springs;
 use super::status::{Engine, Status};
 use super::table::{BLOCK, Table};
@@ -371,7 +371,7 @@ impl Batch {
         ]
         .map(|table| table.parts(BLOCKS));
         let parts = out.status.chunks_mut(BLOCK * BLOCKS).enumerate();
-        let works = parts.map(|(k, status)| {
+        let jobs = parts.map(|(k, status)| {
             let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
             let [
                 tool_out,
@@ -382,7 +382,7 @@ impl Batch {
                 stability,
                 targets,
             ] = next;
-            Work::Loaded {
+            Job::Loaded {
                 nominal,
                 actual,
                 body: (tool.centre_of_mass.into(), tool.mass),
@@ -404,7 +404,7 @@ impl Batch {
                 },
             }
         });
-        in_parallel(works, places.len());
+        in_parallel(jobs, places.len());
     }
 
     fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {

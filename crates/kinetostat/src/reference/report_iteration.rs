@@ -132,11 +132,11 @@ impl ReportIteration {
         let (n, expected) = (self.steps, rate(self.expected_rate));
         match &self.outcome {
             IterationOutcome::Converged => format!(
-                "settled in {n} steps; each step left {} of the error (expected {expected})",
+                "converged in {n} steps; each step left {} of the error (expected {expected})",
                 rate(self.observed_rate)
             ),
             IterationOutcome::Leaves => format!(
-                "left the equilibrium nearest to the start, where each step multiplies the error by {}, and settled on another one after {n} steps (rate {}, expected {expected})",
+                "left the equilibrium nearest to the start, where each step multiplies the error by {}, and converged to another one after {n} steps (rate {}, expected {expected})",
                 rate(self.rate_at_start),
                 rate(self.observed_rate)
             ),
