@@ -35,7 +35,7 @@ struct Edge {
     steps: Vec<TreeStep>,
 }
 
-/// Coordinates of closing joints are numbered behind the joints of the tree.
+/// Coordinates of closing joints are numbered after the joints of the tree.
 pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> Vec<TreeStep> {
     let name = &constraint.name;
     let x = [1.0, 0.0, 0.0];

@@ -9,7 +9,7 @@ use super::symmetric::Symmetric;
 /// Stiffness of a limb in base axes about the platform's point.
 pub(super) struct LimbStiffness<S: Simd> {
     pub matrix: Symmetric<S>,
-    /// Smallest relative pivot on the way: near zero where a joint or a spring is redundant here.
+    /// Smallest relative pivot of the elimination: near zero where a joint or a spring is redundant here.
     pub regular: Lanes<S>,
 }
 

@@ -149,7 +149,7 @@ impl Factored {
                 let (mut right, mut left) = (y * s, y.tr_mul(&s));
                 let held = sweep.held_scalar(form, stage);
                 let pivot = s.dot(&right) - held;
-                // Against the largest number that was subtracted on the way here.
+                // Against the largest number that was subtracted so far.
                 let size = s.abs();
                 let size = held.abs() + size.dot(&((y.abs() + spring.abs()) * size));
                 if !is_above(pivot.abs(), least * size) {
