@@ -92,8 +92,8 @@ pub struct Critical {
     pub digit: f64,
 }
 
-/// The table of the book (governing equations, links that bend), to its digits (there, as here, EA / EI = 1e6 / m^2: the limit of an
-/// inextensible column is 1.98548 where 1.986 stands, 1.00003 where 1.00004 stands).
+/// The table of the book (governing equations, links that bend), to its digits (there, as here, EA / EI = 1e6 / m^2:
+/// the limit of an inextensible column is 1.98548 where 1.986 stands, 1.00003 where 1.00004 stands).
 pub fn table_of_conventions() -> Vec<Critical> {
     type Row = (
         LinkConvention,
