@@ -92,7 +92,7 @@ pub enum PlaceState {
 }
 
 impl PlaceState {
-    /// All of them.
+    /// All states, in the order of their declaration.
     pub const ALL: [Self; 6] = [
         Self::Regular,
         Self::Singular,

@@ -180,7 +180,7 @@ pub struct Branch<E: CurveEquilibrium = Equilibrium> {
 pub struct Curves<'a> {
     /// The problem at parameter 0.
     pub problem: ChainProblem<'a>,
-    /// What grows.
+    /// Displacement of the end, or load pattern, that grows along the curve.
     pub parameter: Parameter,
     /// The start's own branch first.
     pub branches: Vec<Branch>,

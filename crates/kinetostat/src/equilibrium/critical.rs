@@ -33,7 +33,7 @@ use crate::spatial::Wrench;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CriticalPoint {
-    /// Load factor.
+    /// Load factor, 1 for the pattern as given.
     pub factor: f64,
     /// What happens there; `None` where the held shape alone becomes critical, which is no special
     /// point of the path.

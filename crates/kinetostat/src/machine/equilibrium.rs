@@ -89,7 +89,7 @@ impl LimbEquilibrium {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MechanismEquilibrium {
-    /// Pose of the tool platform.
+    /// Pose of the tool platform, base from tool.
     pub tool: Pose,
     /// From the nominal target to that pose.
     pub displacement: Twist,
@@ -105,7 +105,7 @@ pub struct MechanismEquilibrium {
     pub conservative: bool,
     /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
     pub stiffness: CartesianStiffness,
-    /// Its principal directions.
+    /// Principal directions of that stiffness, rotations referred to the natural length.
     pub directions: Vec<Direction>,
     /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
     pub length: f64,

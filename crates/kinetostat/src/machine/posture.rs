@@ -145,7 +145,7 @@ impl Posture {
         &self.target
     }
 
-    /// Joints of every limb.
+    /// Commands and coordinates (m, rad) of every limb, in the mechanism's order.
     #[must_use]
     pub fn limbs(&self) -> &[LimbPosture] {
         &self.limbs

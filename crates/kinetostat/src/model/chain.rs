@@ -63,7 +63,7 @@ pub enum Role {
     Passive,
 }
 
-/// A coordinate of the chain.
+/// A degree of freedom that no command moves: of a spring or of a passive joint.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Coordinate {
@@ -176,7 +176,7 @@ impl Chain {
         &self.nodes
     }
 
-    /// Masses.
+    /// Bodies with mass, in order of appearance.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies

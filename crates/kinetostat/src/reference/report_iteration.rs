@@ -74,9 +74,9 @@ impl Default for IterationSettings {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ChainState {
-    /// Coordinates in the chain's order.
+    /// Coordinates, m or rad, in the chain's order.
     pub coordinates: Vec<f64>,
-    /// Wrench on the end.
+    /// Wrench on the end, N and N m, about its origin, base axes.
     pub wrench: Wrench,
 }
 
