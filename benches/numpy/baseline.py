@@ -1,7 +1,7 @@
-"""The works W1 to W5 in numpy: arrays over many postures, as a careful user would write them.
+"""The benchmark cases W1 to W5 in numpy: arrays over many postures, as a careful user would write them.
 
 It holds no trick against numpy: columns are turned in place of products with rotation matrices, batches
-go through LAPACK at once, and every work has the batch size that is best for it (compare.py).
+go through LAPACK at once, and every case has the batch size that is best for it (compare.py).
 """
 import numpy as np
 

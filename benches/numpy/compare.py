@@ -25,7 +25,7 @@ from machines import Arm, Hexapod, Puu, Rod  # noqa: E402
 
 MODELS = Path(__file__).resolve().parent.parent / 'models'
 # What issue and design ask for, times faster than numpy.
-ASKED = {'W1': (15, 25), 'W2': (30, 45), 'W3': (50, 90), 'W3+K': (25, 45), 'W4': (10, 15), 'W5': (200, 360)}
+REQUIRED = {'W1': (15, 25), 'W2': (30, 45), 'W3': (50, 90), 'W3+K': (25, 45), 'W4': (10, 15), 'W5': (200, 360)}
 MEANING = {'W1': 'arm: J and K_C', 'W2': 'hexapod: K_C', 'W3': 'arm: equilibrium', 'W3+K': 'arm: equilibrium and K_C',
            'W4': '3-PUU: equilibrium', 'W5': 'rod: equilibrium'}
 MOST_APART = 1e-9
@@ -44,7 +44,7 @@ def slices(count, size):
 
 
 class Work:
-    """One work: the same postures for both, numpy in batches of the size that is best for it."""
+    """One benchmark case: the same postures for both, numpy in batches of the size that is best for it."""
 
     def __init__(self, name, model, question, count, batch, numpy, **given):
         self.name, self.model, self.question, self.count, self.given = name, model, question, count, given
@@ -78,8 +78,8 @@ def table(answers, name, width, part):
     return np.frombuffer(answers[name]).reshape(-1, width)[part]
 
 
-def works():
-    """The works with what is compared of their results."""
+def cases():
+    """The cases with what is compared of their results."""
     joints, wrench = Arm.postures(10000), Arm.wrenches(10000)
     place, angles = Hexapod.postures(10000)
     few = slice(0, 2000)
@@ -112,16 +112,16 @@ def seconds(run):
     return time.process_time() - start
 
 
-def measure(work, rounds, twin=None):
+def measure(case, rounds, twin=None):
     """Medians in us per posture: numpy, kinetostat, kinetostat with the default law of links."""
-    runs = [work.run_numpy] + [lambda task=task: task.run(BLOCK) for task in (work.task, twin) if task]
+    runs = [case.run_numpy] + [lambda task=task: task.run(BLOCK) for task in (case.task, twin) if task]
     # A short pass is repeated, so that every median rests on as much.
     passes = [max(1, min(7, round(.02 / seconds(run)))) for run in runs]
     times = [[] for _ in runs]
     for _ in range(rounds):
         for run, own, count in zip(runs, times, passes):
             own += [seconds(run) for _ in range(count)]
-    return [statistics.median(own) / work.count * 1e6 for own in times]
+    return [statistics.median(own) / case.count * 1e6 for own in times]
 
 
 def main():
@@ -133,20 +133,20 @@ def main():
     say(f'numpy {np.__version__}, one core, one thread, medians of {options.rounds} interleaved rounds; us of CPU time per posture\n')
     say(f'{"work":<32}{"numpy":>11}{"kinetostat":>12}{"ratio":>8}{"must":>6}{"goal":>6}{"links bow":>12}{"apart":>10}')
     rows = []
-    for work, pairs in works():
-        apart = work.difference(pairs)
-        twin = None if options.json else work.open(f'{work.model}_bowing')
-        numpy, own, *bowing = measure(work, options.rounds, twin)
-        row = {'work': work.name, 'kinetostat_us': own, 'numpy_us': numpy, 'ratio': numpy / own,
+    for case, pairs in cases():
+        apart = case.difference(pairs)
+        twin = None if options.json else case.open(f'{case.model}_bowing')
+        numpy, own, *bowing = measure(case, options.rounds, twin)
+        row = {'work': case.name, 'kinetostat_us': own, 'numpy_us': numpy, 'ratio': numpy / own,
                'max_relative_difference': apart}
         rows.append(row)
-        must, goal = ASKED[work.name]
-        say(f'{work.name + "  " + MEANING[work.name]:<32}{numpy:11.3f}{own:12.4f}{row["ratio"]:8.1f}{must:6}{goal:6}'
+        must, goal = REQUIRED[case.name]
+        say(f'{case.name + "  " + MEANING[case.name]:<32}{numpy:11.3f}{own:12.4f}{row["ratio"]:8.1f}{must:6}{goal:6}'
             f'{(bowing or [0])[0]:12.4f}{apart:10.1e}')
-        answers = work.task.answers(BLOCK)
-        scalar = work.count - answers['vectorised']
+        answers = case.task.answers(BLOCK)
+        scalar = case.count - answers['vectorised']
         if scalar:
-            say(f'      {scalar} of {work.count} postures are solved one by one' + (f': {work.task.scalar_reason()}' if work.task.scalar_reason() else ''))
+            say(f'      {scalar} of {case.count} postures are solved one by one' + (f': {case.task.scalar_reason()}' if case.task.scalar_reason() else ''))
     if options.json:
         json.dump(rows, sys.stdout, indent=1)
         print()

@@ -1,9 +1,9 @@
-"""The machines of the works W1 to W5 and their samples, for the numpy baseline.
+"""The machines of the benchmark cases W1 to W5 and their samples, for the numpy baseline.
 
 SI units; wrenches are dead (constant in base axes), [force, moment] about the tool's origin; Jacobians
 are [linear, angular] in base axes at the tool's origin. Every link is a plain spring, the product
 Tx Ty Tz Rx Ry Rz of its six coordinates, with the full matrix of a clamped beam. The same machines for
-kinetostat are the files of benches/models; a disagreement of the two shows in every work.
+kinetostat are the files of benches/models; a disagreement of the two shows in every case.
 """
 import numpy as np
 

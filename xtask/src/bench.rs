@@ -1,4 +1,4 @@
-//! `cargo xtask bench-vs-numpy [--json]`: the works W1 to W5 in one process with numpy.
+//! `cargo xtask bench-vs-numpy [--json]`: the benchmark cases W1 to W5 in one process with numpy.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::{cargo, root, step};
 
 /// Works and how many times faster than numpy they must be.
-pub const WORKS: [(&str, f64); 6] = [
+pub const CASES: [(&str, f64); 6] = [
     ("W1", 15.0),
     ("W2", 30.0),
     ("W3", 50.0),
@@ -19,11 +19,11 @@ pub const WORKS: [(&str, f64); 6] = [
     ("W5", 200.0),
 ];
 
-/// What was measured of one work.
+/// What was measured of one benchmark case.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
-    /// Its name in [`WORKS`].
+    /// Its name in [`CASES`].
     pub work: String,
     /// Median time per posture, us.
     pub kinetostat_us: f64,
@@ -66,7 +66,7 @@ fn show(rows: &[Row]) -> Result<()> {
     Ok(())
 }
 
-/// Measures every work.
+/// Measures every benchmark case.
 ///
 /// # Errors
 /// As [`versus_numpy`].
@@ -82,14 +82,14 @@ pub fn measured() -> Result<Vec<Row>> {
     rows(&String::from_utf8_lossy(&output.stdout))
 }
 
-/// The rows of a comparison: every work once, in order, with numbers that fit one another.
+/// The rows of a comparison: every benchmark case once, in order, with numbers that fit one another.
 fn rows(text: &str) -> Result<Vec<Row>> {
     let rows: Vec<Row> = serde_json::from_str(text)
-        .with_context(|| format!("the comparison printed no list of works: {text}"))?;
+        .with_context(|| format!("the comparison printed no list of benchmark cases: {text}"))?;
     let names = rows.iter().map(|row| row.work.as_str());
     ensure!(
-        names.eq(WORKS.map(|(name, _)| name)),
-        "the comparison did not measure every work once: {text}"
+        names.eq(CASES.map(|(name, _)| name)),
+        "the comparison did not measure every benchmark case once: {text}"
     );
     for row in &rows {
         ensure!(
@@ -213,15 +213,15 @@ mod tests {
                 "max_relative_difference": 1e-14,
             })
         };
-        let mut all: serde_json::Value = WORKS.map(row).to_vec().into();
+        let mut all: serde_json::Value = CASES.map(row).to_vec().into();
         change(&mut all);
         all.to_string()
     }
 
     #[test]
-    fn a_comparison_has_every_work_and_ratios_that_fit() {
+    fn a_comparison_has_every_case_and_ratios_that_fit() {
         let good = rows(&text(|_| ())).expect("rows");
-        assert_eq!(good.len(), WORKS.len());
+        assert_eq!(good.len(), CASES.len());
         let again = serde_json::to_string(&good).expect("text");
         assert_eq!(rows(&again).expect("rows"), good);
         let wrong: [fn(&mut serde_json::Value); 5] = [

@@ -1,4 +1,4 @@
-//! `cargo xtask counts`: instructions that every work takes, beside a committed baseline. Times need a
+//! `cargo xtask counts`: instructions that every benchmark case takes, beside a committed baseline. Times need a
 //! quiet machine, counts do not.
 
 use std::collections::BTreeMap;
@@ -181,7 +181,7 @@ fn compare(found: &Counts, baseline: &Counts) -> Comparison {
     Comparison { more, less, table }
 }
 
-/// A work without a baseline is a failure: nobody would notice when it grows.
+/// A benchmark case without a baseline is a failure: nobody would notice when it grows.
 fn percent(count: &u64, before: Option<u64>) -> f64 {
     match before {
         Some(before) => 100.0 * (*count as f64 - before as f64) / before as f64,
@@ -259,19 +259,19 @@ fn counted(tools: Tools) -> Result<Option<Counts>> {
     let Some(valgrind) = tools.valgrind else {
         return Ok(None);
     };
-    optimised("the works to count", "build", "counts")?;
+    optimised("the benchmark cases to count", "build", "counts")?;
     let program = target().join("release").join("counts");
     let names = Command::new(&program)
         .output()
         .with_context(|| format!("cannot start {}", program.display()))?;
-    let names = String::from_utf8(names.stdout).context("names of works")?;
-    eprintln!("== instructions of the works, counted by valgrind");
+    let names = String::from_utf8(names.stdout).context("names of benchmark cases")?;
+    eprintln!("== instructions of the benchmark cases, counted by valgrind");
     let mut instructions = BTreeMap::new();
     for name in names.lines() {
         instructions.insert(name.to_owned(), instructions_of(&program, name)?);
     }
     if instructions.is_empty() {
-        bail!("{} names no work", program.display());
+        bail!("{} names no benchmark case", program.display());
     }
     Ok(Some(Counts {
         rustc: tools.rustc,
@@ -281,7 +281,7 @@ fn counted(tools: Tools) -> Result<Option<Counts>> {
     }))
 }
 
-/// Instructions of one work, without what is done before and after it.
+/// Instructions of one benchmark case, without what is done before and after it.
 fn instructions_of(program: &Path, name: &str) -> Result<u64> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--cache-sim=no"])

@@ -541,10 +541,10 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
     if let Err(error) = bench::python() {
         eprintln!("skipped: {error:#}, so speed is not compared with numpy");
     } else {
-        for (row, (work, least)) in bench::measured()?.iter().zip(bench::WORKS) {
-            let name = format!("{work}: times faster than numpy");
+        for (row, (case, least)) in bench::measured()?.iter().zip(bench::CASES) {
+            let name = format!("{case}: times faster than numpy");
             figures.push(Figure::at_least(name, row.ratio, least, "times"));
-            let name = format!("{work}: largest relative difference to numpy");
+            let name = format!("{case}: largest relative difference to numpy");
             let apart = row.max_relative_difference;
             figures.push(Figure::at_most(name, apart, 1e-9, "1"));
         }

@@ -29,7 +29,7 @@ Tasks of the project
   cargo xtask bench-vs-numpy    speed beside vectorised numpy, in one process; needs python3
   cargo xtask bench-vs-numpy --json   the same as a list of {work, kinetostat_us, numpy_us, ratio,
                                 max_relative_difference}
-  cargo xtask counts            instructions of every work beside their baseline; needs valgrind
+  cargo xtask counts            instructions of every benchmark case beside their baseline; needs valgrind
   cargo xtask counts --renew    takes what is counted now as the baseline";
 
 fn main() -> ExitCode {

@@ -94,7 +94,8 @@ impl AssembledMachine {
         })
     }
 
-    /// A scalar of an equilibrium in all cases.
+    /// A scalar of the equilibria of the machine as built (`of`), what the deviations change of it, and the same to
+    /// first order in them (`linear`). Under load there is none where the wrench is zero.
     #[must_use]
     pub fn scalar(
         &self,

@@ -44,7 +44,7 @@ pub struct LinkShare<'e> {
 }
 
 impl<'e> InstabilityShares<'e> {
-    /// Of an equilibrium of a posture.
+    /// The limb and the link of `state`, an equilibrium of `posture`, with the largest shares.
     #[must_use]
     pub fn of(posture: &Posture, state: &'e MechanismEquilibrium) -> Self {
         let links = state.limbs.iter().flat_map(|l| {
@@ -125,8 +125,8 @@ fn finite(share: Option<f64>) -> Option<f64> {
 /// It is at least as near as each of its limbs is while the tool is held; the motions of the tool
 /// are assessed by the stiffness condensed to it. The share is that of the state itself: a limit point
 /// of the load, where the machine snaps, is seen as the stiffness falls towards it and not sooner,
-/// and of a state behind a snap it is the share of that state. Where the state is not stable the
-/// share is at least 1, and none where the condensed stiffness, which comes back from infinity behind
+/// and of a state beyond a snap it is the share of that state. Where the state is not stable the
+/// share is at least 1, and none where the condensed stiffness, which comes back from infinity beyond
 /// the buckling of a limb, does not tell it.
 #[must_use]
 pub fn share_to_instability(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {

@@ -6,9 +6,9 @@ use nalgebra::{Matrix3, Matrix6};
 /// Stiffnesses of a tool against pushes of both kinds; none where no push of the kind moves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PushStiffnesses {
-    /// Against a force, N/m.
+    /// Against a force, the tool free to turn, N/m.
     pub force: Option<PushStiffness>,
-    /// Against a moment, N m/rad.
+    /// Against a moment, the tool free to move, N m/rad.
     pub moment: Option<PushStiffness>,
 }
 

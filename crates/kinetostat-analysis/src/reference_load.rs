@@ -31,7 +31,7 @@ pub enum LoadOutcome {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct CarriedLoad {
-    /// The equilibrium.
+    /// Equilibrium under the force on the tool and the loads of the model.
     pub state: MechanismEquilibrium,
     /// How far the tool moves from where it is at rest, m.
     pub moved: f64,

@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kinetostat_bench::Results;
-use kinetostat_bench::machines::{CASES, work};
+use kinetostat_bench::machines::{CASES, benchmark_case};
 
 /// What one thread takes at a time: no other one helps.
 const POSTURES: usize = 256;
@@ -18,7 +18,7 @@ const POSTURES: usize = 256;
 fn batch(c: &mut Criterion) {
     for name in CASES {
         let count = if name == "W5" { 8 } else { POSTURES };
-        let task = work(name, count).expect("a work");
+        let task = benchmark_case(name, count).expect("a benchmark case");
         let mut group = c.benchmark_group(name);
         group.throughput(Throughput::Elements(count as u64));
         for (label, block) in [("together", count), ("one by one", 1)] {

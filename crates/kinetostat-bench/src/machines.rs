@@ -92,7 +92,7 @@ pub const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 ///
 /// # Errors
 /// If there is no such case, or its model cannot be read.
-pub fn work(name: &str, count: usize) -> Result<Task> {
+pub fn benchmark_case(name: &str, count: usize) -> Result<Task> {
     match name {
         "W1" => ARM.task(BenchQuantity::StiffnessAndJacobian, count, false),
         "W2" => HEXAPOD.task(BenchQuantity::Stiffness, count, false),
@@ -104,7 +104,7 @@ pub fn work(name: &str, count: usize) -> Result<Task> {
             let across = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0].repeat(count);
             Task::open(&path("rod"), BenchQuantity::Equilibrium, home, &across)
         }
-        other => bail!("no work is called {other}"),
+        other => bail!("no benchmark case is called {other}"),
     }
 }
 
@@ -120,10 +120,10 @@ impl BenchMachine {
     ///
     /// # Errors
     /// If its model cannot be read.
-    pub fn task(&self, work: BenchQuantity, count: usize, bowing: bool) -> Result<Task> {
+    pub fn task(&self, quantity: BenchQuantity, count: usize, bowing: bool) -> Result<Task> {
         let end = if bowing { "_bowing" } else { "" };
         let loaded = matches!(
-            work,
+            quantity,
             BenchQuantity::Equilibrium | BenchQuantity::EquilibriumAndStiffness
         );
         let wrenches = match loaded {
@@ -133,7 +133,7 @@ impl BenchMachine {
         let places = (self.places)(0..count);
         Task::open(
             &path(&format!("{}{end}", self.file)),
-            work,
+            quantity,
             places,
             &wrenches,
         )

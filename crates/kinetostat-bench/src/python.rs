@@ -44,12 +44,12 @@ mod kinetostat_bench {
             poses: Option<&[u8]>,
             wrenches: Option<&[u8]>,
         ) -> PyResult<Self> {
-            let work = match work {
+            let quantity = match work {
                 "stiffness" => BenchQuantity::Stiffness,
                 "stiffness+jacobian" => BenchQuantity::StiffnessAndJacobian,
                 "equilibrium" => BenchQuantity::Equilibrium,
                 "equilibrium+stiffness" => BenchQuantity::EquilibriumAndStiffness,
-                other => return Err(refused(format!("'{other}' is no work"))),
+                other => return Err(refused(format!("'{other}' is no quantity to compute"))),
             };
             let places = match (joints, poses) {
                 (Some(commands), None) => Places::Joints(numbers(commands)),
@@ -57,7 +57,7 @@ mod kinetostat_bench {
                 _ => return Err(refused("give joints or poses")),
             };
             let wrenches = wrenches.map(numbers).unwrap_or_default();
-            let own = Own::open(&model, work, places, &wrenches).map_err(refused)?;
+            let own = Own::open(&model, quantity, places, &wrenches).map_err(refused)?;
             Ok(Self(own, Mutex::default()))
         }
 

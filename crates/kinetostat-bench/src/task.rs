@@ -59,7 +59,7 @@ pub struct Task {
     batch: Batch,
     places: Places,
     wrenches: Vec<Wrench>,
-    work: BenchQuantity,
+    quantity: BenchQuantity,
     actuators: usize,
 }
 
@@ -95,13 +95,13 @@ impl Task {
     /// If the file is no model or the numbers do not fit the machine.
     pub fn open(
         path: &Path,
-        work: BenchQuantity,
+        quantity: BenchQuantity,
         places: Places,
         wrenches: &[f64],
     ) -> Result<Self> {
         let model = kinetostat_model::read_model(path)
             .with_context(|| format!("cannot read the model {}", path.display()))?;
-        Self::of_model(&model, work, places, wrenches)
+        Self::of_model(&model, quantity, places, wrenches)
     }
 
     /// The same for a model that is read.
@@ -110,11 +110,11 @@ impl Task {
     /// If the numbers do not fit the machine.
     pub fn of_model(
         model: &Model,
-        work: BenchQuantity,
+        quantity: BenchQuantity,
         places: Places,
         wrenches: &[f64],
     ) -> Result<Self> {
-        Self::new(model.mechanism.clone(), work, places, wrenches)
+        Self::new(model.mechanism.clone(), quantity, places, wrenches)
     }
 
     /// The same for a machine.
@@ -123,7 +123,7 @@ impl Task {
     /// If the numbers do not fit the machine.
     pub fn new(
         machine: Mechanism,
-        work: BenchQuantity,
+        quantity: BenchQuantity,
         places: Places,
         wrenches: &[f64],
     ) -> Result<Self> {
@@ -136,7 +136,7 @@ impl Task {
             batch: Batch::new(&machine),
             places,
             wrenches,
-            work,
+            quantity,
             actuators: machine.actuator_names().len(),
         };
         let needed = if task.loaded() { 6 * task.len() } else { 0 };
@@ -155,7 +155,7 @@ impl Task {
             );
         }
         // Says whatever else does not fit.
-        task.ask(0, task.len().min(1), &mut Results::default())?;
+        task.solve(0, task.len().min(1), &mut Results::default())?;
         Ok(task)
     }
 
@@ -182,14 +182,14 @@ impl Task {
 
     fn loaded(&self) -> bool {
         matches!(
-            self.work,
+            self.quantity,
             BenchQuantity::Equilibrium | BenchQuantity::EquilibriumAndStiffness
         )
     }
 
-    fn ask(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
-        let jacobian = self.work == BenchQuantity::StiffnessAndJacobian;
-        let details = match self.work {
+    fn solve(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
+        let jacobian = self.quantity == BenchQuantity::StiffnessAndJacobian;
+        let details = match self.quantity {
             BenchQuantity::EquilibriumAndStiffness => Details::Stiffness,
             _ => Details::Rest,
         };
@@ -227,7 +227,7 @@ impl Task {
     pub fn run(&self, block: usize, results: &mut Results) -> Result<()> {
         let block = block.max(1);
         for from in (0..self.len()).step_by(block) {
-            self.ask(from, (from + block).min(self.len()), results)?;
+            self.solve(from, (from + block).min(self.len()), results)?;
             black_box(&*results);
         }
         Ok(())
@@ -242,7 +242,7 @@ impl Task {
         let mut results = Results::default();
         let (mut scalar, mut not) = (0, 0);
         for from in (0..self.len()).step_by(block) {
-            self.ask(from, (from + block).min(self.len()), &mut results)?;
+            self.solve(from, (from + block).min(self.len()), &mut results)?;
             for found in self.found(&results) {
                 scalar += usize::from(*found == Status::Scalar);
                 not += usize::from(*found == Status::Unsolved);
@@ -270,7 +270,7 @@ impl Task {
         let block = block.max(1);
         let mut results = Results::default();
         for from in (0..self.len()).step_by(block) {
-            self.ask(from, (from + block).min(self.len()), &mut results)?;
+            self.solve(from, (from + block).min(self.len()), &mut results)?;
             let Results { unloaded, loaded } = &results;
             add(&mut all.tool, &loaded.tool);
             add(&mut all.coordinates, &loaded.coordinates);

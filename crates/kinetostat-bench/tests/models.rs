@@ -17,8 +17,8 @@ fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../benches/models/{name}.toml"))
 }
 
-fn answers(name: &str, work: BenchQuantity, places: Places, wrench: &[f64]) -> Answers {
-    let task = Task::open(&model(name), work, places, wrench).expect("a task");
+fn answers(name: &str, quantity: BenchQuantity, places: Places, wrench: &[f64]) -> Answers {
+    let task = Task::open(&model(name), quantity, places, wrench).expect("a task");
     let answers = task.answers(1).expect("answers");
     assert_eq!(answers.not_found, 0, "{name}");
     answers
@@ -284,7 +284,8 @@ fn legs_that_brace_each_other_are_solved_vectorised() {
 
 #[test]
 fn numbers_that_do_not_fit_are_refused() {
-    let open = |work, places, wrenches: &[f64]| Task::open(&model("arm"), work, places, wrenches);
+    let open =
+        |quantity, places, wrenches: &[f64]| Task::open(&model("arm"), quantity, places, wrenches);
     let joints = || Places::Joints(JOINTS.to_vec());
     let few = open(BenchQuantity::Stiffness, Places::Joints(vec![0.0; 7]), &[]);
     let missing = open(BenchQuantity::Equilibrium, joints(), &[]);

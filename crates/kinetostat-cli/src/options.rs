@@ -39,7 +39,6 @@ pub(crate) fn number(text: &str) -> Result<f64, NumberFault> {
     }
 }
 
-/// A whole number.
 pub(crate) fn whole(text: &str) -> Result<usize, NumberFault> {
     text.trim().parse().map_err(|_| NumberFault::NotWhole)
 }

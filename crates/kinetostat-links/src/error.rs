@@ -10,7 +10,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub struct Error {
     /// Name of the file, or of the request where no file is meant.
     pub file: String,
-    /// Line, from 1.
+    /// Line, from 1; `None` where the whole file or request is meant.
     pub line: Option<usize>,
     /// What is wrong.
     pub message: String,

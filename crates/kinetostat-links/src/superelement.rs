@@ -54,7 +54,7 @@ pub(crate) struct Raw {
 pub(crate) enum Halves {
     /// One half: each pair once.
     One,
-    /// Both.
+    /// Both halves: the entries of either are taken as written.
     Both,
     /// Whichever is found: if no pair occurs in both, one half.
     Found,

@@ -7,9 +7,9 @@ use nalgebra::Matrix6;
 pub struct Units {
     /// Name as in keys and options: `n_mm`.
     pub name: &'static str,
-    /// Unit of force, N.
+    /// Newtons in one unit of force.
     pub force_n: f64,
-    /// Unit of length, m.
+    /// Metres in one unit of length.
     pub length_m: f64,
 }
 

@@ -18,7 +18,7 @@ pub struct ModelField<'a> {
     pub mechanism: &'a Mechanism,
     /// Where the program lies.
     pub placement: Placement,
-    /// Load along the path.
+    /// Cutting load at every place of the path; it also knows the tool at each.
     pub load: &'a LoadAlongPath<'a>,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,

@@ -50,7 +50,7 @@ impl Default for Limits {
     }
 }
 
-/// One of the [`Limits`].
+/// One of the [`Limits`]: its name, its unit, what it bounds, and what it can be set to.
 #[derive(Clone, Copy)]
 pub struct Limit {
     /// Its name: the key under `[limits]` of a job file and the word of `--limit NAME=VALUE`.
@@ -131,7 +131,7 @@ macro_rules! limit {
 }
 
 impl Limits {
-    /// All of them.
+    /// All limits, as messages list them.
     pub const ALL: [Limit; 10] = [
         limit!(
             correction_mm,
@@ -205,20 +205,20 @@ impl Limits {
         ),
     ];
 
-    /// The limit of that name.
+    /// The entry of [`Self::ALL`] with this name; `None` if no limit is called so.
     #[must_use]
     pub fn named(name: &str) -> Option<Limit> {
         Self::ALL.into_iter().find(|limit| limit.name == name)
     }
 
-    /// Its value.
+    /// Value of a limit, in its unit.
     #[must_use]
     pub fn get(&self, limit: Limit) -> f64 {
         let mut own = *self;
         *(limit.value)(&mut own)
     }
 
-    /// Moves it.
+    /// Sets a limit to a value in its unit, which is not compared with its range.
     pub fn set(&mut self, limit: Limit, value: f64) {
         *(limit.value)(self) = value;
     }
@@ -227,11 +227,11 @@ impl Limits {
 /// A figure beyond its limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beyond {
-    /// Which limit.
+    /// The limit, whose unit `found` and `allowed` have.
     pub limit: Limit,
     /// What was found, in the limit's unit.
     pub found: f64,
-    /// What is allowed.
+    /// Value of the limit: the largest one allowed, for the shortest tool the least one.
     pub allowed: f64,
     /// Line of the program, from 1; none where it concerns all of it.
     pub line: Option<usize>,

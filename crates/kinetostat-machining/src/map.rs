@@ -92,7 +92,7 @@ pub enum PlaceState {
 }
 
 impl PlaceState {
-    /// All of them.
+    /// All states, in the order of their declaration.
     pub const ALL: [Self; 6] = [
         Self::Regular,
         Self::Singular,
@@ -102,7 +102,7 @@ impl PlaceState {
         Self::Unanswered,
     ];
 
-    /// The place has figures.
+    /// False where an actuator would be outside its limits, the tool cannot be put there or no equilibrium was found.
     #[must_use]
     pub fn has_figures(self) -> bool {
         matches!(self, Self::Regular | Self::Singular | Self::Unstable)

@@ -42,7 +42,7 @@ pub struct NearSingular {
 }
 
 impl NearSingular {
-    /// The warning of it.
+    /// A warning of the code [`WarningCode::NearSingular`] that says what `in_words` says.
     #[must_use]
     pub fn warning(&self) -> Warning {
         Warning::new(WarningCode::NearSingular, self.in_words.clone())

@@ -13,7 +13,7 @@ use kinetostat::number::{larger, smaller};
 /// The program as it will be written, and how far it is from the table.
 #[derive(Clone, Debug)]
 pub struct TableCorrection {
-    /// What is written.
+    /// The program with its corrections, or without any where it keeps the tolerance as it is.
     pub written: Corrected,
     /// Its distance from the table, and that of the program as it is.
     pub against: FieldCheck,

@@ -99,7 +99,7 @@ pub enum RunError {
         line: usize,
         /// Error without compensation, mm.
         before_mm: f64,
-        /// Error with it, mm.
+        /// Error with compensation, mm.
         after_mm: f64,
     },
     /// Figures that no sensible question has.

@@ -99,7 +99,7 @@ pub enum WriteError {
         line: usize,
         /// Bytes the written line would have, without its line ending.
         bytes: usize,
-        /// The limit.
+        /// Most bytes of a line, `WriteOptions::max_line_bytes`.
         limit: usize,
     },
     /// An axis other than X, Y, Z cannot be shared out over the pieces of a block.
@@ -120,7 +120,7 @@ pub enum WriteError {
     TooManyPieces {
         /// Line of the input program, counted from 1.
         line: usize,
-        /// The limit.
+        /// Most pieces, `WriteOptions::max_pieces`.
         limit: usize,
     },
     /// An option is outside its range.
@@ -130,7 +130,7 @@ pub enum WriteError {
         name: &'static str,
         /// The value found.
         found: String,
-        /// What is allowed.
+        /// The values that are allowed, in words.
         allowed: &'static str,
     },
     /// The path was not read from this program.

@@ -12,7 +12,7 @@ pub use crate::writing::emit::least_percent;
 /// The bytes of a token, and letter and number where it is a word.
 pub type Stretch = (Range<usize>, Option<(char, f64)>);
 
-/// The tokens of a line.
+/// The tokens of a line, given without its line ending, in their order.
 #[must_use]
 pub fn tokens(line: &[u8]) -> Vec<Stretch> {
     let mut tokens = Vec::new();

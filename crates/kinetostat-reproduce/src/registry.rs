@@ -245,7 +245,7 @@ pub fn one(id: &str) -> Result<Entry, ReproduceError> {
     }
 }
 
-/// Computes all entries, in the order of [`IDS`] whatever the number of threads. `done` is told each
+/// Computes all entries, in the order of [`IDS`] whatever the number of threads. `done` is called with each
 /// id as it is finished, in any order.
 ///
 /// # Errors

@@ -176,7 +176,7 @@ pub fn least_length(value_mm: f64) -> String {
     length(value_mm, DIGITS, Rounding::Down)
 }
 
-/// A mean of lengths.
+/// A mean of lengths in mm, rounded to the nearest.
 #[must_use]
 pub fn mean_length(value_mm: f64) -> String {
     length(value_mm, DIGITS, Rounding::Nearest)

@@ -27,7 +27,7 @@ pub enum ControllerPoseError {
 }
 
 impl<'m> ControllerCoordinates<'m> {
-    /// The controller of a model.
+    /// Without a declared controller every actuator is an axis of its own, with ratio 1 and no offset.
     #[must_use]
     pub fn of(model: &'m Model) -> Self {
         Self {

@@ -33,25 +33,25 @@ pub struct Axis {
 pub enum Coupling {
     /// None is declared; to what is shown the other axis' joint has to be added, `share` times.
     Missing {
-        /// The axis, from 0.
+        /// Index of the coupled axis, from 0.
         axis: usize,
-        /// The other one.
+        /// Index of the axis whose joint it shows too, from 0.
         other: usize,
         /// How many times the other joint is added.
         share: f64,
     },
     /// Declared, and the machine has it with the other sign.
     Reversed {
-        /// The axis, from 0.
+        /// Index of the coupled axis, from 0.
         axis: usize,
-        /// The other one.
+        /// Index of the axis whose joint it shows too, from 0.
         other: usize,
     },
     /// Declared, and the machine has none.
     Absent {
-        /// The axis, from 0.
+        /// Index of the axis that is declared to be coupled, from 0.
         axis: usize,
-        /// The other one.
+        /// Index of the axis whose joint it is declared to show too, from 0.
         other: usize,
     },
 }

@@ -40,7 +40,7 @@ impl Tolerance {
     }
 }
 
-/// The difference of a computed pose from a measured one.
+/// Distance (m) and angle (rad) from a measured pose to a computed one; no angle where no orientation was measured.
 #[must_use]
 pub fn difference(measured: &MeasuredPose, computed: &Pose) -> Difference {
     let target = Pose::from_parts(

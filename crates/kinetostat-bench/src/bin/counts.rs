@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use kinetostat::{Posture, Wrench};
-use kinetostat_bench::machines::{path, work};
+use kinetostat_bench::machines::{benchmark_case, path};
 use kinetostat_bench::{Results, Task, sample};
 use nalgebra::Vector6;
 
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     };
     if counted(&name).is_none() {
-        eprintln!("'{name}' is no work");
+        eprintln!("'{name}' is no benchmark case");
         return ExitCode::FAILURE;
     }
     ExitCode::SUCCESS
@@ -62,13 +62,13 @@ fn counted(name: &str) -> Option<()> {
     let (kind, of) = name.split_once(' ')?;
     match kind {
         "together" | "one_by_one" => {
-            let (_, work, all, few) = CASES.into_iter().find(|w| w.0 == of)?;
+            let (_, case, all, few) = CASES.into_iter().find(|c| c.0 == of)?;
             let (count, block) = if kind == "together" {
                 (all, 64)
             } else {
                 (few, 1)
             };
-            let (task, mut results) = ready(work, count);
+            let (task, mut results) = ready(case, count);
             kinetostat_counted(&mut || black_box(&task).run(block, &mut results).expect("answers"));
             black_box(&results);
         }
@@ -98,7 +98,7 @@ fn counted(name: &str) -> Option<()> {
 
 /// Run once before: the choice of the instruction set is not counted, and the results have their memory.
 fn ready(name: &str, count: usize) -> (Task, Results) {
-    let task = work(name, count).expect("a work");
+    let task = benchmark_case(name, count).expect("a benchmark case");
     let mut results = Results::default();
     task.run(count, &mut results).expect("answers");
     (task, results)

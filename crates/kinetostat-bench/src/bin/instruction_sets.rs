@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use kinetostat::internal::InstructionSet;
-use kinetostat_bench::machines::work;
+use kinetostat_bench::machines::benchmark_case;
 use kinetostat_bench::{Answers, Task};
 
 /// Works of the benches, as many postures of each as leave the last register of eight half full.
@@ -30,7 +30,7 @@ fn compare() -> Result<()> {
         "this build has no wide kernels: it is not optimised"
     );
     for name in CASES {
-        let task = work(name, POSTURES)?;
+        let task = benchmark_case(name, POSTURES)?;
         let one_by_one = bits(&task, InstructionSet::Single, 1)?;
         ensure!(!one_by_one.is_empty(), "{name}: no numbers");
         for &set in &sets {

@@ -154,7 +154,7 @@ pub(crate) struct PointAnswer {
     pub(crate) shown: [f64; 3],
 }
 
-/// A point with a name.
+/// A start, limit, bifurcation, landing or end of the curves, with the letter that drawing and text call it by.
 #[derive(Clone, Serialize)]
 pub(crate) struct NamedPoint {
     pub(crate) name: String,

@@ -96,7 +96,7 @@ struct Names<'n, S: Subject> {
 }
 
 impl<S: Subject> Names<'_, S> {
-    /// A point of a branch.
+    /// Gives the point the next letter as its name; `branch` counts from 0.
     fn add(
         &mut self,
         kind: &'static str,

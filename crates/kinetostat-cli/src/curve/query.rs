@@ -26,7 +26,6 @@ pub(crate) enum Measure {
     Work,
 }
 
-/// A query of `curve`.
 #[derive(Clone, Debug)]
 pub(crate) struct CurveQuery {
     pub(crate) holding: Holding,
@@ -40,7 +39,6 @@ pub(crate) struct CurveQuery {
     pub(crate) branches: usize,
     pub(crate) points: usize,
     pub(crate) all: bool,
-    /// The query in words.
     pub(crate) words: String,
 }
 

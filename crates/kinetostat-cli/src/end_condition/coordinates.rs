@@ -41,7 +41,6 @@ pub(crate) fn values_of(chain: &Chain, commands: &[f64], coordinates: &[f64]) ->
         .collect()
 }
 
-/// A coordinate of the chain.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct CoordinateName {
     pub(crate) name: String,

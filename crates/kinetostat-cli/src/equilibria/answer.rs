@@ -75,5 +75,6 @@ pub(crate) struct Coverage {
     pub(crate) fruitless: usize,
     pub(crate) chance_of_more: f64,
     pub(crate) chance_of_more_at_most: f64,
-    pub(crate) settled: bool,
+    #[serde(rename = "settled")]
+    pub(crate) exhausted: bool,
 }

@@ -41,7 +41,7 @@ pub(crate) fn answer_of<S: Subject>(
             fruitless: all.fruitless,
             chance_of_more: all.chance_of_more,
             chance_of_more_at_most: all.chance_of_more_at_most,
-            settled: all.exhausted,
+            exhausted: all.exhausted,
         },
         conservative: found().all(CurveEquilibrium::conservative),
         warnings,

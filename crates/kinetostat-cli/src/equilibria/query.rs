@@ -11,7 +11,6 @@ use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short, triple};
 
-/// A query of `equilibria`.
 pub(crate) struct EquilibriaQuery {
     pub(crate) end: EndCondition,
     pub(crate) holding: Holding,

@@ -221,11 +221,11 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
         n => text.push_str(&format!("; each one listed was found at least {n} times")),
     }
     list.push(text);
-    list.push(if !c.settled && a.equilibria.len() >= MOST_KNOWN {
+    list.push(if !c.exhausted && a.equilibria.len() >= MOST_KNOWN {
         format!(
             "the search ended when {MOST_KNOWN} were known; those of high energy strain the machine far beyond what it is made for"
         )
-    } else if c.settled {
+    } else if c.exhausted {
         format!(
             "the search ended because the last {} starts found nothing new",
             c.fruitless

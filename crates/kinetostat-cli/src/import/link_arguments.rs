@@ -33,7 +33,7 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = MATRIX_HELP)]
 pub(crate) struct MatrixArgs {
-    /// The matrix
+    /// File with the matrix: CSV or JSON (6 x 6), DMIG, .sti, .mtx or Harwell-Boeing
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Which node and direction each row is: the .dof file of CalculiX, the mapping file of Ansys
@@ -73,7 +73,7 @@ pub(crate) struct MatrixArgs {
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct DisplacementsArgs {
-    /// The displacements
+    /// File with the displacements: CSV, or the .dat file of CalculiX
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// Where the loads act and the stiffness belongs: the link's end in the mesh, mm

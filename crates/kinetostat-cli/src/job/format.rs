@@ -134,7 +134,7 @@ pub(crate) enum CornerWord {
 pub(crate) enum Axes {
     /// Axes of the machine's base
     Base,
-    /// Axes of the tool
+    /// Axes of the tool, with which the load turns
     Tool,
     /// x along the feed, z along the part's z
     Feed,

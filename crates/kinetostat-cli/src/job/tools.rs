@@ -10,7 +10,8 @@ use crate::job::load::load;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{short, triple};
 
-/// The tools of `[[tools]]`, and all tools in words.
+/// The tools of `[[tools]]` with their numbers and loads; none where the job file has no such table. Where it has one,
+/// `words` and `given` become those of its tools.
 pub(crate) fn numbered_tools(
     job: Option<&JobFile>,
     flags: &ProgramArgs,

@@ -124,7 +124,7 @@ fn kind_description(kind: DirectionKind) -> &'static str {
     }
 }
 
-/// A direction with the joints and springs behind it.
+/// A direction with the participation of joints and springs in it.
 pub(crate) fn what_moves(p: &Principal) -> String {
     let stiffness = match (p.kind, p.stiffness_n_per_mm) {
         (DirectionKind::Finite | DirectionKind::Negative, Some(s)) => {

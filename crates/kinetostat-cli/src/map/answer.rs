@@ -49,7 +49,8 @@ impl From<Grid> for GridAnswer {
 /// How many places have which answer.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(crate) struct Places {
-    pub(crate) asked: usize,
+    #[serde(rename = "asked")]
+    pub(crate) requested: usize,
     pub(crate) regular: usize,
     pub(crate) singular: usize,
     pub(crate) unstable: usize,
@@ -60,7 +61,7 @@ pub(crate) struct Places {
 
 impl Places {
     fn count(&mut self, state: PlaceState) {
-        self.asked += 1;
+        self.requested += 1;
         *match state {
             PlaceState::Regular => &mut self.regular,
             PlaceState::Singular => &mut self.singular,
@@ -72,7 +73,7 @@ impl Places {
     }
 
     fn add(&mut self, other: &Self) {
-        self.asked += other.asked;
+        self.requested += other.requested;
         self.regular += other.regular;
         self.singular += other.singular;
         self.unstable += other.unstable;

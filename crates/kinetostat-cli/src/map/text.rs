@@ -91,7 +91,7 @@ pub(crate) fn answer_text(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64
             "{} ({}), {}, tool {}",
             a.model,
             a.model_source,
-            counted(a.places.asked, "place"),
+            counted(a.places.requested, "place"),
             orientation::description(rotation)
         ),
         0,
@@ -195,7 +195,7 @@ fn places(a: &MapAnswer) -> String {
             "without an equilibrium: the load may be too large",
         ),
     ];
-    let width = p.asked.to_string().len();
+    let width = p.requested.to_string().len();
     let mut out = String::new();
     for (count, what) in list.into_iter().filter(|(count, _)| *count > 0) {
         let _ = writeln!(out, "  {count:>width$}  {what}");

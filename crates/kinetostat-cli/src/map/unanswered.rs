@@ -18,7 +18,7 @@ pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Fai
     }
     Some(Failure::unanswered(format!(
         "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
-        match places.asked {
+        match places.requested {
             1 => "cannot be put at the place".to_owned(),
             n => format!("can be put at none of the {n} places"),
         },
@@ -31,7 +31,7 @@ pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Fai
 /// No place has an answer, and places are within reach: the load is the reason.
 fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
     let wrench = task.load.unwrap_or_else(Wrench::zero);
-    let counts = match places.asked {
+    let counts = match places.requested {
         1 => String::new(),
         _ => format!(
             " (no equilibrium: {}; cannot be reached: {}; outside the limits of an actuator: {})",
@@ -40,7 +40,7 @@ fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
     };
     Failure::unanswered(format!(
         "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
-        match places.asked {
+        match places.requested {
             1 => "at the place".to_owned(),
             n => format!("at any of the {n} places"),
         },

@@ -34,7 +34,7 @@ pub(crate) fn home(m: &Mechanism) -> Vec<f64> {
     limbs.flat_map(|l| l.nominal.home_commands()).collect()
 }
 
-/// Commands as joint values of the model.
+/// Commands (m, rad) in the unit that answers show for each kind of actuator.
 pub(crate) fn of_model(m: &Mechanism, commands: &[f64]) -> Vec<JointValue> {
     let named = m.actuator_names().into_iter().zip(kinds(m));
     named
@@ -124,7 +124,7 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
 /// A joint, its kind, and m or rad in one of its usual unit.
 pub(crate) type Named = (String, MotionKind, f64);
 
-/// The axes of the controller.
+/// The axes of the controller as [`read`] takes them, in the controller's order.
 pub(crate) fn on_axes(controller: &Controller) -> Vec<Named> {
     let kind = |unit| match unit {
         ControllerUnit::Mm | ControllerUnit::M => MotionKind::Prismatic,

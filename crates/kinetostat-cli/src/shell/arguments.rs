@@ -7,7 +7,7 @@ use clap::Args;
 /// Completions for a shell, to be saved where the shell looks for them
 #[derive(Debug, Args)]
 pub(crate) struct CompletionsArgs {
-    /// The shell
+    /// Shell that reads the completions
     pub(crate) shell: clap_complete::Shell,
 }
 

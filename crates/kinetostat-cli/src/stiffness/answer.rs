@@ -78,7 +78,7 @@ pub(crate) struct LimbShare {
     pub(crate) redundant_passive_joints: Vec<String>,
 }
 
-/// Directions with the joints and springs behind them, the stiff ones too.
+/// Directions with the participation of joints and springs in them, the stiff ones too.
 pub(crate) fn with_causes(
     directions: &[Direction],
     participation: impl Fn(&Direction) -> Vec<kinetostat::chain::Share>,

@@ -16,7 +16,7 @@ pub(crate) enum Stream {
     Err,
 }
 
-/// Prints text as it is.
+/// Prints text without a line break after it. That the reader has closed the pipe is no failure.
 pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
     let result = match stream {
         Stream::Out => write(&mut anstream::stdout().lock(), text.as_bytes()),

@@ -1,7 +1,7 @@
 //! `kinetostat curve` and `kinetostat equilibria`: the numbers of the report's chains through the
 //! commands, drawings, tables, and the same bytes twice.
 
-use crate::common::chains::{figure, json, named, number, workplace};
+use crate::common::chains::{curve_along, figure, json, named, number, workplace};
 use crate::common::run;
 use kinetostat_testing::Worst;
 use serde_json::Value;
@@ -10,19 +10,9 @@ use serde_json::Value;
 #[test]
 fn figure_the_z_chain_buckles_at_its_pitchfork() {
     let here = workplace();
-    let pushed = [
-        "--direction",
-        "1",
-        "0",
-        "0",
-        "--displacement-mm",
-        "-400",
-        "0",
-    ];
     let mut worst = <[Worst; 2]>::default();
     for model in ["z.toml", "three_link_z"] {
-        let mut arguments = vec!["curve", model];
-        arguments.extend(pushed);
+        let arguments = curve_along(model, ["1", "0", "0"], ["-400", "0"], &[]);
         let a = json(here.path(), &arguments);
         assert_eq!(a["schema"], 3);
         assert_eq!(a["branches"].as_array().expect("branches").len(), 2);
@@ -128,20 +118,12 @@ fn the_straight_chain_buckles_at_one_and_three() {
     let here = workplace();
     let a = json(
         here.path(),
-        &[
-            "curve",
+        &curve_along(
             "s.toml",
-            "--direction",
-            "-1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "0",
-            "600",
-            "--force-limits",
-            "-1",
-            "6",
-        ],
+            ["-1", "0", "0"],
+            ["0", "600"],
+            &["--force-limits", "-1", "6"],
+        ),
     );
     let forks = named(&a, "pitchfork");
     assert_eq!(forks.len(), 2);
@@ -153,17 +135,7 @@ fn the_straight_chain_buckles_at_one_and_three() {
     // Without limits of the force a warning names the locked chain, and it buckles all the same.
     let said = run(
         here.path(),
-        &[
-            "curve",
-            "s.toml",
-            "--direction",
-            "-1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "0",
-            "600",
-        ],
+        &curve_along("s.toml", ["-1", "0", "0"], ["0", "600"], &[]),
     )
     .answered();
     for words in ["locked at the start", "buckles at 0 mm and 1.00000 N (B)"] {
@@ -219,20 +191,12 @@ fn a_load_on_a_node_moves_the_limit_point() {
     let load = format!("elbow=0,{:.17},0", -g);
     let a = json(
         here.path(),
-        &[
-            "curve",
+        &curve_along(
             "two_link",
-            "--direction",
-            "1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "-900",
-            "50",
-            "--load",
-            &load,
-            "--all",
-        ],
+            ["1", "0", "0"],
+            ["-900", "50"],
+            &["--load", &load, "--all"],
+        ),
     );
     let near = |p: &&Value| (number(&p["displacement_mm"]) + 693.675473).abs() < 1e-5;
     let limits = named(&a, "load_limit");
@@ -303,18 +267,8 @@ fn a_growing_load_ends_where_deflect_puts_the_tool() {
 #[test]
 fn drawings_have_solid_and_dashed_parts_and_names() {
     let here = workplace();
-    let pushed = [
-        "--direction",
-        "-1",
-        "0",
-        "0",
-        "--displacement-mm",
-        "0",
-        "400",
-    ];
-    let mut arguments = vec!["curve", "z.toml"];
-    arguments.extend(pushed);
-    arguments.extend(["--plot", "z.svg", "--csv", "z.csv", "--json", "z.json"]);
+    let files = ["--plot", "z.svg", "--csv", "z.csv", "--json", "z.json"];
+    let mut arguments = curve_along("z.toml", ["-1", "0", "0"], ["0", "400"], &files);
     let said = run(here.path(), &arguments).answered();
     assert!(
         said.out.contains("buckles at 110.932 mm and 1.03348 N (B)"),
@@ -409,26 +363,22 @@ fn drawings_have_solid_and_dashed_parts_and_names() {
 fn the_same_question_gives_the_same_bytes() {
     let here = workplace();
     for arguments in [
-        vec![
-            "curve",
+        curve_along(
             "s.toml",
-            "--direction",
-            "-1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "0",
-            "600",
-            "--force-limits",
-            "-1",
-            "6",
-            "--all",
-            "--json",
-            "--plot",
-            "a.svg",
-            "--csv",
-            "a.csv",
-        ],
+            ["-1", "0", "0"],
+            ["0", "600"],
+            &[
+                "--force-limits",
+                "-1",
+                "6",
+                "--all",
+                "--json",
+                "--plot",
+                "a.svg",
+                "--csv",
+                "a.csv",
+            ],
+        ),
         vec![
             "equilibria",
             "z.toml",
@@ -662,9 +612,8 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
 fn a_curve_beyond_all_sense_says_so() {
     let here = workplace();
     let pushed = |to: &str| {
-        let range = ["--direction", "1", "0", "0", "--displacement-mm", "0", to];
-        let arguments = ["curve", "scara"].into_iter().chain(range);
-        let a = json(here.path(), &arguments.collect::<Vec<_>>());
+        let arguments = curve_along("scara", ["1", "0", "0"], ["0", to], &[]);
+        let a = json(here.path(), &arguments);
         let warnings = a["warnings"].as_array().expect("warnings").clone();
         let mut codes = warnings.iter().map(|w| w["code"].clone());
         codes.any(|code| code == "large_displacement")
@@ -672,17 +621,8 @@ fn a_curve_beyond_all_sense_says_so() {
     assert!(pushed("1e6"));
     assert!(!pushed("5"));
     // Farther than any machine stands nothing is computed: the first step was nothing but rounding.
-    let range = [
-        "--direction",
-        "0",
-        "0",
-        "1",
-        "--displacement-mm",
-        "0",
-        "1e9",
-    ];
-    let arguments = ["curve", "puu3"].into_iter().chain(range);
-    let refused = run(here.path(), &arguments.collect::<Vec<_>>());
+    let arguments = curve_along("puu3", ["0", "0", "1"], ["0", "1e9"], &[]);
+    let refused = run(here.path(), &arguments);
     assert_eq!(refused.code, 1, "{refused:?}");
     assert!(refused.err.contains("farther than 10 km"), "{refused:?}");
 }

@@ -1,30 +1,13 @@
 //! `kinetostat curve` and `kinetostat equilibria`: what is refused, what is said where a curve ends
 //! early, and what an interrupt leaves.
 
-use crate::common::chains::workplace;
+use crate::common::chains::{curve_along, workplace};
 use crate::common::{command, run, shell};
 
 #[test]
 fn wrong_questions_are_refused_with_what_to_do() {
     let here = workplace();
-    let pushed = |model: &'static str| {
-        vec![
-            "curve",
-            model,
-            "--direction",
-            "1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "0",
-            "10",
-        ]
-    };
-    let with = |more: &[&'static str]| {
-        let mut list = pushed("z.toml");
-        list.extend(more);
-        list
-    };
+    let with = |more: &[&'static str]| curve_along("z.toml", ["1", "0", "0"], ["0", "10"], more);
     let cases: Vec<(Vec<&str>, &[&str])> = vec![
         (vec!["curve", "z.toml"], &["--direction", "--factor"]),
         (
@@ -32,59 +15,19 @@ fn wrong_questions_are_refused_with_what_to_do() {
             &["how far", "--displacement-mm"],
         ),
         (
-            vec![
-                "curve",
-                "z.toml",
-                "--direction",
-                "0",
-                "0",
-                "0",
-                "--displacement-mm",
-                "0",
-                "1",
-            ],
+            curve_along("z.toml", ["0", "0", "0"], ["0", "1"], &[]),
             &["no direction"],
         ),
         (
-            vec![
-                "curve",
-                "z.toml",
-                "--direction",
-                "1",
-                "0",
-                "0",
-                "--displacement-mm",
-                "5",
-                "5",
-            ],
+            curve_along("z.toml", ["1", "0", "0"], ["5", "5"], &[]),
             &["equal ends"],
         ),
         (
-            vec![
-                "curve",
-                "z.toml",
-                "--direction",
-                "nan",
-                "0",
-                "0",
-                "--displacement-mm",
-                "0",
-                "1",
-            ],
+            curve_along("z.toml", ["nan", "0", "0"], ["0", "1"], &[]),
             &["finite"],
         ),
         (
-            vec![
-                "curve",
-                "z.toml",
-                "--direction",
-                "0",
-                "0",
-                "1",
-                "--displacement-mm",
-                "0",
-                "1",
-            ],
+            curve_along("z.toml", ["0", "0", "1"], ["0", "1"], &[]),
             &["rigid in z, rx, ry"],
         ),
         (with(&["--free", "sideways"]), &["'sideways'", "rx"]),
@@ -161,17 +104,7 @@ fn wrong_questions_are_refused_with_what_to_do() {
     // A range beyond reach is answered as far as it goes, and that is said.
     let said = run(
         here.path(),
-        &[
-            "curve",
-            "z.toml",
-            "--direction",
-            "1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "-50",
-            "200",
-        ],
+        &curve_along("z.toml", ["1", "0", "0"], ["-50", "200"], &[]),
     )
     .answered();
     let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -182,17 +115,7 @@ fn wrong_questions_are_refused_with_what_to_do() {
     // Out of reach: the question is right and has no answer.
     let said = run(
         here.path(),
-        &[
-            "curve",
-            "z.toml",
-            "--direction",
-            "1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "200",
-            "300",
-        ],
+        &curve_along("z.toml", ["1", "0", "0"], ["200", "300"], &[]),
     );
     assert_eq!(said.code, 2, "{said:?}");
 }
@@ -214,18 +137,7 @@ fn small_loads_are_not_called_nothing() {
 fn the_words_say_how_far_a_branch_was_followed() {
     let here = workplace();
     let pushed = |to: &'static str, more: &[&'static str]| {
-        let mut list = vec![
-            "curve",
-            "z.toml",
-            "--direction",
-            "-1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "0",
-            to,
-        ];
-        list.extend(more);
+        let list = curve_along("z.toml", ["-1", "0", "0"], ["0", to], more);
         let said = run(here.path(), &list).answered().out;
         said.split_whitespace().collect::<Vec<_>>().join(" ")
     };
@@ -238,17 +150,7 @@ fn the_words_say_how_far_a_branch_was_followed() {
     // Out of reach without any load: nothing is said of one that is too large.
     let said = run(
         here.path(),
-        &[
-            "curve",
-            "z.toml",
-            "--direction",
-            "1",
-            "0",
-            "0",
-            "--displacement-mm",
-            "200",
-            "300",
-        ],
+        &curve_along("z.toml", ["1", "0", "0"], ["200", "300"], &[]),
     );
     assert_eq!(said.code, 2, "{}", said.err);
     assert!(

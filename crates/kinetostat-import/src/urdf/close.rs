@@ -154,9 +154,9 @@ fn search(
             values[v] = at + step;
             let ahead = residuals(robot, tree, base, closings, values);
             values[v] = at - step;
-            let behind = residuals(robot, tree, base, closings, values);
+            let back = residuals(robot, tree, base, closings, values);
             values[v] = at;
-            jacobian.set_column(column, &((ahead - behind) / (2.0 * step)));
+            jacobian.set_column(column, &((ahead - back) / (2.0 * step)));
         }
         let mut normal = jacobian.transpose() * &jacobian;
         for i in 0..free.len() {

@@ -29,15 +29,13 @@ pub(crate) struct Graph {
 
 /// A joint between two groups of links that are fixed to each other.
 struct Edge {
-    /// Groups.
     ends: [usize; 2],
-    /// Links.
     links: [usize; 2],
     /// From the first link to the second, without its arrival.
     steps: Vec<TreeStep>,
 }
 
-/// Coordinates of closing joints are numbered behind the joints of the tree.
+/// Coordinates of closing joints are numbered after the joints of the tree.
 pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> Vec<TreeStep> {
     let name = &constraint.name;
     let x = [1.0, 0.0, 0.0];
@@ -253,11 +251,11 @@ fn paths(
     let none = Vec::new();
     let around = |g: usize| at.get(&g).unwrap_or(&none);
     // Groups that are platforms, each with the link that stands for it.
-    let mut stands: BTreeMap<usize, usize> =
+    let mut link_of: BTreeMap<usize, usize> =
         BTreeMap::from([(group[base], base), (group[tip], tip)]);
     for (link, g) in group.iter().enumerate() {
         if around(*g).len() >= 3 {
-            stands.entry(*g).or_insert(link);
+            link_of.entry(*g).or_insert(link);
         }
     }
     let mut used = vec![false; edges.len()];
@@ -271,7 +269,7 @@ fn paths(
             }
             // Along joints until the next platform.
             let mut steps = Vec::new();
-            let (mut g, mut link, mut edge) = (start, stands[&start], first);
+            let (mut g, mut link, mut edge) = (start, link_of[&start], first);
             let end = loop {
                 used[edge] = true;
                 let e = &edges[edge];
@@ -287,7 +285,7 @@ fn paths(
                 }
                 steps.push(TreeStep::Arrive(far));
                 (g, link) = (group[far], far);
-                if stands.contains_key(&g) {
+                if link_of.contains_key(&g) {
                     break g;
                 }
                 // A path that would come back to where it started ends half way.
@@ -299,19 +297,19 @@ fn paths(
                 match next {
                     Some(i) if !back => edge = i,
                     _ => {
-                        stands.insert(g, link);
+                        link_of.insert(g, link);
                         break g;
                     }
                 }
             };
-            let to = stands[&end];
+            let to = link_of[&end];
             steps.extend(tree.steps(robot, link, to));
             if !order.contains(&end) {
                 order.push(end);
                 open.push_back(end);
             }
             found.push(LinkPath {
-                from: stands[&start],
+                from: link_of[&start],
                 to,
                 steps,
             });
@@ -319,7 +317,7 @@ fn paths(
     }
     let mut platforms: Vec<usize> = order[1..]
         .iter()
-        .map(|g| stands[g])
+        .map(|g| link_of[g])
         .filter(|l| *l != tip)
         .collect();
     platforms.push(tip);

@@ -430,7 +430,7 @@ pub(crate) fn closed(
         );
         return;
     }
-    let stands: Vec<String> = free
+    let values: Vec<String> = free
         .iter()
         .filter(|f| f.in_tree)
         .map(|f| {
@@ -444,7 +444,7 @@ pub(crate) fn closed(
         .collect();
     log.notice(
         &robot.constraints[0].at,
-        format!("at home the loops close with {}", stands.join(", ")),
+        format!("at home the loops close with {}", values.join(", ")),
         "where loops close in several ways, passive joints stay near their start: give other starts by home_rad and home_m in the loop file, or --home",
     );
 }

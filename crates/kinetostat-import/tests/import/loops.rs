@@ -127,30 +127,30 @@ child = { link = "upper_arm", origin_m = [-0.4, -0.3, 0] }
 "#;
 
 fn options() -> UrdfOptions {
-    {
-        let mut options = UrdfOptions::default();
-        options.base = Some("base".into());
-        options.tip = Some("flange".into());
-        options.loops = Some(LoopFile {
-            file: "loops.toml".into(),
-            text: LOOPS.into(),
-        });
-        options.stiffness = JointStiffness::Table {
-            file: "k.csv".into(),
-            text: "name,value,unit\nturn,5e6,N m/rad\nscrew,2e8,N/m\ncrank,4e6,N m/rad\nnod,1e6,N m/rad\n".into(),
-        };
-        options.section = Some(Section {
-            tube: Some(Tube {
-                outer_diameter_mm: Some(300.0),
-                inner_diameter_mm: Some(260.0),
-                ..Tube::default()
-            }),
-            youngs_modulus_gpa: Some(210.0),
-            poissons_ratio: Some(0.3),
-            ..Section::default()
-        });
-        options
-    }
+    let mut options = UrdfOptions::default();
+    options.base = Some("base".into());
+    options.tip = Some("flange".into());
+    options.loops = Some(LoopFile {
+        file: "loops.toml".into(),
+        text: LOOPS.into(),
+    });
+    options.stiffness = JointStiffness::Table {
+        file: "k.csv".into(),
+        text:
+            "name,value,unit\nturn,5e6,N m/rad\nscrew,2e8,N/m\ncrank,4e6,N m/rad\nnod,1e6,N m/rad\n"
+                .into(),
+    };
+    options.section = Some(Section {
+        tube: Some(Tube {
+            outer_diameter_mm: Some(300.0),
+            inner_diameter_mm: Some(260.0),
+            ..Tube::default()
+        }),
+        youngs_modulus_gpa: Some(210.0),
+        poissons_ratio: Some(0.3),
+        ..Section::default()
+    });
+    options
 }
 
 fn at_home(imported: &Imported, wrench: &Wrench) -> MechanismEquilibrium {
@@ -364,18 +364,16 @@ fn five_bar() -> String {
 }
 
 fn five_bar_options() -> UrdfOptions {
-    {
-        let mut options = options();
-        options.base = Some("base".into());
-        options.tip = Some("tool".into());
-        options.loops = None;
-        options.passive = vec!["left_elbow".into(), "right_elbow".into()];
-        options.home = [("one", -1.9), ("two", -1.2)]
-            .map(|(name, angle)| (name.to_owned(), (MotionKind::Revolute, angle)))
-            .into();
-        options.stiffness = JointStiffness::All(1e6);
-        options
-    }
+    let mut options = options();
+    options.base = Some("base".into());
+    options.tip = Some("tool".into());
+    options.loops = None;
+    options.passive = vec!["left_elbow".into(), "right_elbow".into()];
+    options.home = [("one", -1.9), ("two", -1.2)]
+        .map(|(name, angle)| (name.to_owned(), (MotionKind::Revolute, angle)))
+        .into();
+    options.stiffness = JointStiffness::All(1e6);
+    options
 }
 
 /// A drive that moves joints of both arms cannot be said in a model: refused with what to do.

@@ -24,12 +24,10 @@ pub fn import(urdf: &str, options: &UrdfOptions) -> Imported {
 
 /// Base and tip.
 pub fn between(base: &str, tip: &str) -> UrdfOptions {
-    {
-        let mut options = UrdfOptions::default();
-        options.base = Some(base.into());
-        options.tip = Some(tip.into());
-        options
-    }
+    let mut options = UrdfOptions::default();
+    options.base = Some(base.into());
+    options.tip = Some(tip.into());
+    options
 }
 
 /// All notices in one text.

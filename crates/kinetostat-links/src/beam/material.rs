@@ -7,7 +7,7 @@ pub struct Material {
     pub name: &'static str,
     /// Young's modulus, Pa.
     pub youngs_modulus: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, without a unit; the shear modulus follows from it.
     pub poissons_ratio: f64,
     /// Density, kg/m^3.
     pub density: f64,
@@ -76,7 +76,7 @@ pub const MATERIALS: [Material; 7] = [
     },
 ];
 
-/// The material of that name.
+/// The entry of [`MATERIALS`] with exactly this name; `None` if there is none.
 #[must_use]
 pub fn material(name: &str) -> Option<&'static Material> {
     MATERIALS.iter().find(|m| m.name == name)

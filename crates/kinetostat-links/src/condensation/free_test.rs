@@ -29,7 +29,8 @@ impl FreeTest {
         self.resistance.iter().flatten().all(|r| *r < FREE_TO)
     }
 
-    /// In words.
+    /// A sentence that says whether the body is free or along which rigid motions it is held, with the numbers of its
+    /// zero and negative modes.
     #[must_use]
     pub fn words(&self) -> String {
         let held: Vec<&str> = (0..6)

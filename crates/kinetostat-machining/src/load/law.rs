@@ -65,12 +65,12 @@ impl CornerLoad {
     }
 }
 
-/// The load of a program.
+/// The load of a program: a law of force, where it acts, and how it turns at corners.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProgramLoad {
     /// Force law.
     pub cutting: CuttingLoad,
-    /// Only where the program's z is below this, mm.
+    /// Acts only where the program's z is below this, mm; `None`: wherever the program feeds.
     pub below_z_mm: Option<f64>,
     /// Corners that turn by at most this are gentle, rad. Default 30 degrees.
     pub gentle_corner: f64,

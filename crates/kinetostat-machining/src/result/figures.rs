@@ -46,7 +46,7 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// The figures of a run.
+    /// Texts with units of the summary of `result`; those of actuators are in the order of its list of actuators.
     #[must_use]
     pub fn of(result: &RunResult) -> Self {
         let s = &result.summary;

@@ -82,7 +82,7 @@ pub struct FileRead {
 /// One actuator of the per-actuator lists.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ActuatorColumn {
-    /// Name.
+    /// Name of the actuator, as in [`kinetostat::Mechanism::actuator_names`].
     pub name: String,
     /// `mm` or `deg`: unit of corrections.
     pub motion_unit: String,

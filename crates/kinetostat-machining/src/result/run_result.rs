@@ -18,7 +18,7 @@ pub const RESULT_SCHEMA: u32 = 2;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunResult {
-    /// [`RESULT_SCHEMA`].
+    /// [`RESULT_SCHEMA`] of the program that made it.
     pub schema: u32,
     /// Version of kinetostat that made it.
     pub kinetostat_version: String,

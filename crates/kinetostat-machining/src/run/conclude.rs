@@ -26,7 +26,7 @@ use crate::warning::{Warning, WarningCode};
 pub struct Run {
     /// Summary and decimated points.
     pub result: RunResult,
-    /// All points.
+    /// All points in the order of the path; `result` holds a part of them.
     pub points: Vec<PointResult>,
     /// The compensated program, checked; not yet on disk.
     pub written: Option<Corrected>,

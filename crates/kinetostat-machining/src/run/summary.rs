@@ -175,7 +175,6 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
     points.iter().map(|p| value(p)).sum::<f64>() / points.len().max(1) as f64
 }
 
-/// Arcs at feed.
 pub(crate) fn feed_arcs(task: &Task<'_>) -> usize {
     let moves = task.path.moves.iter();
     moves

@@ -12,7 +12,7 @@ use crate::schema::{
 };
 use crate::text::hints::unknown;
 
-/// An axis of the controller.
+/// One of the values that a controller shows, and the actuator it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControllerAxis {
     /// Name as the controller shows it.

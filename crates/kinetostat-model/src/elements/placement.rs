@@ -11,7 +11,7 @@ use crate::schema::{Axis, AxisName, Placement};
 /// model says what looks like them.
 const MOST_TURNED: f64 = 100.0 * std::f64::consts::TAU;
 
-/// Unit vector of a direction.
+/// Refuses a vector without a component above 1e-12.
 pub(crate) fn direction(place: &KeyPath, axis: &Axis) -> ReadResult<Unit<Vector3<f64>>> {
     let v = match axis {
         Axis::Named(AxisName::X) => Vector3::x(),

@@ -78,13 +78,13 @@ pub struct MechanismTable {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Workspace {
-    /// One corner, mm.
+    /// One corner of the box, base axes, mm.
     pub corner_mm: Option<[f64; 3]>,
-    /// One corner, m.
+    /// One corner of the box, base axes, m.
     pub corner_m: Option<[f64; 3]>,
-    /// The opposite corner, mm.
+    /// The corner diagonally opposite to it, base axes, mm.
     pub opposite_corner_mm: Option<[f64; 3]>,
-    /// The opposite corner, m.
+    /// The corner diagonally opposite to it, base axes, m.
     pub opposite_corner_m: Option<[f64; 3]>,
     /// Where the figures come from.
     pub source: Option<String>,
@@ -100,7 +100,7 @@ pub struct PlatformTable {
     pub name: String,
     /// Pose in the base when the machine is at home.
     pub home: Placement,
-    /// Mass, kg.
+    /// Mass, kg, whose weight acts at the centre of mass; 0 if not given.
     pub mass_kg: Option<f64>,
     /// Centre of mass in the platform's frame, mm.
     pub centre_of_mass_mm: Option<[f64; 3]>,
@@ -160,7 +160,7 @@ pub struct LimbTable {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Deviation {
-    /// Limb that has it.
+    /// Name of the limb whose actual geometry differs.
     pub limb: String,
     /// Name of a rigid element, a link or (where its axis is tilted) a joint of its chain, or 'start'
     /// or 'end'.

@@ -31,17 +31,17 @@ pub struct Section {
     /// A material by name instead of moduli: steel, stainless_steel, aluminium, grey_cast_iron,
     /// ductile_cast_iron, titanium, magnesium.
     pub material: Option<String>,
-    /// Young's modulus, GPa.
+    /// Young's modulus, GPa, where no material is named.
     pub youngs_modulus_gpa: Option<f64>,
-    /// Young's modulus, MPa.
+    /// Young's modulus, MPa, where no material is named.
     pub youngs_modulus_mpa: Option<f64>,
-    /// Young's modulus, Pa.
+    /// Young's modulus, Pa, where no material is named.
     pub youngs_modulus_pa: Option<f64>,
-    /// Shear modulus, GPa.
+    /// Shear modulus, GPa, where neither a material nor Poisson's ratio is given.
     pub shear_modulus_gpa: Option<f64>,
-    /// Shear modulus, MPa.
+    /// Shear modulus, MPa, where neither a material nor Poisson's ratio is given.
     pub shear_modulus_mpa: Option<f64>,
-    /// Shear modulus, Pa.
+    /// Shear modulus, Pa, where neither a material nor Poisson's ratio is given.
     pub shear_modulus_pa: Option<f64>,
     /// Poisson's ratio, from which the shear modulus of an isotropic material follows.
     pub poissons_ratio: Option<f64>,
@@ -55,13 +55,13 @@ pub struct Section {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tube {
-    /// Outer diameter, mm.
+    /// Outer diameter of the wall, mm.
     pub outer_diameter_mm: Option<f64>,
-    /// Outer diameter, m.
+    /// Outer diameter of the wall, m.
     pub outer_diameter_m: Option<f64>,
-    /// Inner diameter, mm.
+    /// Inner diameter of the wall (the bore), mm.
     pub inner_diameter_mm: Option<f64>,
-    /// Inner diameter, m.
+    /// Inner diameter of the wall (the bore), m.
     pub inner_diameter_m: Option<f64>,
 }
 
@@ -69,9 +69,9 @@ pub struct Tube {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Round {
-    /// Diameter, mm.
+    /// Diameter of the bar, mm.
     pub diameter_mm: Option<f64>,
-    /// Diameter, m.
+    /// Diameter of the bar, m.
     pub diameter_m: Option<f64>,
 }
 
@@ -129,7 +129,7 @@ pub struct Tip {
     pub round: Option<Round>,
     /// Solid rectangle.
     pub rectangle: Option<Rectangle>,
-    /// I.
+    /// I with its web along z and its flanges along y.
     pub i_beam: Option<IBeam>,
     /// Rectangular tube.
     pub hollow_box: Option<HollowBox>,
@@ -150,9 +150,9 @@ pub enum ShearWord {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Values {
-    /// Area, mm^2.
+    /// Area of the cross-section A (stiffness against stretching is E A), mm^2.
     pub area_mm2: Option<f64>,
-    /// Area, m^2.
+    /// Area of the cross-section A (stiffness against stretching is E A), m^2.
     pub area_m2: Option<f64>,
     /// Second moment of area about y (bending that moves the tip along z), mm^4.
     pub second_moment_y_mm4: Option<f64>,
@@ -162,9 +162,9 @@ pub struct Values {
     pub second_moment_z_mm4: Option<f64>,
     /// Second moment of area about z (bending that moves the tip along y), m^4.
     pub second_moment_z_m4: Option<f64>,
-    /// Torsion constant, mm^4.
+    /// Torsion constant J (stiffness against twisting is G J), mm^4.
     pub torsion_constant_mm4: Option<f64>,
-    /// Torsion constant, m^4.
+    /// Torsion constant J (stiffness against twisting is G J), m^4.
     pub torsion_constant_m4: Option<f64>,
 }
 

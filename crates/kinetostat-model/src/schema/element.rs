@@ -66,13 +66,13 @@ pub struct ActuatorElement {
     pub lead_m_per_turn: Option<f64>,
     /// true: the drive does not give way (then no stiffness is written).
     pub rigid_drive: Option<bool>,
-    /// Stiffness of a sliding drive, N/m.
+    /// Stiffness of a sliding drive along its axis, N/m.
     pub stiffness_n_per_m: Option<f64>,
-    /// Stiffness of a sliding drive, N/mm.
+    /// Stiffness of a sliding drive along its axis, N/mm.
     pub stiffness_n_per_mm: Option<f64>,
-    /// Stiffness of a turning drive, N m/rad.
+    /// Stiffness of a turning drive about its axis, N m/rad.
     pub stiffness_n_m_per_rad: Option<f64>,
-    /// Stiffness of a turning drive, N mm/rad.
+    /// Stiffness of a turning drive about its axis, N mm/rad.
     pub stiffness_n_mm_per_rad: Option<f64>,
     /// Largest force of a sliding drive, N: programs that need more are refused.
     pub rated_force_n: Option<f64>,
@@ -108,7 +108,7 @@ pub struct ActuatorElement {
     pub assumption: Option<String>,
 }
 
-/// Kind of an actuator.
+/// Motion that an actuator commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ActuatorKind {
@@ -166,13 +166,13 @@ pub struct SpringElement {
     pub name: Option<String>,
     /// Direction along which it slides or about which it turns.
     pub axis: Axis,
-    /// Stiffness along the axis, N/m.
+    /// Stiffness of a spring that slides, along its axis, N/m.
     pub stiffness_n_per_m: Option<f64>,
-    /// Stiffness along the axis, N/mm.
+    /// Stiffness of a spring that slides, along its axis, N/mm.
     pub stiffness_n_per_mm: Option<f64>,
-    /// Stiffness about the axis, N m/rad.
+    /// Stiffness of a spring that turns, about its axis, N m/rad.
     pub stiffness_n_m_per_rad: Option<f64>,
-    /// Stiffness about the axis, N mm/rad.
+    /// Stiffness of a spring that turns, about its axis, N mm/rad.
     pub stiffness_n_mm_per_rad: Option<f64>,
     /// Where its stiffness changes, and what it is beyond: the one written here is that at rest.
     pub knee: Option<Knee>,
@@ -210,11 +210,11 @@ pub struct Spring6Element {
     pub name: Option<String>,
     /// Translations at rest, mm (a preload where they are not zero).
     pub rest_translation_mm: Option<[f64; 3]>,
-    /// Translations at rest, m.
+    /// Translations at rest, m (a preload where they are not zero).
     pub rest_translation_m: Option<[f64; 3]>,
-    /// Rotations at rest, degrees.
+    /// Rotations at rest, degrees (a preload where they are not zero).
     pub rest_rotation_deg: Option<[f64; 3]>,
-    /// Rotations at rest, rad.
+    /// Rotations at rest, rad (a preload where they are not zero).
     pub rest_rotation_rad: Option<[f64; 3]>,
     /// Where the figures come from.
     pub source: Option<String>,
@@ -335,7 +335,7 @@ pub struct NodeElement {
 pub struct BodyElement {
     /// Name, unique among the chain's nodes and bodies.
     pub body: String,
-    /// Mass, kg.
+    /// Mass, kg, whose weight acts at the centre of mass.
     pub mass_kg: f64,
     /// Centre of mass in the frame reached so far, mm.
     pub centre_of_mass_mm: Option<[f64; 3]>,

@@ -13,7 +13,7 @@ pub enum JointKind {
     Revolute,
 }
 
-/// Kind of a passive joint.
+/// Motions that a passive joint leaves free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PassiveKind {

@@ -71,7 +71,7 @@ impl End for Anchor {
     }
 }
 
-/// A point of a platform.
+/// A point fixed to a platform or to the base.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlatformPoint {
@@ -129,7 +129,7 @@ pub struct PlatformWrench {
     pub position_mm: Option<[f64; 3]>,
     /// Point at which the force acts, in the platform's frame, m.
     pub position_m: Option<[f64; 3]>,
-    /// Force, N.
+    /// Force, N, in the axes that `axes` names.
     pub force_n: Option<[f64; 3]>,
     /// Moment about that point, N m.
     pub moment_n_m: Option<[f64; 3]>,
@@ -153,7 +153,7 @@ impl PlatformLoadTable {
         }
     }
 
-    /// Its name.
+    /// Name of the load: what is written at its word (`wrench`, `spring` and so on).
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -296,9 +296,9 @@ pub struct SpringLoad<A = Anchor> {
     pub from: A,
     /// The other end.
     pub to: A,
-    /// Stiffness, N/m.
+    /// Pull per length beyond the free length, N/m.
     pub stiffness_n_per_m: Option<f64>,
-    /// Stiffness, N/mm.
+    /// Pull per length beyond the free length, N/mm.
     pub stiffness_n_per_mm: Option<f64>,
     /// Length at which it pulls with the preload (without force if none is given), mm. 0 is allowed:
     /// the ideal compensator.
@@ -372,7 +372,7 @@ pub struct CounterweightLoad {
     pub counterweight: String,
     /// Where its centre is.
     pub at: Anchor,
-    /// Mass, kg.
+    /// Mass, kg, whose weight acts at its centre.
     pub mass_kg: f64,
     /// Where the figures come from.
     pub source: Option<String>,
@@ -393,7 +393,7 @@ impl LoadTable {
         }
     }
 
-    /// Its name.
+    /// Name of the load: what is written at its word (`wrench`, `spring` and so on).
     #[must_use]
     pub fn name(&self) -> &str {
         match self {

@@ -25,11 +25,11 @@ const BATCH: usize = 8192;
 /// The place of a program that is farthest from where path and field want it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Farthest {
-    /// The distance, in mm.
+    /// Its distance from where path and field want it, in mm.
     pub distance_mm: f64,
     /// Line of the input; none where nothing is off.
     pub line: Option<usize>,
-    /// Line of the output.
+    /// Line of the output, counted from 1; 0 where nothing is off.
     pub output_line: usize,
     /// The place on the path, in mm.
     pub position_mm: [f64; 3],

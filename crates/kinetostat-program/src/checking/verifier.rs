@@ -23,7 +23,7 @@ pub struct Verification {
     pub largest_speed_error: f64,
     /// Pieces whose feed was limited ([`Piece::feed_limited`]): they are slower along the part.
     pub feed_limited_pieces: usize,
-    /// Longest line, in bytes.
+    /// Bytes of the longest line of the output, without its line ending.
     pub longest_line_bytes: usize,
 }
 

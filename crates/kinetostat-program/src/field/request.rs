@@ -42,7 +42,7 @@ pub struct FieldFailure {
 }
 
 impl FieldFailure {
-    /// A failure with this message.
+    /// A failure that says what is wrong and what to do; the caller adds line and point.
     pub fn new(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -53,7 +53,7 @@ impl FieldFailure {
 /// A field of corrections: what to add to the position so that the tool comes to be where the
 /// program wants it.
 ///
-/// The writer asks in batches of some thousand points in the order of the path; an implementor may
+/// The writer evaluates it in batches of some thousand points in the order of the path; an implementor may
 /// work on them in parallel. The answer has one entry for each request, in order. Equal requests must
 /// get equal answers, or the output would not be reproducible.
 pub trait CorrectionField: Sync {

@@ -23,7 +23,7 @@ pub struct Arc {
     pub second: Vector3<f64>,
     /// Unit vector of the axis, `first` cross `second`.
     pub axis: Vector3<f64>,
-    /// Angle of the start.
+    /// Angle of the start, from `first` about `axis`.
     pub start_angle: f64,
     /// Angle from start to end, positive about `axis` (G3), negative for G2.
     pub sweep: f64,

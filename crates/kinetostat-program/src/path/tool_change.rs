@@ -5,6 +5,6 @@
 pub struct ToolChange {
     /// Line of the block, counted from 1.
     pub line: usize,
-    /// Number of the tool.
+    /// Number of the tool that is used from this block on.
     pub number: u32,
 }

@@ -33,7 +33,7 @@ pub(crate) struct ArcFrame {
     pub tolerance_mm: f64,
 }
 
-/// Reads the arc of a block.
+/// The arc of a block with R or with centre words.
 pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramError> {
     // Also where the P is meant for another code of the block: LinuxCNC gives it to both.
     if let Some(word) = block.words.iter().find(|word| word.letter == b'P') {

@@ -19,7 +19,7 @@ struct Lines {
 }
 
 impl Repeated {
-    /// Notes a line for a text.
+    /// Counts a line for a text; only the first [`LINES_NAMED`] of them are kept.
     pub(crate) fn note(&mut self, line: usize, text: &str) {
         match self.all.iter_mut().find(|known| known.text == text) {
             Some(known) => {

@@ -27,7 +27,7 @@ pub struct Accounting {
     pub bytes_in: usize,
     /// Bytes of the output.
     pub bytes_out: usize,
-    /// Lines of the header.
+    /// Lines of the header in the output; 0 where none is written.
     pub header_lines: usize,
     /// How often the field was evaluated.
     pub evaluations: usize,

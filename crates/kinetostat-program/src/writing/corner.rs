@@ -28,7 +28,7 @@ struct Stretch {
     depth: u32,
 }
 
-/// Finds all jumps of the nodes, marks them there, and asks for the corrections inside.
+/// Finds all jumps of the nodes, marks them there, and evaluates the corrections inside.
 pub(crate) fn follow_turns(
     queries: &mut FieldQueries<'_>,
     nodes: &mut [Node],
@@ -88,7 +88,7 @@ pub(crate) fn follow_turns(
                 });
             }
         }
-        let answers = queries.ask(&requests)?;
+        let answers = queries.evaluate(&requests)?;
         let mut next = Vec::new();
         for (stretch, answers) in open.into_iter().zip(answers.chunks_exact(2)) {
             let (middle, beside) = (answers[0], answers[1]);

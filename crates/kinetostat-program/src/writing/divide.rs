@@ -297,7 +297,7 @@ fn first_round(
             });
         }
     }
-    let mut answers = queries.ask(&requests)?.into_iter();
+    let mut answers = queries.evaluate(&requests)?.into_iter();
     let mut answer = || answers.next().unwrap_or_default();
     let mut open = Vec::new();
     // What holds before a move: the last answer of the one before it.
@@ -351,7 +351,7 @@ fn answer(
         .filter(|stretch| stretch.middle.is_none())
         .map(|stretch| queries.request(stretch.move_index, stretch.at(0.5)))
         .collect();
-    let mut answers = queries.ask(&requests)?.into_iter();
+    let mut answers = queries.evaluate(&requests)?.into_iter();
     for stretch in open.iter_mut().filter(|stretch| stretch.middle.is_none()) {
         stretch.middle = answers.next();
     }
@@ -369,7 +369,7 @@ fn answer(
                 .push(queries.request(stretch.move_index, stretch.at(stretch.irregular_part())));
         }
     }
-    let mut answers = queries.ask(&requests)?.into_iter();
+    let mut answers = queries.evaluate(&requests)?.into_iter();
     let mut answer = || answers.next().unwrap_or_default();
     for i in wants {
         let stretch = &mut open[i];

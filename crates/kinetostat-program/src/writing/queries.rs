@@ -33,7 +33,7 @@ impl FieldQueries<'_> {
         }
     }
 
-    pub fn ask(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
+    pub fn evaluate(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
         let mut values = Vec::with_capacity(requests.len());
         let total = self.answered + requests.len();
         for batch in requests.chunks(BATCH) {

@@ -11,6 +11,7 @@
 mod arcs;
 mod code_programs;
 mod codes;
+mod divided_blocks;
 mod internal;
 mod map;
 mod properties;

@@ -43,11 +43,9 @@ fn program(name: &str) -> Option<Vec<u8>> {
 }
 
 fn millimetres() -> ReadOptions {
-    {
-        let mut reading = ReadOptions::default();
-        reading.units = Some(Units::Millimetres);
-        reading
-    }
+    let mut reading = ReadOptions::default();
+    reading.units = Some(Units::Millimetres);
+    reading
 }
 
 /// A smooth field of some tenths of a millimetre.

@@ -25,7 +25,7 @@ const STYLE: &str = concat!(
 /// Colours of lines, distinct also without colour vision; further lines begin again.
 const COLOURS: [&str; 6] = ["c0", "c1", "c2", "c3", "c4", "c5"];
 
-/// A plot.
+/// Curves in one frame with two axes, and named points on them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plot {
     /// What is shown, above the frame.

@@ -34,7 +34,7 @@ pub(crate) struct Names {
 #[derive(Clone, Copy)]
 pub(crate) struct Beside {
     pub(crate) at: Pixel,
-    /// Radius of what is there.
+    /// Radius of the symbol at `at`, pixels.
     pub(crate) radius: f64,
     /// Unit vector to where the name stands best.
     pub(crate) toward: Pixel,

@@ -173,7 +173,7 @@ impl Section {
     }
 }
 
-/// From half a step before the first place to half a step behind the last.
+/// From half a step before the first place to half a step after the last.
 fn edges(places: &[f64]) -> Option<Span> {
     let (first, last) = (*places.first()?, *places.last()?);
     let half = 0.5 * (last - first) / (places.len() as f64 - 1.0);

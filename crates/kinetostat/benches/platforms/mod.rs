@@ -3,16 +3,16 @@
 use kinetostat::{ActuatorSpec, Chain, Limb, Mechanism, MotionKind, Platform, Pose, Result};
 use nalgebra::{Point3, Vector3, vector};
 
-/// A leg from a point of one platform to a point of another, `way` away: with a drive or `rigid`.
+/// A leg from a point of one platform to a point of another, `span` away: with a drive or `rigid`.
 pub fn leg(
     name: &str,
     from: usize,
     to: usize,
     [below, above]: [Vector3<f64>; 2],
-    way: &Pose,
+    span: &Pose,
     rigid: bool,
 ) -> Result<Limb> {
-    let bar = (way * Point3::from(above)).coords - below;
+    let bar = (span * Point3::from(above)).coords - below;
     let unit = bar.normalize();
     let mut chain = Chain::builder(name)
         .translation(below)
@@ -65,25 +65,25 @@ pub fn lattice(rows: usize, columns: usize, rigid: bool) -> Result<Mechanism> {
         };
         for i in 0..6 {
             let [below, above] = anchors(i, [0.25, 0.2]);
-            let way = foot.inverse() * here;
+            let span = foot.inverse() * here;
             limbs.push(leg(
                 &format!("{k}.{i}"),
                 from,
                 own,
                 [below + aside, above],
-                &way,
+                &span,
                 false,
             )?);
         }
         if column > 0 {
-            let way = home(row + 1, column - 1).inverse() * here;
+            let span = home(row + 1, column - 1).inverse() * here;
             let ends = [vector![0.2, 0.05, 0.02], vector![-0.2, 0.0, -0.03]];
             limbs.push(leg(
                 &format!("{k}.side"),
                 own - 1,
                 own,
                 ends,
-                &way,
+                &span,
                 rigid && k % 2 == 1,
             )?);
         }

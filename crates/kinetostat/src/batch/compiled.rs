@@ -6,7 +6,7 @@ use crate::batch::buffers::Buffers;
 use crate::batch::machine::group::Places;
 use crate::batch::numbers::instruction_set::has_kernels;
 use crate::batch::plan::steps::Plan;
-use crate::batch::run::Work;
+use crate::batch::run::Job;
 use crate::batch::status::{Engine, NoKernel, Status};
 use crate::batch::table::BLOCK;
 use crate::error::{Error, Result};
@@ -142,11 +142,11 @@ impl Batch {
     }
 }
 
-pub(crate) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
+pub(crate) fn in_parallel<'a>(jobs: impl Iterator<Item = Job<'a>>, count: usize) {
     if count <= BLOCKS * BLOCK {
-        works.for_each(Work::run);
+        jobs.for_each(Job::run);
     } else {
-        parallel::map(works.collect(), Work::run);
+        parallel::map(jobs.collect(), Job::run);
     }
 }
 

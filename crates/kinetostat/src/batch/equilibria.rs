@@ -4,7 +4,7 @@ use crate::batch::compiled::{BLOCKS, Batch, in_parallel, left};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::Places;
 use crate::batch::plan::steps::Plan;
-use crate::batch::run::{Answers, Work};
+use crate::batch::run::{Answers, Job};
 use crate::batch::status::{Engine, Status};
 use crate::batch::table::{BLOCK, Table};
 use crate::chain::system::System;
@@ -371,7 +371,7 @@ impl Batch {
         ]
         .map(|table| table.parts(BLOCKS));
         let parts = out.status.chunks_mut(BLOCK * BLOCKS).enumerate();
-        let works = parts.map(|(k, status)| {
+        let jobs = parts.map(|(k, status)| {
             let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
             let [
                 tool_out,
@@ -382,7 +382,7 @@ impl Batch {
                 stability,
                 targets,
             ] = next;
-            Work::Loaded {
+            Job::Loaded {
                 nominal,
                 actual,
                 body: (tool.centre_of_mass.into(), tool.mass),
@@ -404,7 +404,7 @@ impl Batch {
                 },
             }
         });
-        in_parallel(works, places.len());
+        in_parallel(jobs, places.len());
     }
 
     fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {

@@ -9,7 +9,7 @@
 //!
 //! The answer of a posture depends on nothing but that posture: not on its neighbours, the number of
 //! threads or the width of the vectors. Along a path ([`AlongPath`]) it depends on the places before it in the list that
-//! is asked at once, too, far below what is written of it.
+//! is computed at once, too, far below what is written of it.
 
 mod buffers;
 mod compiled;

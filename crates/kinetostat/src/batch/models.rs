@@ -5,11 +5,11 @@ use crate::error::Result;
 use crate::model::mechanism::Mechanism;
 use crate::parallel;
 
-/// Asks `count` machines the same thing: `machine(i)` makes the i-th, which is compiled, asked and
-/// dropped, so that memory does not grow with their number. Machines are spread over the threads,
-/// the postures that each is asked about over the lanes. Answers are in order, and one machine's
+/// Computes the same of `count` machines: `machine(i)` makes the i-th, which is compiled, given to
+/// `compute` and dropped, so that memory does not grow with their number. Machines are spread over the
+/// threads, the postures of each over the lanes. Answers are in order, and one machine's
 /// answer depends on no other machine and not on the number of threads; a machine that cannot be
-/// made or asked leaves the others alone.
+/// made or computed leaves the others alone.
 ///
 /// ```
 /// use kinetostat::batch::over_machines;
@@ -37,10 +37,10 @@ use crate::parallel;
 pub fn over_machines<T: Send>(
     count: usize,
     machine: impl Fn(usize) -> Result<Mechanism> + Sync,
-    ask: impl Fn(usize, &Batch) -> Result<T> + Sync,
+    compute: impl Fn(usize, &Batch) -> Result<T> + Sync,
 ) -> Vec<Result<T>> {
     parallel::map((0..count).collect(), |i| {
         let own = machine(i)?;
-        ask(i, &Batch::new(&own))
+        compute(i, &Batch::new(&own))
     })
 }

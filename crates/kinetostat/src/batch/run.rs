@@ -21,7 +21,7 @@ use crate::batch::table::BLOCK;
 use crate::spatial::{Directions, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
-pub(crate) enum Work<'a> {
+pub(crate) enum Job<'a> {
     Unloaded {
         plans: &'a [Plan],
         buffers: &'a Buffers,
@@ -61,7 +61,7 @@ pub(crate) struct Answers<'a> {
     pub status: &'a mut [Status],
 }
 
-impl Work<'_> {
+impl Job<'_> {
     /// In the widest registers that the postures fill at least by half.
     pub fn run(self) {
         InstructionSet::of(self.len()).run(self);
@@ -75,7 +75,7 @@ impl Work<'_> {
     }
 }
 
-impl WithSimd for Work<'_> {
+impl WithSimd for Job<'_> {
     type Output = ();
 
     #[inline(always)]

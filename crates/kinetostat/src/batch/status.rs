@@ -58,9 +58,9 @@ pub enum NoKernel {
     /// A spring is not like those that kernels know.
     #[error("'{limb}': '{spring}' {what}")]
     Spring {
-        /// The limb.
+        /// Name of the limb that has the spring.
         limb: String,
-        /// The spring.
+        /// Name of the spring in its chain.
         spring: String,
         /// What it is or does.
         what: &'static str,

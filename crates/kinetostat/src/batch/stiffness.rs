@@ -2,7 +2,7 @@
 
 use crate::batch::compiled::{BLOCKS, Batch, in_parallel, left};
 use crate::batch::machine::group::Places;
-use crate::batch::run::Work;
+use crate::batch::run::Job;
 use crate::batch::status::{Engine, Status};
 use crate::batch::table::{BLOCK, Table};
 use crate::error::Result;
@@ -19,7 +19,7 @@ pub struct BatchStiffness {
     /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].
     pub stiffness: Table,
     /// Jacobian of a serial machine, 6 x n row by row: twist of the tool (m, rad, base axes, at its
-    /// origin) per unit of every coordinate. Empty unless asked for.
+    /// origin) per unit of every coordinate. Empty unless requested.
     pub jacobian: Table,
     /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`]. Empty
     /// where they were given.
@@ -120,13 +120,13 @@ impl Batch {
         out.status.resize(count, Status::Unsolved);
         if let Ok(nominal) = &self.nominal {
             let parts = out.stiffness.parts(BLOCKS);
-            let works = parts
+            let jobs = parts
                 .zip(out.jacobian.parts(BLOCKS))
                 .zip(out.commands.parts(BLOCKS))
                 .zip(out.status.chunks_mut(BLOCK * BLOCKS))
                 .enumerate()
                 .map(
-                    |(k, (((stiffness, jacobian), commands), status))| Work::Unloaded {
+                    |(k, (((stiffness, jacobian), commands), status))| Job::Unloaded {
                         plans: nominal,
                         buffers: &self.buffers,
                         places: places.from(k * BLOCKS * BLOCK),
@@ -136,7 +136,7 @@ impl Batch {
                         status,
                     },
                 );
-            in_parallel(works, count);
+            in_parallel(jobs, count);
         }
         let scalar = |i: usize| {
             let posture = self.posture(places, i)?;

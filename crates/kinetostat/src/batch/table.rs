@@ -87,7 +87,7 @@ impl Table {
         (posture / BLOCK) * BLOCK * self.width + BLOCK * number + posture % BLOCK
     }
 
-    /// Sets the numbers of one posture.
+    /// Sets column `k` of one posture to `number(k)`.
     pub(crate) fn set_row(&mut self, posture: usize, number: impl Fn(usize) -> f64) {
         for k in 0..self.width {
             let at = self.place(posture, k);

@@ -35,7 +35,7 @@ pub struct Equilibrium {
     pub wrench: Wrench,
     /// Pose of the end, base from tip.
     pub tip: Pose,
-    /// Poses of all nodes.
+    /// Poses of all nodes, base from node, in the chain's order; the last one is that of the end.
     pub nodes: Vec<Pose>,
     /// Torque of every coordinate's spring, N or N m (zero for passive joints).
     pub spring_torques: Vec<f64>,

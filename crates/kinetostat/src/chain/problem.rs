@@ -92,7 +92,7 @@ impl EndCondition {
 /// Everything that decides the equilibrium of one chain.
 #[derive(Clone, Debug)]
 pub struct ChainProblem<'a> {
-    /// The chain.
+    /// Chain with its springs and masses; what is commanded, what acts and what is prescribed follows.
     pub chain: &'a Chain,
     /// Pose of its base in the outer base.
     pub base: Pose,
@@ -103,7 +103,7 @@ pub struct ChainProblem<'a> {
     pub posture: Vec<f64>,
     /// Loads on nodes.
     pub loads: Vec<Load>,
-    /// Condition at the end.
+    /// What is prescribed at the end in each of six directions, its motion or its wrench.
     pub end: EndCondition,
 }
 

@@ -66,7 +66,7 @@ impl ChainStiffness {
         self.participation_named(chain, "", twist)
     }
 
-    /// With a prefix to all names.
+    /// As [`Self::participation`], with `prefix` in front of every name.
     pub(crate) fn participation_named(
         &self,
         chain: &Chain,

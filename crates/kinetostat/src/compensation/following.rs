@@ -112,8 +112,8 @@ fn corrected<T>(
         let distance = &free * (free.transpose() * distance);
         let before = left;
         left = distance.norm();
-        let settled = left < 1e-11 * length && left > 0.5 * before;
-        if left < 1e-13 * length || settled || (step == CORRECTIONS && left < 1e-9 * length) {
+        let converged = left < 1e-11 * length && left > 0.5 * before;
+        if left < 1e-13 * length || converged || (step == CORRECTIONS && left < 1e-9 * length) {
             let residual = Residual {
                 iterations: spent,
                 ..residual

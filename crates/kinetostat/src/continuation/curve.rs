@@ -43,7 +43,7 @@ pub enum BranchEnd {
     Found,
 }
 
-/// An equilibrium on a curve.
+/// An equilibrium on a curve, with the slope of the curve there and its stability under either control.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CurvePoint<E: CurveEquilibrium = Equilibrium> {
@@ -140,9 +140,9 @@ impl SpecialKind {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Special<E: CurveEquilibrium = Equilibrium> {
-    /// Which kind.
+    /// Limit point, bifurcation or change of stability.
     pub kind: SpecialKind,
-    /// The equilibrium there.
+    /// Point of the curve at which it lies, within `accuracy`.
     pub point: CurvePoint<E>,
     /// Motion of all coordinates (m, rad; largest component 1): of the critical mode at a
     /// bifurcation, along the curve at a limit point.
@@ -180,7 +180,7 @@ pub struct Branch<E: CurveEquilibrium = Equilibrium> {
 pub struct Curves<'a> {
     /// The problem at parameter 0.
     pub problem: ChainProblem<'a>,
-    /// What grows.
+    /// Displacement of the end, or load pattern, that grows along the curve.
     pub parameter: Parameter,
     /// The start's own branch first.
     pub branches: Vec<Branch>,

@@ -12,7 +12,7 @@ pub struct LoadPattern {
     /// Wrench on the end, about its origin, base axes (N, N m); only directions in which the end
     /// condition prescribes the wrench.
     pub end: Wrench,
-    /// Loads on the nodes.
+    /// Loads on the nodes at factor 1.
     pub loads: Vec<Load>,
 }
 

@@ -33,14 +33,14 @@ use crate::spatial::Wrench;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CriticalPoint {
-    /// Load factor.
+    /// Load factor, 1 for the pattern as given.
     pub factor: f64,
     /// What happens there; `None` where the held shape alone becomes critical, which is no special
     /// point of the path.
     pub kind: Option<SpecialKind>,
     /// Motion of all coordinates in the critical mode (m, rad), largest component 1.
     pub mode: Vec<f64>,
-    /// The equilibrium there.
+    /// Equilibrium under `factor` times the pattern.
     pub equilibrium: Equilibrium,
 }
 

@@ -4,7 +4,7 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::equilibrium::search::Coverage;
 
-/// One equilibrium among all.
+/// An equilibrium that a search found, with its stability and how many starts ended there.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct FoundEquilibrium<E: CurveEquilibrium = Equilibrium> {

@@ -55,7 +55,7 @@ pub(crate) trait Searched {
 
 /// How an iteration ended.
 pub(crate) enum SearchOutcome<C> {
-    /// At an equilibrium.
+    /// At an equilibrium that counts.
     Equilibrium(C),
     /// At an equilibrium outside of what counts.
     Outside,

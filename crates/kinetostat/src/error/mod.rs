@@ -33,7 +33,7 @@ pub enum Error {
         /// Length found.
         found: usize,
     },
-    /// A name is unknown.
+    /// No node, limb, platform or other thing has the name that was requested.
     #[error("{place}: there is no {what} named '{name}' (there are: {known})")]
     UnknownName {
         /// Chain or mechanism.
@@ -88,7 +88,7 @@ pub enum Error {
         place: Place,
         /// Distance of the nearest pose found, m.
         distance_m: f64,
-        /// Its angle, rad.
+        /// Angle between the nearest pose found and the target, rad.
         angle_rad: f64,
         /// Nearest pose found, base axes: of the limb's tip, or of the tool for a mechanism.
         nearest: Box<Pose>,
@@ -103,7 +103,7 @@ pub enum Error {
         place: Place,
         /// Share of the way from home's commands on which the loops close, 0 to 1.
         share: f64,
-        /// Largest gap of a limb just behind it, m.
+        /// Largest closure residual of a limb just beyond that share, m.
         gap_m: f64,
         /// Its angle, rad.
         gap_rad: f64,
@@ -132,7 +132,7 @@ pub enum Error {
         place: Place,
         /// Which direction.
         reason: String,
-        /// The wrench.
+        /// Wrench that pushes there, N and N m.
         wrench: Box<Wrench>,
     },
 }

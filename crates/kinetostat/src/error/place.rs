@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Whole {
-    /// A mechanism.
+    /// A mechanism, by its name.
     Mechanism(String),
     /// A chain by itself.
     Chain(String),
@@ -74,19 +74,19 @@ impl Place {
         self.0.part.as_ref()
     }
 
-    /// A mechanism.
+    /// A mechanism of this name, no part of it at fault.
     #[must_use]
     pub fn mechanism(name: impl Into<String>) -> Self {
         Self::of(Whole::Mechanism(name.into()))
     }
 
-    /// A chain.
+    /// A chain by itself, no part of it at fault.
     #[must_use]
     pub fn chain(name: impl Into<String>) -> Self {
         Self::of(Whole::Chain(name.into()))
     }
 
-    /// A chain as a limb.
+    /// A chain as a limb of a mechanism, no part of it at fault.
     #[must_use]
     pub fn limb(name: impl Into<String>) -> Self {
         Self::of(Whole::Limb(name.into()))

@@ -127,11 +127,11 @@ pub fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Inertia {
-    /// Positive eigenvalues.
+    /// Number of eigenvalues above zero by more than rounding.
     pub positive: usize,
-    /// Negative eigenvalues.
+    /// Number of eigenvalues below zero by more than rounding.
     pub negative: usize,
-    /// Eigenvalues that are zero within rounding.
+    /// Number of eigenvalues that are zero within rounding.
     pub zero: usize,
 }
 

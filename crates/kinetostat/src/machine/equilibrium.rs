@@ -51,7 +51,7 @@ pub struct PlatformStability {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct LimbEquilibrium {
-    /// Name of the limb.
+    /// Name of the limb, as in the model.
     pub name: String,
     /// Wrench of the platform on the limb's tip, about it, base axes.
     pub wrench: Wrench,
@@ -85,11 +85,11 @@ impl LimbEquilibrium {
     }
 }
 
-/// A mechanism in equilibrium.
+/// A mechanism in equilibrium: tool, limbs and platforms, with their wrenches, stiffness and stability.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MechanismEquilibrium {
-    /// Pose of the tool platform.
+    /// Pose of the tool platform, base from tool.
     pub tool: Pose,
     /// From the nominal target to that pose.
     pub displacement: Twist,
@@ -105,7 +105,7 @@ pub struct MechanismEquilibrium {
     pub conservative: bool,
     /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
     pub stiffness: CartesianStiffness,
-    /// Its principal directions.
+    /// Principal directions of that stiffness, rotations referred to the natural length.
     pub directions: Vec<Direction>,
     /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
     pub length: f64,

@@ -216,7 +216,7 @@ impl Mechanism {
             None => Ok(()),
             Some(value) => Err(Error::NotFinite {
                 place: self.place(),
-                what: "the place that is asked for".into(),
+                what: "the place that is requested".into(),
                 value,
             }),
         }

@@ -133,7 +133,7 @@ impl Mechanism {
 }
 
 impl Posture {
-    /// The mechanism.
+    /// The mechanism of which this is a posture, nominal and as built.
     #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
         &self.mechanism
@@ -145,7 +145,7 @@ impl Posture {
         &self.target
     }
 
-    /// Joints of every limb.
+    /// Commands and coordinates (m, rad) of every limb, in the mechanism's order.
     #[must_use]
     pub fn limbs(&self) -> &[LimbPosture] {
         &self.limbs

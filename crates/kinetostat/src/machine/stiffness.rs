@@ -80,7 +80,7 @@ impl Posture {
 pub struct UnloadedStiffness {
     /// `K_C` of the platform at the tool's origin, base axes.
     pub cartesian: CartesianStiffness,
-    /// Its principal directions.
+    /// Principal directions of that stiffness, rotations referred to the natural length.
     pub directions: Vec<Direction>,
     /// `K_C^(i)` of every limb at its tip.
     pub limbs: Vec<ChainStiffness>,

@@ -46,7 +46,7 @@ pub struct Motion {
 pub enum Element {
     /// Constant offset.
     Rigid(Pose),
-    /// Motion.
+    /// Motion along or about an axis, by a command, a coordinate or both.
     Motion(Motion),
     /// A named place (index into [`Chain::nodes`]).
     Node(usize),
@@ -63,7 +63,7 @@ pub enum Role {
     Passive,
 }
 
-/// A coordinate of the chain.
+/// A degree of freedom that no command moves: of a spring or of a passive joint.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Coordinate {
@@ -97,7 +97,7 @@ pub struct Actuator {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Body {
-    /// Name.
+    /// Name; the node at the centre of mass has the same.
     pub name: String,
     /// Node whose origin is the centre of mass.
     pub node: usize,
@@ -140,7 +140,7 @@ impl Chain {
         Place::chain(self.name.as_str())
     }
 
-    /// Name.
+    /// Name of the chain, as error messages show it.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -164,7 +164,7 @@ impl Chain {
         &self.actuators
     }
 
-    /// Spring blocks.
+    /// Spring blocks in order of appearance.
     #[must_use]
     pub fn springs(&self) -> &[SpringBlock] {
         &self.springs
@@ -176,7 +176,7 @@ impl Chain {
         &self.nodes
     }
 
-    /// Masses.
+    /// Bodies with mass, in order of appearance.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies

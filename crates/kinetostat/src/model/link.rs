@@ -72,7 +72,7 @@ pub enum LinkElasticity {
 pub struct LinkSpec {
     /// Section or matrix.
     pub elasticity: LinkElasticity,
-    /// Length, m.
+    /// Length of the whole link along local x, m.
     pub length: f64,
     /// Number of equal segments. One is enough far below the Euler load, 8 give buckling loads to
     /// 0.1 %, 32 give deflections as large as the link.

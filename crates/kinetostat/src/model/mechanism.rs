@@ -191,7 +191,7 @@ impl Mechanism {
         builder.limb(Limb::between(name, 0, tool, chain)).build()
     }
 
-    /// Name.
+    /// Name of the mechanism, as error messages show it.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.parts.name
@@ -203,7 +203,7 @@ impl Mechanism {
         &self.parts.platforms
     }
 
-    /// Limbs.
+    /// Limbs in the order in which they were added.
     #[must_use]
     pub fn limbs(&self) -> &[Limb] {
         &self.parts.limbs

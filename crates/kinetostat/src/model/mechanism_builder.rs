@@ -14,7 +14,7 @@ use crate::model::mechanism::{Limb, Mechanism, MechanismParts, Platform};
 use crate::model::mechanism_check::{check_platform, check_platform_load};
 use crate::spatial::Pose;
 
-/// Builds a [`Mechanism`].
+/// Builds a [`Mechanism`] from platforms, the limbs between them, and loads.
 #[derive(Clone, Debug)]
 pub struct MechanismBuilder {
     mechanism: MechanismParts,
@@ -30,7 +30,7 @@ impl MechanismBuilder {
         self.mechanism.tool
     }
 
-    /// Adds a limb.
+    /// Adds a limb after those added before; the mechanism keeps their order.
     #[must_use]
     pub fn limb(mut self, limb: Limb) -> Self {
         self.mechanism.limbs.push(limb);

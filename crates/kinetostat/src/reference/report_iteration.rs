@@ -74,9 +74,9 @@ impl Default for IterationSettings {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ChainState {
-    /// Coordinates in the chain's order.
+    /// Coordinates, m or rad, in the chain's order.
     pub coordinates: Vec<f64>,
-    /// Wrench on the end.
+    /// Wrench on the end, N and N m, about its origin, base axes.
     pub wrench: Wrench,
 }
 
@@ -132,11 +132,11 @@ impl ReportIteration {
         let (n, expected) = (self.steps, rate(self.expected_rate));
         match &self.outcome {
             IterationOutcome::Converged => format!(
-                "settled in {n} steps; each step left {} of the error (expected {expected})",
+                "converged in {n} steps; each step left {} of the error (expected {expected})",
                 rate(self.observed_rate)
             ),
             IterationOutcome::Leaves => format!(
-                "left the equilibrium nearest to the start, where each step multiplies the error by {}, and settled on another one after {n} steps (rate {}, expected {expected})",
+                "left the equilibrium nearest to the start, where each step multiplies the error by {}, and converged to another one after {n} steps (rate {}, expected {expected})",
                 rate(self.rate_at_start),
                 rate(self.observed_rate)
             ),

@@ -26,7 +26,7 @@ const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 pub struct Directions([bool; 6]);
 
 impl Directions {
-    /// None of them.
+    /// The empty set.
     pub const NONE: Self = Self([false; 6]);
     /// All six: a pose.
     pub const ALL: Self = Self([true; 6]);
@@ -59,7 +59,7 @@ impl Directions {
         self.iter().count()
     }
 
-    /// There is none.
+    /// Whether no direction belongs to the set.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self == Self::NONE

@@ -2,9 +2,8 @@
 //! random 6-link chain have the equilibria that an exhaustive search of its own finds.
 
 use crate::common::{Rng, assert_chain_equilibrium, close, golden, number, planar_column};
-use crate::curves_and_bifurcations::{
-    ELASTIC, elastic_links, elastic_problem, held, z_chain, z_unloaded,
-};
+use crate::curves_and_bifurcations::{held, z_chain, z_unloaded};
+use crate::curves_of_elastic_links::{ELASTIC, elastic_links, elastic_problem};
 use kinetostat::{
     BeamSection, Chain, ChainProblem, EndCondition, MotionKind, Prescribed, Wrench, equilibria,
     equilibrium::{Bounds, Equilibria, FoundEquilibrium, SearchSettings},

@@ -10,7 +10,7 @@ use nalgebra::{Vector3, vector};
 
 use crate::curves_of_families::came_down;
 use crate::fuzz_short::fuzz::platforms::Series;
-use crate::parallel_machines::truss;
+use crate::planar_machines::truss;
 
 fn push(force: Vector3<f64>) -> Parameter {
     Parameter::Load(LoadPattern {

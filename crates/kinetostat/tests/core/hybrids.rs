@@ -2,8 +2,9 @@
 //! gravity and a load, against one dense flattened system.
 
 use crate::common::{Rng, assert_equilibrium, scaled_error};
-use crate::graphs::{arm_on_a_parallel_base, arm_with_parallel_wrist, double_pantograph, limb};
+use crate::graphs::{arm_on_a_parallel_base, arm_with_parallel_wrist, limb};
 use crate::oracle::Flat;
+use crate::pantographs_and_lattices::double_pantograph;
 use crate::platforms::leg;
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, LengthLaw, Limb, Mechanism, MotionKind, Platform,

@@ -15,7 +15,8 @@ use crate::common::assert_equilibrium;
 use crate::curves_of_families::came_down;
 use crate::fuzz_short::fuzz::platforms::Series;
 use crate::graphs::limb;
-use crate::parallel_machines::{hexapod, truss, truss_of};
+use crate::parallel_machines::hexapod;
+use crate::planar_machines::{truss, truss_of};
 
 /// Feet and heads.
 type Ends = Vec<(Vector3<f64>, Vector3<f64>)>;

@@ -169,7 +169,7 @@ fn the_closed_form_says_why_it_does_not_apply() {
 }
 
 #[test]
-fn directions_name_the_joints_behind_them() {
+fn directions_name_the_joints_that_take_part_in_them() {
     let chain = beam_with(|b| {
         b.passive("q2", MotionKind::Prismatic, Vector3::y(), 0.0)
             .passive("q3", MotionKind::Revolute, Vector3::z(), 0.0)

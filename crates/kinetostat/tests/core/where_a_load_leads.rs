@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Vector2, Vector3, vector};
 
 use crate::common::assert_equilibrium;
 use crate::graphs::limb;
-use crate::parallel_machines::truss;
+use crate::planar_machines::truss;
 
 fn force(x: f64, y: f64, z: f64) -> Wrench {
     Wrench::new(vector![x, y, z], Vector3::zeros())

@@ -35,11 +35,14 @@ pub fn table() -> Result<()> {
                 BenchQuantity::EquilibriumAndStiffness,
             ];
             let mut scalar_counts = Vec::new();
-            for (work, width) in quantities.into_iter().zip([12, 14, 16]) {
-                let mostly_scalar =
-                    machine.task(work, FEW, bowing)?.not_vectorised(BLOCK)?.0 > FEW / 2;
+            for (quantity, width) in quantities.into_iter().zip([12, 14, 16]) {
+                let mostly_scalar = machine
+                    .task(quantity, FEW, bowing)?
+                    .not_vectorised(BLOCK)?
+                    .0
+                    > FEW / 2;
                 let count = if mostly_scalar { FEW } else { POSTURES };
-                let task = machine.task(work, count, bowing)?;
+                let task = machine.task(quantity, count, bowing)?;
                 let time = median(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");

@@ -25,9 +25,9 @@ pub fn single() -> Result<()> {
     println!("One posture in each call, us");
     println!("{:<8}{:>10}{:>10}{:>8}", "work", "batch", "single", "ratio");
     let mut figures = Vec::new();
-    for (name, machine, work) in &CASES {
-        let batch = median(&machine.task(*work, 2 * BLOCK, false)?, BLOCK)?;
-        let single = median(&machine.task(*work, 64, false)?, 1)?;
+    for (name, machine, quantity) in &CASES {
+        let batch = median(&machine.task(*quantity, 2 * BLOCK, false)?, BLOCK)?;
+        let single = median(&machine.task(*quantity, 64, false)?, 1)?;
         println!(
             "{name:<8}{batch:>10.3}{single:>10.3}{:>8.2}",
             single / batch
@@ -52,10 +52,10 @@ pub fn two() -> Result<()> {
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pools = (pool(1)?, pool(2)?);
     let mut figures = Vec::new();
-    for (name, machine, work) in &CASES {
-        let each = median(&machine.task(*work, BLOCK, false)?, BLOCK)?;
+    for (name, machine, quantity) in &CASES {
+        let each = median(&machine.task(*quantity, BLOCK, false)?, BLOCK)?;
         let many = ((PASS / each / BLOCK as f64) as usize).clamp(4, 32) * BLOCK;
-        let task = machine.task(*work, many, false)?;
+        let task = machine.task(*quantity, many, false)?;
         let mut results = Results::default();
         // Interleaved, and the best of each: both cores are seldom free at once.
         let (mut one, mut two) = (f64::INFINITY, f64::INFINITY);

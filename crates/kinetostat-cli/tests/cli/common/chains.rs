@@ -66,6 +66,21 @@ pub fn json(here: &Path, arguments: &[&str]) -> Value {
     serde_json::from_str(&said.out).expect("JSON")
 }
 
+/// The words of a `kinetostat curve`: a model pushed along a direction of the base from one displacement to
+/// another, mm, and further options.
+pub fn curve_along<'w>(
+    model: &'w str,
+    direction: [&'w str; 3],
+    [from, to]: [&'w str; 2],
+    more: &[&'w str],
+) -> Vec<&'w str> {
+    let mut words = vec!["curve", model, "--direction"];
+    words.extend(direction);
+    words.extend(["--displacement-mm", from, to]);
+    words.extend(more);
+    words
+}
+
 pub fn number(v: &Value) -> f64 {
     v.as_f64().unwrap_or(f64::NAN)
 }

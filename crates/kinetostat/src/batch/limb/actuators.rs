@@ -1,4 +1,4 @@
-//! What the loads ask of the actuators.
+//! Forces and torques of the actuators under the loads.
 
 use pulp::Simd;
 

@@ -1,11 +1,11 @@
 //! Equilibrium under load, several postures at once.
 //!
-//! The torques of a chain depend on its deflections weakly: `theta <- K^-1 tau(theta)` [R 4.16] contracts by
-//! about the share of the geometric stiffness in the springs', and needs no matrix. One pass walks
-//! out (where the tip is, which way gravity points) and back (torques). On the way back force and moment
-//! are kept in the axes and about the origin of the frame reached, so that the torque on a coordinate is
-//! one of their components. Where limbs hold a platform together, see [`crate::batch::machine::platform`]. Contraction is watched: a
-//! lane that is not done after [`MOST_PASSES`] is left to Newton's ([`crate::batch::limb::newton`]).
+//! The torques of a chain depend on its deflections weakly: `theta <- K^-1 tau(theta)` [R 4.16] contracts by about
+//! the share of the geometric stiffness in the springs', and needs no matrix. One pass goes outward along the chain
+//! (where the tip is, in which direction gravity points) and inward again (torques). Inward, force and moment are
+//! kept in the axes and about the origin of the frame reached, so that the torque on a coordinate is one of their
+//! components. Where limbs hold a platform together, see [`crate::batch::machine::platform`]. Contraction is watched: a lane that is
+//! not done after [`MOST_PASSES`] is left to Newton's ([`crate::batch::limb::newton`]).
 
 use pulp::Simd;
 

@@ -144,7 +144,7 @@ impl<S: Simd> Stage<S> {
         }
     }
 
-    /// Where the spring is.
+    /// Takes displacements, sines and cosines of the spring from its limb; coordinates that it does not have are zero.
     #[inline(always)]
     fn look(&mut self, spring: &Spring, limb: &LoadedLimb<S>) {
         let (zero, one) = (self.slid[0].same(0.0), self.slid[0].same(1.0));

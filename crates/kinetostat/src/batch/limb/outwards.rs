@@ -20,7 +20,7 @@ impl<S: Simd> LoadedLimb<S> {
         self.forward::<false, false>(plan, gravity);
     }
 
-    /// The same after the wrench has changed by `change`: springs go along by their compliance on the way, so that
+    /// The same after the wrench has changed by `change`: springs follow by their compliance in the same pass, so that
     /// torques and tip are of one state. Torques in the geometry that the springs had under the wrench before would be
     /// late by a pass, and an iteration whose corrections come late contracts by the root of what it could.
     #[inline(always)]
@@ -120,7 +120,7 @@ impl<S: Simd> LoadedLimb<S> {
         })
     }
 
-    /// Force and moment of the change of the wrench about a place on the way, base axes.
+    /// Force and moment of the change of the wrench about the place `p`, base axes.
     #[inline(always)]
     fn change_at(&self, p: &Vec3<S>) -> (Vec3<S>, Vec3<S>) {
         let [fx, fy, fz, mx, my, mz] = self.change;

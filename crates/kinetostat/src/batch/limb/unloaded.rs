@@ -190,7 +190,7 @@ impl<S: Simd> ForwardPass<S> {
         }
     }
 
-    /// Stiffness of the limb where [`Self::along`] has led it.
+    /// Stiffness of the limb in the posture that [`Self::along`] has evaluated last.
     #[inline(always)]
     pub fn stiffness(&mut self, plan: &Plan) -> LimbStiffness<S> {
         let simd = self.simd;
@@ -230,7 +230,7 @@ impl<S: Simd> ForwardPass<S> {
         })
     }
 
-    /// The same where a spherical joint ends the limb and [`Self::along`] has led to its centre: only a
+    /// The same where a spherical joint ends the limb and [`Self::along`] has gone as far as its centre: only a
     /// force through the centre is passed on. `arm` leads from the platform's point to the centre, base
     /// axes.
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! What a limb with passive joints answers to a small motion of its end, as matrices.
 //!
-//! An iteration asks the factors of [`crate::batch::numbers::eliminate`] the same question in every pass. The inverse of their
+//! An iteration solves the same system with the factors of [`crate::batch::numbers::eliminate`] in every pass. The inverse of their
 //! system `[C J_q; J_q^T 0]` is found once and is then a few products, without a division and without a chain of
-//! results that wait for each other: those questions were 44 % of the time in the kernels of a program. That it is an
+//! results that wait for each other: those solutions were 44 % of the time in the kernels of a program. That it is an
 //! inverse costs no accuracy, for it corrects an iteration whose residuals are measured.
 
 use pulp::Simd;

@@ -58,7 +58,7 @@ pub(crate) struct Machine<S: Simd> {
     pub point: Vec3<S>,
     /// Of the loads on all actuators, N or N m.
     pub forces: Vec<Lanes<S>>,
-    /// Of the limbs, where stability are asked for.
+    /// Of the limbs, where their stability is requested.
     pub shapes: Vec<Shape<S>>,
 }
 

@@ -1,11 +1,12 @@
 //! Equilibrium of a platform that several limbs hold: wrenches, passive joints and the platform are
 //! corrected in each pass by the unloaded machine's own compliance ([`crate::batch::machine::corrector`]).
 //!
-//! A pass is one step of Newton's iteration with the tangent of the unloaded machine, so that it contracts by the share of
-//! the way to buckling with the limbs' ends attached. That holds only if tip, torques and springs are of one state: springs
-//! go along with a change of their wrench on the way out ([`crate::batch::limb::outwards`]), and what they follow on the way back
-//! moves the tip at once ([`crate::batch::limb::inwards`]). Springs that follow a pass later, and with their end free, make it the root
-//! of that share, or the share of a free end: on the orthoglide under 215 N a third per pass instead of a twelfth.
+//! A pass is one step of Newton's iteration with the tangent of the unloaded machine, so that it contracts by the
+//! share of the way to buckling with the limbs' ends attached. That holds only if tip, torques and springs are of one
+//! state: springs go along with a change of their wrench in the outward half ([`crate::batch::limb::outwards`]), and what they
+//! follow in the inward half moves the tip at once ([`crate::batch::limb::inwards`]). Springs that follow a pass later, and with
+//! their end free, make it the root of that share, or the share of a free end: on the orthoglide under 215 N a third
+//! per pass instead of a twelfth.
 
 use pulp::Simd;
 

@@ -9,7 +9,7 @@ use crate::batch::numbers::symmetric::Symmetric;
 /// Stiffness of a limb in base axes about the platform's point.
 pub(crate) struct LimbStiffness<S: Simd> {
     pub matrix: Symmetric<S>,
-    /// Smallest relative pivot on the way: near zero where a joint or a spring is redundant here.
+    /// Smallest relative pivot of the elimination: near zero where a joint or a spring is redundant here.
     pub regular: Lanes<S>,
 }
 
@@ -158,7 +158,7 @@ impl<S: Simd> Eliminated<S> {
         x
     }
 
-    /// And back.
+    /// `H_0 ... H_(m-1) x`: out of the reflected axes.
     #[inline(always)]
     pub fn reflected_back(&self, mut x: [Lanes<S>; 6]) -> [Lanes<S>; 6] {
         for k in (0..self.m).rev() {

@@ -20,13 +20,11 @@ pub(crate) fn cross<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
     ]
 }
 
-/// `a . b`.
 #[inline(always)]
 pub(crate) fn dot<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Lanes<S> {
     a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
 }
 
-/// `a - b`.
 #[inline(always)]
 pub(crate) fn minus<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
@@ -45,7 +43,6 @@ pub(crate) fn carried<S: Simd>(r: &Mat3<S>, v: &Vec3<S>, p: &Vec3<S>) -> Vec3<S>
     out
 }
 
-/// `A B`.
 #[inline(always)]
 pub(crate) fn product<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
     let mut out = *a;
@@ -102,7 +99,6 @@ pub(crate) fn constant<S: Simd>(simd: S, v: &[f64; 3]) -> Vec3<S> {
     ]
 }
 
-/// The identity.
 #[inline(always)]
 pub(crate) fn identity<S: Simd>(simd: S) -> Mat3<S> {
     let (o, z) = (Lanes::new(simd, 1.0), Lanes::new(simd, 0.0));

@@ -147,9 +147,9 @@ impl Factored {
             if stage.len == 1 {
                 let s = column(&sweep.twists, stage.first);
                 let (mut right, mut left) = (y * s, y.tr_mul(&s));
-                let held = sweep.held_alone(form, stage);
+                let held = sweep.held_scalar(form, stage);
                 let pivot = s.dot(&right) - held;
-                // Against the largest number that was subtracted on the way here.
+                // Against the largest number that was subtracted so far.
                 let size = s.abs();
                 let size = held.abs() + size.dot(&((y.abs() + spring.abs()) * size));
                 if !is_above(pivot.abs(), least * size) {

@@ -402,7 +402,7 @@ impl Sweep {
     }
 
     /// The same of a stage of one coordinate.
-    pub fn held_alone(&self, form: Form, stage: &Stage) -> f64 {
+    pub fn held_scalar(&self, form: Form, stage: &Stage) -> f64 {
         let (now, material) = (self.springs[stage.block], self.material[stage.block]);
         match form {
             Form::Lagged | Form::Exact => now,

@@ -90,14 +90,14 @@ impl ChainSystem<'_, '_> {
                 swept_stability_within(sweep, &self.scaling, &ends)
             });
             // Without a potential the symmetric part, whose inertia sweeps give, is not the whole.
-            let alone = match swept {
+            let single = match swept {
                 Some(swept) if self.conservative || swept.stable => return swept,
                 // One motion goes away exactly where the determinant is negative (`divergence.rs`).
                 one => one.filter(|s| s.unstable_modes == 1 && self.family.is_none()),
             };
             let dense = self.densely(|own| {
                 own.evaluate(&c.z);
-                match alone {
+                match single {
                     Some(mut one) => {
                         one.stable = !own.determinant_is_negative(&c.matrix, motion);
                         one.unstable_modes = usize::from(!one.stable);

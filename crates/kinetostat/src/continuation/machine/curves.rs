@@ -142,7 +142,7 @@ impl MachineCurves<'_> {
     /// # Errors
     /// None in practice: the query was accepted when the curve was followed.
     pub fn at(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        self.ask(|system| points_at(system, &self.branches, value, true))
+        self.evaluate(|system| points_at(system, &self.branches, value, true))
     }
 
     /// Equilibria at one value of the conjugate (force along the displacement, or displacement along the load pattern),
@@ -151,7 +151,7 @@ impl MachineCurves<'_> {
     /// # Errors
     /// None in practice: the query was accepted when the curve was followed.
     pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        self.ask(|system| points_at(system, &self.branches, value, false))
+        self.evaluate(|system| points_at(system, &self.branches, value, false))
     }
 
     /// Where the machine goes from every limit point that a stable part of a branch runs into: stable equilibria on the
@@ -161,7 +161,7 @@ impl MachineCurves<'_> {
     /// # Errors
     /// None in practice: the query was accepted when the curve was followed.
     pub fn jumps(&self) -> Result<Vec<Jump<MechanismEquilibrium>>> {
-        self.ask(|system| {
+        self.evaluate(|system| {
             let mut list = jumps(system, &self.branches, &self.specials);
             for jump in &mut list {
                 let special = &self.specials[jump.from];
@@ -199,7 +199,7 @@ impl MachineCurves<'_> {
     }
 
     /// Evaluates the machine's system in the units of this curve.
-    fn ask<R>(&self, query: impl FnOnce(&mut MachineSystem<'_, '_>) -> R) -> Result<R> {
+    fn evaluate<R>(&self, query: impl FnOnce(&mut MachineSystem<'_, '_>) -> R) -> Result<R> {
         let (parameter, end) = (&self.parameter, &self.end);
         let conditions = ToolConditions::new(self.posture, parameter, end, &self.settings)?;
         let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);

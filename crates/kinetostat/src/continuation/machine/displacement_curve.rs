@@ -24,7 +24,7 @@ pub struct DisplacementPoint {
     /// Its derivative along the path, N/m: `direction^T K direction` for a tool held in all
     /// directions; for one pushed in one what remains of it with the others free.
     pub slope: f64,
-    /// The equilibrium.
+    /// Equilibrium of the machine with its tool there.
     pub equilibrium: MechanismEquilibrium,
 }
 

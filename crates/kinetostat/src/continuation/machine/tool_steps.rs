@@ -25,7 +25,6 @@ pub(crate) struct ToolPoint {
     pub conjugate: f64,
     /// Every shape and platform stays where it is under the load that is reached, as a dead load.
     pub dead: bool,
-    /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
     /// Motion of the tool (scaled: m and rad times the natural length) and of the load factor per
     /// step along the path.

@@ -170,7 +170,7 @@ struct Crossing {
     kind: SpecialKind,
     /// Direction of the branch on which the point was found.
     path: DVector<f64>,
-    /// Of the others.
+    /// Directions of the other branches.
     others: Vec<DVector<f64>>,
     /// The critical mode.
     mode: DVector<f64>,

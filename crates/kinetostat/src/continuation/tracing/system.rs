@@ -22,13 +22,10 @@ use crate::continuation::linear::null_directions::NullDirections;
 use crate::continuation::settings::CurveSettings;
 use crate::error::Error;
 
-/// A point on a curve of a system.
 pub(crate) type Point<S> = CurvePoint<<S as CurveSystem>::Equilibrium>;
 
-/// A special point on a curve of a system.
 pub(crate) type SpecialPoint<S> = Special<<S as CurveSystem>::Equilibrium>;
 
-/// A branch of a system.
 pub(crate) type BranchOf<S> = Branch<<S as CurveSystem>::Equilibrium>;
 
 /// Points of a branch in one direction from its start, and why they end.

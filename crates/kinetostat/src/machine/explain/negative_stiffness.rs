@@ -28,7 +28,7 @@ pub struct NegativeNetStiffness {
     /// Stiffness by everything that acts on the limb, weights and the wrench at its end included;
     /// below `-spring`.
     pub by_all: f64,
-    /// Stiffness by gravity.
+    /// Part of `by_all` that the weights on the limb make, N/m or N m/rad by `kind`.
     pub by_gravity: f64,
     /// Stiffness by every load, in the order of [`crate::Mechanism::loads`].
     pub by_load: Vec<f64>,
@@ -67,7 +67,7 @@ impl Posture {
                 system
             };
             let all = tangents(&m.acting(index), &here.wrench);
-            let alone: Vec<System> = m
+            let of_loads: Vec<System> = m
                 .loads(index)
                 .iter()
                 .map(|load| tangents(std::slice::from_ref(load), &Wrench::zero()))
@@ -86,7 +86,7 @@ impl Posture {
                     spring,
                     by_all: loads,
                     by_gravity: -weights.hessian[(i, i)],
-                    by_load: alone.iter().map(|s| -s.hessian[(i, i)]).collect(),
+                    by_load: of_loads.iter().map(|s| -s.hessian[(i, i)]).collect(),
                 });
             }
         }

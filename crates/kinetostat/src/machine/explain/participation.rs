@@ -50,7 +50,7 @@ impl UnloadedStiffness {
     }
 }
 
-/// A direction of which a person asks what lets it go.
+/// A direction whose participation is of interest: nothing holds it, or loads drive it away.
 fn loose(direction: &Direction) -> bool {
     matches!(
         direction.kind,

@@ -10,7 +10,7 @@ use crate::spatial::{Pose, Wrench, hat, rotational};
 /// A wrench with constant components in its node's axes. Its work depends on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follower {
-    /// Node it rides on.
+    /// Index of the node in whose axes it is constant.
     pub node: usize,
     /// Force (N) and moment (N m) about the node's origin, node's axes.
     pub local: Wrench,
@@ -61,7 +61,7 @@ impl NodeLoad for Follower {
 /// A dead force at a point of a node's frame: a counterweight, a cable on a crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointForce {
-    /// Node that carries the point.
+    /// Index of the node that carries the point.
     pub node: usize,
     /// The point, m, node's axes.
     pub point: Vector3<f64>,

@@ -24,7 +24,7 @@ pub enum Anchor {
 }
 
 impl Anchor {
-    /// The origin of a node.
+    /// The origin of a node, by its index in the chain.
     #[must_use]
     pub fn node(node: usize) -> Self {
         Self::Node {
@@ -66,11 +66,11 @@ impl Anchor {
 /// A massless strut between two points with a law of length. Conservative.
 #[derive(Clone, Debug)]
 pub struct Strut {
-    /// One end.
+    /// Anchor of the first end.
     pub from: Anchor,
-    /// The other.
+    /// Anchor of the second end.
     pub to: Anchor,
-    /// Tension by length.
+    /// Tension (N) by the distance of both ends (m).
     pub law: LengthLaw,
 }
 

@@ -23,7 +23,7 @@ pub struct SpringBlock {
     pub first: usize,
     /// Coordinates at rest, `theta0` (m or rad): a preload when they differ from the assembled ones.
     pub rest: Vec<f64>,
-    /// The law.
+    /// Law by which the coordinates get their torques, N or N m.
     pub law: SpringLaw,
     /// The piece of an elastic link that this spring stands for, if it is one.
     #[cfg_attr(feature = "serde", serde(default))]

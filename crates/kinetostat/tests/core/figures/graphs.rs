@@ -3,15 +3,16 @@
 use serde_json::json;
 
 use super::{Figures, Worst};
-use crate::graphs::{hybrids_apart, lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
+use crate::graphs::hybrids_apart;
 use crate::hybrids::{hybrids_apart as loaded_hybrids_apart, variants};
 use crate::loads_on_platforms::{derivatives_apart, loaded_apart, spring_and_limb_apart};
 use crate::machines_that_snap::{hexapod_path_apart, toggle_frame_apart, truss_path_apart};
+use crate::pantographs_and_lattices::{lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
 use crate::parallel_machines::{
-    cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, planar_3_rrr_apart,
-    tripteron_apart, truss_apart,
+    cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, tripteron_apart,
 };
 use crate::parallelograms::{left_out, parallelogram_apart};
+use crate::planar_machines::{planar_3_rrr_apart, truss_apart};
 
 fn put(f: &mut Figures, name: &str, deviation: f64, most: f64, unit: &str) {
     let mut worst = Worst::new();

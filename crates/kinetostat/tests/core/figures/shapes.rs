@@ -3,14 +3,12 @@
 use super::{Figures, Worst};
 use crate::all_equilibria::{compared, search};
 use crate::common::planar_column;
-use crate::curves_and_bifurcations::{
+use crate::curves_of_columns::{fork_loads, forks, pressed};
+use crate::curves_of_elastic_links::{
     ELASTIC, ELASTIC_LIMITS, elastic_limit, elastic_links, elastic_problem, flat_chain,
 };
-use crate::curves_of_columns::{fork_loads, forks, pressed};
-use crate::links_that_bend::{
-    bend, bend_by_shooting, column, critical, elastica, euler_cases, holds, link, rolled_up,
-    table_of_conventions,
-};
+use crate::links_that_bend::{bend, bend_by_shooting, elastica, link, rolled_up};
+use crate::straight_links_buckle::{column, critical, euler_cases, holds, table_of_conventions};
 use kinetostat::{equilibrium::SearchSettings, model::LinkConvention};
 use std::f64::consts::PI;
 

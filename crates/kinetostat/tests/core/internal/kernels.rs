@@ -175,7 +175,7 @@ fn neighbours_do_not_matter() {
 }
 
 #[test]
-fn together_is_as_alone() {
+fn vectorised_postures_are_as_scalar_ones() {
     let machine = sliders();
     let batch = Batch::new(&machine);
     let count = 24;
@@ -184,11 +184,11 @@ fn together_is_as_alone() {
         .equilibrium(&poses, &wrenches, Details::Rest)
         .expect("sizes");
     for i in 0..count {
-        let alone = machine.posture(&poses[i]).expect("reachable");
-        let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let scalar = machine.posture(&poses[i]).expect("reachable");
+        let scalar = scalar.deflected_by(&wrenches[i]).expect("an equilibrium");
         let p = Vector3::from_fn(|k, _| all.tool.get(i, 9 + k));
-        assert!((p - alone.tool.translation.vector).norm() < 1e-12);
-        let own = alone.limbs.iter().flat_map(|l| &l.coordinates);
+        assert!((p - scalar.tool.translation.vector).norm() < 1e-12);
+        let own = scalar.limbs.iter().flat_map(|l| &l.coordinates);
         for (a, b) in all.coordinates.row(i).zip(own) {
             assert!((a - b).abs() < 1e-11, "{a} {b}");
         }
@@ -245,12 +245,12 @@ fn a_serial_arm_has_its_tangent() {
     for i in 0..count {
         assert_eq!(all.status[i], Status::Vectorised);
         let posture = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
-        let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let scalar = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
         let same = |table: &Table, matrix: &Matrix6<f64>| {
             let own = Matrix6::from_fn(|r, c| table.get(i, 6 * r + c));
             (own - matrix).largest_entry() / matrix.largest_entry()
         };
-        assert!(same(&all.stiffness, &alone.stiffness.matrix) < 1e-12);
+        assert!(same(&all.stiffness, &scalar.stiffness.matrix) < 1e-12);
         let unloaded = posture.stiffness().expect("a stiffness");
         assert!(same(&free.stiffness, &unloaded.cartesian.matrix) < 1e-12);
         let at = Kinematics::new(
@@ -267,29 +267,29 @@ fn a_serial_arm_has_its_tangent() {
 }
 
 #[test]
-fn a_jacobian_alone_is_the_one_together() {
+fn a_scalar_jacobian_is_the_vectorised_one() {
     let machine = arm();
     let batch = Batch::new(&machine);
     let commands: Vec<f64> = (0..30).map(irregular).collect();
-    let together = batch.stiffness_and_jacobian(&commands).expect("sizes");
+    let vectorised = batch.stiffness_and_jacobian(&commands).expect("sizes");
     let batch = without_unloaded_kernels(batch);
-    let mut alone = BatchStiffness::default();
+    let mut scalar = BatchStiffness::default();
     // Room for more postures than the second call has.
     let more: Vec<f64> = (0..300).map(irregular).collect();
     batch
-        .stiffness_and_jacobian_into(&more, &mut alone)
+        .stiffness_and_jacobian_into(&more, &mut scalar)
         .expect("sizes");
     batch
-        .stiffness_and_jacobian_into(&commands, &mut alone)
+        .stiffness_and_jacobian_into(&commands, &mut scalar)
         .expect("sizes");
-    assert_eq!(alone.status, vec![Status::Scalar; alone.status.len()]);
-    assert_eq!(alone.jacobian.len(), together.jacobian.len());
-    for i in 0..alone.status.len() {
-        for (a, b) in alone.jacobian.row(i).zip(together.jacobian.row(i)) {
+    assert_eq!(scalar.status, vec![Status::Scalar; scalar.status.len()]);
+    assert_eq!(scalar.jacobian.len(), vectorised.jacobian.len());
+    for i in 0..scalar.status.len() {
+        for (a, b) in scalar.jacobian.row(i).zip(vectorised.jacobian.row(i)) {
             assert!((a - b).abs() < 1e-14, "{a} {b}");
         }
-        let largest = largest_size(together.stiffness.row(i));
-        for (a, b) in alone.stiffness.row(i).zip(together.stiffness.row(i)) {
+        let largest = largest_size(vectorised.stiffness.row(i));
+        for (a, b) in scalar.stiffness.row(i).zip(vectorised.stiffness.row(i)) {
             assert!((a - b).abs() < 1e-12 * largest, "{a} {b}");
         }
     }
@@ -331,10 +331,10 @@ fn machines_do_not_matter_to_each_other() {
         };
         let many = many[i].as_ref().expect("a stiffness");
         assert_eq!(many, one[i].as_ref().expect("a stiffness"));
-        let alone = posture_at_joints(&own, &[irregular(3)]);
-        let alone = alone.stiffness().expect("a stiffness").cartesian.matrix;
+        let scalar = posture_at_joints(&own, &[irregular(3)]);
+        let scalar = scalar.stiffness().expect("a stiffness").cartesian.matrix;
         for (k, x) in many.iter().enumerate() {
-            assert!((x - alone[(k / 6, k % 6)]).abs() < 1e-12 * alone.largest_entry());
+            assert!((x - scalar[(k / 6, k % 6)]).abs() < 1e-12 * scalar.largest_entry());
         }
     }
 }
@@ -409,10 +409,10 @@ fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
             .expect("sizes");
         assert_eq!(all.status[i], Status::Vectorised);
         assert!(all.tool.row(i).eq(one.tool.row(0)));
-        let alone = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
-        let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let scalar = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
+        let scalar = scalar.deflected_by(&wrenches[i]).expect("an equilibrium");
         let own = all.tool_pose(i).translation.vector;
-        assert!((own - alone.tool.translation.vector).norm() < 1e-11);
+        assert!((own - scalar.tool.translation.vector).norm() < 1e-11);
     }
 }
 
@@ -466,16 +466,16 @@ fn nearly_stretched_arms_have_the_joints_of_the_general_engine() {
         let Ok(posture) = machine.posture(&pose) else {
             continue;
         };
-        let alone = posture.stiffness().expect("a stiffness").cartesian.matrix;
+        let scalar = posture.stiffness().expect("a stiffness").cartesian.matrix;
         let mut off = Worst::new();
         for (k, x) in found.stiffness.row(0).enumerate() {
-            off.apart(x, alone[(k / 6, k % 6)]);
+            off.apart(x, scalar[(k / 6, k % 6)]);
         }
         let off = off.of(36);
         assert!(
-            off < 1e-9 * alone.largest_entry(),
+            off < 1e-9 * scalar.largest_entry(),
             "{elbow}: {off} of {}",
-            alone.largest_entry()
+            scalar.largest_entry()
         );
     }
 }

@@ -16,6 +16,7 @@ mod saddle;
 mod shortest_solutions;
 mod springs;
 mod sweeps;
+mod sweeps_of_whole_chains;
 
 use kinetostat::{Mechanism, Posture, PostureRequest, machine::LimbPosture, model::unloaded_tip};
 

@@ -1,0 +1,135 @@
+//! A job's tolerance: where it comes from, how a missed one is reported, and the repeatability it is taken from.
+
+use crate::absurd::{ARM_JOB, arm, compensated};
+use crate::common::{run, workplace};
+use serde_json::Value;
+
+/// A program that never states Z: what is corrected there is left out.
+#[test]
+fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() {
+    let here = workplace();
+    std::fs::write(
+        here.path().join("part.ngc"),
+        "G21 G90\nG0 X0 Y0\nG1 X20 F600\nG1 Y20\nM2\n",
+    )
+    .expect("a program");
+    let job = ARM_JOB
+        .replace("below_z_mm = 1.0\n", "")
+        .replace("path_um = 20", "path_um = 1")
+        .replace("chord_um = 16", "chord_um = 1");
+    let (said, _) = compensated(here.path(), &job, &arm(), &[]);
+    assert_eq!(said.code, 3, "{said:?}");
+    let second_line = said.out.lines().nth(2).unwrap_or_default();
+    assert!(
+        second_line
+            .trim_start()
+            .starts_with("THE TOLERANCE IS MISSED at line"),
+        "{said:?}"
+    );
+    assert!(said.err.contains("never states"), "{said:?}");
+    let text = std::fs::read(here.path().join("r.json")).expect("the result");
+    let result: Value = serde_json::from_slice(&text).expect("JSON");
+    let reported = &result["tolerance"];
+    assert_eq!(reported["held"], false);
+    assert!(
+        reported["missed"]["line"].as_u64().is_some_and(|l| l >= 2),
+        "{reported}"
+    );
+    let off = reported["missed"]["error_mm"].as_f64().expect("a number");
+    assert!(
+        off > reported["allowed_mm"].as_f64().expect("a number"),
+        "{reported}"
+    );
+    assert_eq!(
+        result["summary"]["max_position_error_after_mm"].as_f64(),
+        Some(off)
+    );
+}
+
+#[test]
+fn the_tolerance_is_in_proportion_to_the_machine() {
+    let here = workplace();
+    let job = ARM_JOB.replace("path_um = 20\nchord_um = 16\n", "");
+    let none = arm().replace("repeatability_mm = 0.06\n", "");
+    let fine = arm().replace("repeatability_mm = 0.06", "repeatability_mm = 0.03");
+    for (model, path, from) in [
+        (arm(), 0.02, "repeatability, 0.06 mm"),
+        (none, 0.02, "usual for an arm"),
+        (fine, 0.01, "repeatability, 0.03 mm"),
+    ] {
+        let (said, _) = compensated(here.path(), &job, &model, &[]);
+        assert_eq!(said.code, 0, "{said:?}");
+        let text = std::fs::read(here.path().join("r.json")).expect("the result");
+        let result: Value = serde_json::from_slice(&text).expect("JSON");
+        let inputs = &result["question"];
+        let reported = inputs["tolerance_mm"].as_f64().expect("a number");
+        assert!((reported - path).abs() < 1e-12, "{inputs}");
+        let chord = inputs["chord_tolerance_mm"].as_f64().expect("a number");
+        assert!((chord - 0.8 * path).abs() < 1e-12, "{inputs}");
+        let words = inputs["tolerance_from"].as_str().expect("words");
+        assert!(words.contains(from), "{words}");
+    }
+}
+
+#[test]
+fn the_exit_code_of_a_missed_tolerance_is_in_every_help() {
+    let here = workplace();
+    for words in [
+        &["--help"][..],
+        &["compensate", "--help"],
+        &["demo", "--help"],
+        &["compensate", "-h"],
+        &["man"],
+    ] {
+        let said = run(here.path(), words).answered();
+        assert!(
+            said.out.contains("the tolerance is missed"),
+            "{words:?}: {}",
+            said.out
+        );
+    }
+}
+
+/// Whatever a model states of its repeatability, a message speaks of that key with its line, never of a
+/// tolerance that nobody wrote.
+#[test]
+fn a_repeatability_is_refused_by_its_own_name_and_line() {
+    let here = workplace();
+    let job = ARM_JOB.replace("path_um = 20\nchord_um = 16\n", "");
+    let line = 1 + arm()
+        .lines()
+        .position(|line| line.starts_with("repeatability_mm"))
+        .expect("stated");
+    for (value, taken) in [
+        ("-60", false),
+        ("0", false),
+        ("1e-300", false),
+        ("1e-7", false),
+        ("9e-6", false),
+        ("0.06", true),
+        ("9.9", true),
+        ("10", true),
+        ("10.1", false),
+        ("29", false),
+        ("60", false),
+        ("1e300", false),
+    ] {
+        let model = arm().replace(
+            "repeatability_mm = 0.06",
+            &format!("repeatability_mm = {value}"),
+        );
+        let (said, _) = compensated(here.path(), &job, &model, &[]);
+        assert_eq!(said.code, i32::from(!taken), "{value}: {said:?}");
+        if !taken {
+            assert!(
+                said.err.contains("the repeatability is "),
+                "{value}: {said:?}"
+            );
+            assert!(
+                said.err.contains(&format!(".toml:{line}")),
+                "{value}: {said:?}"
+            );
+            assert!(!said.err.contains("tolerance"), "{value}: {said:?}");
+        }
+    }
+}
