@@ -5,6 +5,25 @@ use nalgebra::Vector3;
 use crate::spatial::MotionKind;
 
 /// An actuator as the builder takes it.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// let elastic = ActuatorSpec::new(MotionKind::Prismatic, vector![0.0, 3.0, 4.0], 2e6); // along (0, 3, 4), N/m
+/// let rigid = ActuatorSpec { stiffness: None, ..elastic.clone() };
+/// let preloaded = ActuatorSpec { rest: 1e-4, ..elastic.clone() }; // m
+/// let load = Wrench::new(vector![70.0, 300.0, 400.0], Vector3::zeros()); // N, 500 N of it along the slide
+/// for (drive, gone) in [(elastic, 500.0 / 2e6), (rigid, 0.0), (preloaded, 500.0 / 2e6 + 1e-4)] {
+///     let slide = Chain::builder("slide").actuator("drive", drive).build()?;
+///     let home = Pose::identity();
+///     let machine = Mechanism::serial(slide, home, Vector3::zeros())?;
+///     let moved = machine.posture(&home)?.deflected_by(&load)?.displacement.linear();
+///     assert!((moved - vector![0.0, 0.6, 0.8] * gone).norm() < 1e-12);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActuatorSpec {
     /// Prismatic or revolute.

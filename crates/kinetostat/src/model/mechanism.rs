@@ -20,6 +20,29 @@ use crate::number::larger;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = ActuatorSpec::new(MotionKind::Revolute, Vector3::x(), 4e4); // N m/rad
+/// # let chain = Chain::builder("hinge").actuator("hinge", slide).build()?;
+/// let head = Platform {
+///     mass: 50.0, // kg
+///     centre_of_mass: vector![0.1, 0.2, -0.05], // m
+///     ..Platform::new("head", Pose::identity())
+/// };
+/// let mut machine = Mechanism::builder("tilting head").gravity(vector![0.0, 0.0, -9.81]); // m/s^2
+/// let head = machine.platform(head);
+/// let machine = machine.limb(Limb::between("hinge", 0, head, chain)).build()?;
+/// let tilted = machine.posture(&Pose::identity())?.deflected_by(&Wrench::zero())?;
+/// // The hinge turns about x until its spring holds the weight at the arm that it has then.
+/// let angle = tilted.tool.rotation.scaled_axis().x;
+/// let arm = (tilted.tool * nalgebra::Point3::new(0.1, 0.2, -0.05)).y;
+/// assert!(angle < 0.0 && (4e4 * angle + 50.0 * 9.81 * arm).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Platform {
