@@ -26,6 +26,35 @@ macro_rules! setters {
 pub(crate) use setters;
 
 /// Tolerances and limits; the defaults suit every machine in SI units.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// # let chain = Chain::builder("gantry")
+/// #     .actuator("x", slide(Vector3::x()))
+/// #     .actuator("y", slide(Vector3::y()))
+/// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
+/// #     .build()?;
+/// # let home = Pose::translation(0.4, 0.0, 0.0);
+/// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let coarse = Settings::default()
+///     .with_closure(1e-6) // of the natural length
+///     .with_torque(1e-5) // of the loads
+///     .with_iterations(10)
+///     .with_picard_steps(0)
+///     .with_smallest_load_step(0.25);
+/// let cutting = Wrench::new(vector![300.0, -400.0, 150.0], vector![5.0, 0.0, 20.0]); // N, N m
+/// let posture = gantry.posture(&home)?;
+/// let fine = posture.deflected_by(&cutting)?;
+/// let quick = posture.with_settings(coarse).deflected_by(&cutting)?;
+/// assert!(fine.residual.torque <= 1e-10 && quick.residual.torque <= 1e-5);
+/// assert!(quick.residual.iterations <= 10);
+/// assert!((quick.displacement - fine.displacement).linear().norm() < 1e-4 * fine.displacement.linear().norm());
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]

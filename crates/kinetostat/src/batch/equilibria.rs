@@ -247,6 +247,31 @@ impl Batch {
     ///
     /// # Errors
     /// As [`Self::equilibrium`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("table")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .build()?;
+    /// # let table = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+    /// let batch = Batch::new(&table);
+    /// let mut found = BatchEquilibrium::default();
+    /// for block in 0..3 {
+    ///     let at = |i: i32| Pose::translation(1e-3 * f64::from(100 * block + i), 0.2, 0.0); // m
+    ///     let poses: Vec<Pose> = (0..100).map(at).collect();
+    ///     let cutting = Wrench::new(vector![400.0, -250.0, 90.0], Vector3::zeros()); // N
+    ///     batch.equilibrium_into(&poses, &vec![cutting; poses.len()], Details::Rest, &mut found)?;
+    ///     for (i, pose) in poses.iter().enumerate() {
+    ///         let gone = found.tool_pose(i).translation.vector - pose.translation.vector;
+    ///         assert!((gone - vector![400.0, -250.0, 0.0] / 5e7).norm() < 1e-12, "the springs of its drives");
+    ///     }
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn equilibrium_into(
         &self,
         poses: &[Pose],
@@ -292,6 +317,29 @@ impl Batch {
     ///
     /// # Errors
     /// As [`Self::equilibrium`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # use kinetostat::batch::Batch;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("table")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .build()?;
+    /// # let table = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+    /// let poses: Vec<Pose> = (0..50).map(|i| Pose::translation(1e-3 * f64::from(i), 0.2, 0.0)).collect(); // m
+    /// let forces = (0..50).map(|i| vector![400.0, -5.0 * f64::from(i), 90.0]); // N
+    /// let wrenches: Vec<Wrench> = forces.map(|force| Wrench::new(force, Vector3::zeros())).collect();
+    /// let plane = Directions::NONE.with(0).with(1);
+    /// let answer = Batch::new(&table).targets_under_load(&poses, &wrenches, plane)?;
+    /// for ((target, pose), wrench) in answer.targets.iter().zip(&poses).zip(&wrenches) {
+    ///     let added = target.translation.vector - pose.translation.vector;
+    ///     let (force, added) = (wrench.force().xy(), added.xy());
+    ///     assert!((added + force / 5e7).norm() < 1e-12, "commanded against the force");
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn targets_under_load(
         &self,
         poses: &[Pose],

@@ -60,6 +60,24 @@ pub fn link_loads(chain: &Chain, spring_torques: &[f64]) -> Vec<LinkLoad> {
 
 impl Equilibrium {
     /// Axial load of every link of the chain that is in this equilibrium.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+    /// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+    /// let column = Chain::builder("column").link("bar", &bar, length).build()?;
+    /// for force in [-4e4, 4e4] {
+    ///     let load = Wrench::new(vector![force, 0.0, 0.0], Vector3::zeros()); // N
+    ///     let found = solve_chain(&ChainProblem::new(&column, EndCondition::wrench(load)), &Settings::default())?;
+    ///     let bar = &found.link_loads(&column)[0];
+    ///     assert!((bar.axial_force - force).abs() < 1e-6);
+    ///     // Tension buckles nothing; compression counts against pi^2 E I / L^2.
+    ///     let euler = (std::f64::consts::PI / length).powi(2) * ei;
+    ///     assert!((bar.share - (-force / euler).max(0.0)).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn link_loads(&self, chain: &Chain) -> Vec<LinkLoad> {
         link_loads(chain, &self.spring_torques)

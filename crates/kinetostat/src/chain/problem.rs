@@ -53,6 +53,28 @@ pub enum Prescribed {
 }
 
 /// Condition at the end of a chain.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+/// # let chain = Chain::builder("bar").link("bar", &bar, length).build()?;
+/// // A propped cantilever: its end stands on a prop across, may move along and turn, and carries a moment.
+/// let mut end = EndCondition::pose(Pose::translation(length, 0.0, 0.0));
+/// for free in [0, 3, 4, 5] {
+///     end.prescribed[free] = Prescribed::Wrench;
+/// }
+/// end.wrench = Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 12.0]); // N m
+/// let found = solve_chain(&ChainProblem::new(&chain, end), &Settings::default())?;
+/// // The prop answers with 3 M / 2 L, and the end turns by a quarter of M L / E I.
+/// assert!((found.wrench.force().y / (-1.5 * 12.0 / length) - 1.0).abs() < 1e-4);
+/// let turn = 12.0 * length / (4.0 * 2.1e11 * bar.second_moment_z); // rad
+/// assert!((found.tip.rotation.scaled_axis().z / turn - 1.0).abs() < 1e-4);
+/// assert!(found.tip.translation.y.abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndCondition {
     /// Axes of the six directions, base from these axes.

@@ -26,6 +26,34 @@ use crate::number::larger;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
 /// Stiffness of a chain at its tip.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+/// let table = Chain::builder("table")
+///     .actuator("long", slide(Vector3::x(), 8e7)) // N/m
+///     .actuator("cross", slide(Vector3::y(), 2e7))
+///     .passive("lift", MotionKind::Prismatic, Vector3::z(), 0.0)
+///     .translation(vector![0.3, 0.1, 0.2])
+///     .build()?;
+/// let (at_rest, commands) = (table.home_coordinates(), table.home_commands());
+/// let stiffness = unloaded_stiffness(&table, &Pose::identity(), &at_rest, &commands)?;
+/// assert_eq!(stiffness.count(DirectionKind::Rigid), 3, "nothing turns it");
+/// assert_eq!(stiffness.count(DirectionKind::Finite), 2);
+/// assert_eq!(stiffness.count(DirectionKind::Free), 1);
+/// assert!((stiffness.spread() - 8e7 / 2e7).abs() < 1e-9);
+/// let text: Vec<String> = stiffness.directions.iter().map(Direction::description).collect();
+/// assert_eq!(text[4], "finite, 20.0e6 N/m: moves along y");
+/// assert_eq!(stiffness.directions[5].description(), "free: moves along z by lift");
+/// // A motion of 3 mm and 4 mm takes the slides along as its components say.
+/// let motion = Twist::new(vector![3e-3, 4e-3, 0.0], Vector3::zeros());
+/// let shares = stiffness.participation(&table, &motion);
+/// assert!((shares[0].motion - 3e-3).abs() < 1e-15 && (shares[0].share - 0.36).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ChainStiffness {

@@ -75,6 +75,30 @@ pub fn compensate(
 ///
 /// # Errors
 /// As [`compensate`].
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// # let chain = Chain::builder("table")
+/// #     .actuator("x", slide(Vector3::x()))
+/// #     .actuator("y", slide(Vector3::y()))
+/// #     .build()?;
+/// # let table = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+/// let mut posture = table.posture(&Pose::identity())?;
+/// let mut state = posture.rest_state();
+/// let plane = Directions::NONE.with(0).with(1);
+/// for (step, force) in [(1.0, 100.0), (2.0, 180.0), (3.0, 240.0)] {
+///     let wanted = Pose::translation(0.01 * step, -0.02 * step, 0.0); // m
+///     let cutting = Wrench::new(vector![force, 0.4 * force, 0.0], Vector3::zeros()); // N
+///     let answer = compensation::compensate_from(&posture, &wanted, &cutting, plane, state)?;
+///     // Each drive is commanded to where its spring brings it back from: against the force, by F / k.
+///     let against = answer.correction.linear() + vector![force, 0.4 * force, 0.0] / 5e7;
+///     assert!(against.norm() < 1e-12);
+///     (posture, state) = (answer.posture, answer.equilibrium.state); // the next point starts here
+/// }
+/// # Ok::<(), Error>(())
+/// ```
 pub fn compensate_from(
     near: &Posture,
     desired: &Pose,
@@ -97,6 +121,29 @@ pub fn compensate_from(
 ///
 /// # Errors
 /// As [`compensate`].
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// # let chain = Chain::builder("table")
+/// #     .actuator("x", slide(Vector3::x()))
+/// #     .actuator("y", slide(Vector3::y()))
+/// #     .build()?;
+/// # let table = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+/// let mut posture = table.posture(&Pose::identity())?;
+/// let mut state = posture.rest_state();
+/// let plane = Directions::NONE.with(0).with(1);
+/// for (step, force) in [(1.0, 100.0), (2.0, 180.0), (3.0, 240.0)] {
+///     let wanted = Pose::translation(0.01 * step, -0.02 * step, 0.0); // m
+///     let cutting = Wrench::new(vector![force, 0.4 * force, 0.0], Vector3::zeros()); // N
+///     (posture, state) = compensation::target_under_load(&posture, &wanted, &cutting, plane, state)?;
+///     let commanded = wanted.translation.vector - vector![force, 0.4 * force, 0.0] / 5e7; // against the force
+///     assert!((posture.target().translation.vector - commanded).norm() < 1e-12);
+///     assert!((state.platforms[table.tool()].translation.vector - wanted.translation.vector).norm() < 1e-12);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
 pub fn target_under_load(
     near: &Posture,
     desired: &Pose,

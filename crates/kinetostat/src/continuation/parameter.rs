@@ -28,6 +28,24 @@ impl LoadPattern {
 }
 
 /// What grows along a curve of equilibria.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let home = Pose::translation(0.4, 0.1, 0.2);
+/// let axes = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_6);
+/// let aside = Parameter::along(&axes, 1); // the y axis of the turned axes
+/// let there = aside.end_at(&EndCondition::pose(home), 0.02); // 20 mm on
+/// let gone = there.pose.translation.vector - home.translation.vector;
+/// assert!((gone - vector![-0.01, 0.02 * 0.75_f64.sqrt(), 0.0]).norm() < 1e-15);
+/// // A load times its factor is added to what acts anyhow.
+/// let (weight, cut) = (vector![0.0, 0.0, -30.0], vector![8.0, -2.0, 0.0]); // N
+/// let pattern = Parameter::end_wrench(Wrench::new(cut, Vector3::zeros()));
+/// let carried = EndCondition::wrench(Wrench::new(weight, Vector3::zeros()));
+/// assert_eq!(pattern.end_at(&carried, 2.5).wrench.force(), vector![20.0, -5.0, -30.0]);
+/// ```
 #[derive(Clone, Debug)]
 pub enum Parameter {
     /// The end is moved by `value * twist` from the pose that the problem prescribes: base axes, at

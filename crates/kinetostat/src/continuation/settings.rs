@@ -10,6 +10,41 @@ use crate::error::{Place, Result};
 use crate::settings::{Settings, wrong};
 
 /// How far and how finely curves are followed.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let settings = CurveSettings::within(0.0, 1.0)
+///     .with_range((0.0, 400.0)) // the parameter: here N, as the pattern is 1 N
+///     .with_conjugate_range((-2.0, 2.0)) // m
+///     .with_largest_angle(1.0) // rad
+///     .with_largest_turn(0.05) // rad in one step
+///     .with_largest_change(Some(10.0)) // N in one step
+///     .with_smallest_step(1e-6)
+///     .with_points(60)
+///     .with_branches(2)
+///     .with_solver(Settings::default());
+/// let free = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+/// let start = solve_chain(&free, &Settings::default())?;
+/// let push = Parameter::end_wrench(Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros()));
+/// let curves = follow(&free, &push, &start, 0.0, &settings)?;
+/// assert_eq!(curves.branches.len(), 2, "straight, and buckled from the critical load on");
+/// let buckled = curves.branches[1].points.iter();
+/// assert!(buckled.flat_map(|point| &point.equilibrium.coordinates).all(|angle| angle.abs() < 1.1));
+/// // Two equal bars on equal springs k buckle at (3 - sqrt(5)) / 2 * k / length.
+/// let critical = 0.5 * (3.0 - 5.0_f64.sqrt()) * 100.0 / 0.5; // N
+/// assert!((curves.specials[0].point.parameter / critical - 1.0).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]

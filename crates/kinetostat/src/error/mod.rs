@@ -18,6 +18,32 @@ pub use place::{Part, Place, Whole};
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Every variant says where, what was expected and what was found.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// # let chain = Chain::builder("gantry")
+/// #     .actuator("x", slide(Vector3::x()))
+/// #     .actuator("y", slide(Vector3::y()))
+/// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
+/// #     .build()?;
+/// # let home = Pose::translation(0.4, 0.0, 0.0);
+/// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let high = Pose::translation(0.5, 0.2, 0.1); // two slides move it in a plane
+/// let error = gantry.posture(&high).unwrap_err();
+/// assert!(error.is_unanswered(), "the question is fine, the machine does not go there");
+/// let Error::Unreachable { distance_m, .. } = &error else { panic!("{error}") };
+/// assert!((distance_m - 0.1).abs() < 1e-9, "0.1 m below is the plane that it can reach");
+///
+/// let mistyped = gantry.limb_named("gantri").unwrap_err();
+/// assert!(!mistyped.is_unanswered());
+/// let place = mistyped.place().expect("an unknown name has a place");
+/// assert_eq!(place.to_string(), "mechanism 'gantry'");
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -39,6 +39,25 @@ pub enum Part {
 }
 
 /// Where something went wrong: in what, in which part, and during which task.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// use kinetostat::error::{Part, Whole};
+///
+/// let soft = Chain::builder("leg").spring("seat", MotionKind::Prismatic, Vector3::z(), -1e6, 0.0); // N/m
+/// let error = soft.build().unwrap_err();
+/// let place = error.place().expect("a spring has a place");
+/// assert_eq!(*place.whole(), Whole::Chain("leg".into()));
+/// assert_eq!(place.part(), Some(&Part::Spring("seat".into())));
+/// assert_eq!(*place, Place::chain("leg").with_part(Part::Spring("seat".into())));
+/// // A program that builds on this crate reports its own faults alike.
+/// let of_limb = Place::mechanism("hexapod").with_part(Part::Limb("leg".into()));
+/// assert_eq!(of_limb.to_string(), "mechanism 'hexapod': limb 'leg'");
+/// assert_eq!(Place::limb("leg").to_string(), "limb 'leg'");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place(Box<Parts>);
 

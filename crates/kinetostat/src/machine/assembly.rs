@@ -28,6 +28,25 @@ pub struct LinearAssembly {
 impl Posture {
     /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes,
     /// its base where it is nominally.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let build = |arm: Vector3<f64>| {
+    /// #     Chain::builder("gantry").actuator("x", slide(Vector3::x())).translation(arm).build()
+    /// # };
+    /// // An arm of 0.5 m that came out 0.1 mm too long and hangs 0.3 mm.
+    /// let (drawn, made) = (vector![0.0, 0.5, 0.0], vector![0.0, 0.5001, -3e-4]); // m
+    /// let limb = Limb::between("gantry", 0, 1, build(drawn)?).with_actual(build(made)?);
+    /// let home = Pose::translation(0.0, 0.5, 0.0);
+    /// let mut machine = Mechanism::builder("gantry");
+    /// machine.platform(Platform::new("tool", home));
+    /// let gantry = machine.limb(limb).build()?;
+    /// let errors = gantry.posture(&home)?.assembly_errors();
+    /// assert!((errors[0].linear() - (made - drawn)).norm() < 1e-15 && errors[0].angular().norm() == 0.0);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn assembly_errors(&self) -> Vec<Twist> {
         let m = &self.mechanism;
@@ -88,6 +107,36 @@ impl Posture {
     ///
     /// # Errors
     /// Wrong sizes; a wrench that is not finite.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let leg = |name: &str, x: f64| {
+    /// #     Chain::builder(name)
+    /// #         .translation(vector![x, 0.0, 0.0])
+    /// #         .actuator("slide", ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), 2e6)) // N/m
+    /// #         .passive_spherical("ball")
+    /// #         .build()
+    /// # };
+    /// # let mut machine = Mechanism::builder("table");
+    /// # let tool = machine.platform(Platform::new("top", Pose::identity()));
+    /// # for (name, x) in [("left", -0.2), ("right", 0.2)] {
+    /// #     let limb = Limb::between(name, 0, tool, leg(name, x)?);
+    /// #     machine = machine.limb(limb.fixed_at(Pose::translation(x, 0.0, 0.0)));
+    /// # }
+    /// # let table = machine.build()?;
+    /// let posture = table.posture(&Pose::identity())?;
+    /// // The right leg of two came out 1 mm too long, and a weight stands in the middle.
+    /// let long = Twist::new(vector![0.0, 0.0, 1e-3], Vector3::zeros()); // m
+    /// let weight = Wrench::new(vector![0.0, 0.0, -1000.0], Vector3::zeros()); // N
+    /// let assembled = posture.linear_assembly_under(&[Twist::zero(), long], &weight)?;
+    /// // The top tilts by 1 mm over 0.4 m, its middle rises by half of that and sinks on two legs of 2e6 N/m.
+    /// assert!((assembled.shift.linear().z - (5e-4 - 1000.0 / 4e6)).abs() < 1e-12);
+    /// assert!((assembled.shift.angular().y + 1e-3 / 0.4).abs() < 1e-12);
+    /// // No leg is strained by the error: each carries half of the weight.
+    /// assert!(assembled.wrenches.iter().all(|leg| (leg.force().z + 500.0).abs() < 1e-6));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn linear_assembly_under(
         &self,
         errors: &[Twist],

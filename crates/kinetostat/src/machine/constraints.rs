@@ -189,6 +189,25 @@ impl Posture {
     /// moving platforms takes the commands nearest to home (least sum of squares of the changes,
     /// rotations at the limb's natural length, passive joints counted with a hundredth; a local
     /// minimum), and a machine of single limbs the least motion from where the search starts.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let machine = |last| -> Result<Mechanism> {
+    /// #     let chain = Chain::builder("slides")
+    /// #         .actuator("long", slide(Vector3::x()))
+    /// #         .actuator("across", slide(Vector3::y()))
+    /// #         .actuator("short", slide(last))
+    /// #         .build()?;
+    /// #     Mechanism::serial(chain, Pose::identity(), Vector3::zeros())
+    /// # };
+    /// // Three slides along x, y and z; or along x, y and a direction between them.
+    /// let (spatial, plane) = (machine(vector![0.0, 0.0, 1.0])?, machine(vector![0.6, 0.8, 0.0])?);
+    /// assert_eq!(spatial.posture(&Pose::identity())?.redundancy(), 0);
+    /// assert_eq!(plane.posture(&Pose::identity())?.redundancy(), 1);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn redundancy(&self) -> usize {
         let m = &self.mechanism;

@@ -86,6 +86,39 @@ impl LimbEquilibrium {
 }
 
 /// A mechanism in equilibrium: tool, limbs and platforms, with their wrenches, stiffness and stability.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("arm")
+/// #     .actuator("shoulder", hinge(2e5))
+/// #     .link("upper arm", &tube, 0.6)
+/// #     .actuator("elbow", hinge(1e5))
+/// #     .link("forearm", &tube, 0.5)
+/// #     .build()?;
+/// # let home = Pose::translation(1.1, 0.0, 0.0);
+/// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let load = Wrench::new(vector![-300.0, 200.0, 90.0], vector![0.0, 8.0, 30.0]); // N, N m
+/// let loaded = arm.posture(&home)?.deflected_by(&load)?;
+/// // The shoulder's drive carries the moment of the load about its axis, which is the base's z axis.
+/// let about_base = load.shifted(&-loaded.tool.translation.vector);
+/// assert!((loaded.actuator_forces()[0] - about_base.moment().z).abs() < 1e-6);
+/// assert!((loaded.limbs[0].wrench - load).0.norm() < 1e-6, "its only limb carries all of it");
+/// // Nothing about it runs away or swings up.
+/// assert!(loaded.stable() && loaded.shapes_stable() && !loaded.may_flutter());
+/// assert!(loaded.share_to_buckling().is_some_and(|share| share < 0.1));
+/// // No force moves it more easily than the softest; what moves most are the drives.
+/// let against = loaded.stiffness_against_force(); // N/m
+/// let most = loaded.compliance().springs.fixed_view::<3, 3>(0, 0).symmetric_eigenvalues().max(); // m/N
+/// assert!((against * most - 1.0).abs() < 1e-3);
+/// let aside = Twist::new(vector![0.0, 1e-3, 0.0], vector![0.0, 0.0, 1e-3]); // m, rad
+/// assert_eq!(loaded.participation(&arm, &aside)[0].name, "arm: shoulder");
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MechanismEquilibrium {

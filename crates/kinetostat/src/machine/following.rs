@@ -293,6 +293,31 @@ impl Mechanism {
     /// without rotation than directions that its reference point can move in. Counted beside home,
     /// which may be singular. A place of such a machine is requested by
     /// [`PostureRequest::position`](crate::machine::PostureRequest::position).
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let drive = |stiffness, limits| ActuatorSpec {
+    /// #     limits: Some(limits), // rad
+    /// #     home: 0.5,
+    /// #     ..ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness) // N m/rad
+    /// # };
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", drive(2e5, (-2.0, 2.0)))
+    /// #     .translation(vector![0.6, 0.0, 0.0])
+    /// #     .actuator("elbow", drive(1e5, (0.2, 2.5)))
+    /// #     .translation(vector![0.5, 0.0, 0.0])
+    /// #     .build()?;
+    /// # let turn = Pose::rotation(vector![0.0, 0.0, 0.5]); // rad: both joints at home
+    /// # let home = turn * Pose::translation(0.6, 0.0, 0.0) * turn * Pose::translation(0.5, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// assert!(arm.turns_as_it_moves(), "two hinges take the tool's orientation along");
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("gantry").actuator("x", slide(Vector3::x())).actuator("y", slide(Vector3::y()));
+    /// # let gantry = Mechanism::serial(chain.build()?, Pose::identity(), Vector3::zeros())?;
+    /// assert!(!gantry.turns_as_it_moves(), "two slides do not");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn turns_as_it_moves(&self) -> bool {
         let Ok(home) = self.posture_at_pose(&self.platforms()[self.tool()].home, None) else {

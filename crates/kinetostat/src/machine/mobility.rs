@@ -12,6 +12,32 @@ use crate::spatial::Directions;
 impl Posture {
     /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
     /// (rotations in units of the natural length).
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("table")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .translation(vector![0.2, 0.1, 0.0])
+    /// #     .passive("pivot", MotionKind::Revolute, Vector3::z(), 0.0)
+    /// #     .build()?;
+    /// # let home = Pose::translation(0.2, 0.1, 0.0);
+    /// # let table = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // Two slides, and a pivot that nothing drives.
+    /// let posture = table.posture(&home)?;
+    /// let basis = posture.mobility();
+    /// assert_eq!(basis.ncols(), 3);
+    /// assert!((basis.transpose() * &basis - nalgebra::DMatrix::identity(3, 3)).amax() < 1e-12);
+    /// for blocked in [2, 3, 4] {
+    ///     assert!(basis.row(blocked).amax() < 1e-9, "it neither lifts nor tilts");
+    /// }
+    /// let driven = posture.commanded_motions();
+    /// assert!(driven.ncols() == 2 && driven.row(5).amax() < 1e-9, "no slide turns it");
+    /// assert_eq!(posture.correctable().to_string(), "x y");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn mobility(&self) -> DMatrix<f64> {
         let m = &self.mechanism;

@@ -15,6 +15,47 @@ use crate::settings::Settings;
 use crate::spatial::{MotionKind, Pose, Wrench};
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let drive = |stiffness, limits| ActuatorSpec {
+/// #     limits: Some(limits), // rad
+/// #     home: 0.5,
+/// #     ..ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness) // N m/rad
+/// # };
+/// # let chain = Chain::builder("arm")
+/// #     .actuator("shoulder", drive(2e5, (-2.0, 2.0)))
+/// #     .translation(vector![0.6, 0.0, 0.0])
+/// #     .actuator("elbow", drive(1e5, (0.2, 2.5)))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// # let turn = Pose::rotation(vector![0.0, 0.0, 0.5]); // rad: both joints at home
+/// # let home = turn * Pose::translation(0.6, 0.0, 0.0) * turn * Pose::translation(0.5, 0.0, 0.0);
+/// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// // An arm of 0.6 m and 0.5 m, commanded so that its tool is at a distance r of the shoulder.
+/// let posture = arm.posture(PostureRequest::position(&vector![0.5, 0.6, 0.0], &home.rotation))?;
+/// let commands = posture.commands(); // rad
+/// let cosine = (0.5 * 0.5 + 0.6 * 0.6 - 0.6 * 0.6 - 0.5 * 0.5) / (2.0 * 0.6 * 0.5);
+/// assert!((commands[1].cos() - cosine).abs() < 1e-9, "the law of cosines");
+/// assert_eq!(posture.limbs()[0].commands, commands, "one limb has them all");
+/// assert_eq!(posture.platforms()[posture.mechanism().tool()], *posture.target());
+/// assert!(posture.limit_violations().is_empty() && posture.within_limits().is_ok());
+/// // Nothing is bent in its state of rest.
+/// let rest = posture.rest_state();
+/// assert!(rest.coordinates[0].iter().all(|deflection| *deflection == 0.0) && rest.wrenches[0] == Wrench::zero());
+/// // A posture is asked with tolerances of its own.
+/// let quick = posture.with_settings(Settings::default().with_iterations(20));
+/// assert_eq!(quick.settings().iterations, 20);
+///
+/// // Stretched, its elbow passes its limit of 0.2 rad.
+/// let straight = arm.posture(PostureRequest::commands(&[0.3, 0.1]))?;
+/// assert_eq!(straight.limit_violations(), [("elbow".to_owned(), 0.1, (0.2, 2.5))]);
+/// assert!(matches!(straight.within_limits(), Err(Error::OutsideLimits { .. })));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Posture {
     pub(crate) mechanism: Mechanism,
@@ -172,6 +213,26 @@ impl Posture {
     ///
     /// # Errors
     /// [`Error::Model`] for the base or a platform that does not exist; [`Error::NotFinite`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+    /// # let rail = Chain::builder("rail").actuator("trolley", slide(Vector3::x(), 1e6)).build()?; // N/m
+    /// # let boom = Chain::builder("boom").actuator("hoist", slide(Vector3::z(), 1e5)).build()?; // N/m
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let carriage = machine.platform(Platform::new("carriage", Pose::identity()));
+    /// # let hook = machine.platform(Platform::new("hook", Pose::identity()));
+    /// # let machine = machine.limb(Limb::between("rail", 0, carriage, rail));
+    /// # let crane = machine.limb(Limb::between("boom", carriage, hook, boom)).build()?;
+    /// let pull = Wrench::new(vector![-500.0, 70.0, 900.0], Vector3::zeros()); // N
+    /// let pulled = crane.posture(&Pose::identity())?.with_wrench_on(carriage, pull)?;
+    /// let load = Wrench::new(vector![200.0, 0.0, -300.0], Vector3::zeros());
+    /// let moved = pulled.deflected_by(&load)?.displacement.linear();
+    /// // The trolley's spring carries what acts on carriage and hook, the hoist's only what acts on the hook.
+    /// assert!((moved - vector![(200.0 - 500.0) / 1e6, 0.0, -300.0 / 1e5]).norm() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn with_wrench_on(mut self, platform: usize, wrench: Wrench) -> Result<Self> {
         self.finite("the wrench on a platform", wrench.0.iter())?;
         let count = self.mechanism.platforms().len();

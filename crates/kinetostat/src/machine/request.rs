@@ -66,6 +66,34 @@ impl<'a> PostureRequest<'a> {
 
     /// The tool (base from tool) is at a pose on the nominal machine with springs at rest. Platforms between base and
     /// tool find their places with the joints. Where actuators are redundant, see [`Posture::redundancy`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let drive = |stiffness, limits| ActuatorSpec {
+    /// #     limits: Some(limits), // rad
+    /// #     home: 0.5,
+    /// #     ..ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness) // N m/rad
+    /// # };
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", drive(2e5, (-2.0, 2.0)))
+    /// #     .translation(vector![0.6, 0.0, 0.0])
+    /// #     .actuator("elbow", drive(1e5, (0.2, 2.5)))
+    /// #     .translation(vector![0.5, 0.0, 0.0])
+    /// #     .build()?;
+    /// # let turn = Pose::rotation(vector![0.0, 0.0, 0.5]); // rad: both joints at home
+    /// # let home = turn * Pose::translation(0.6, 0.0, 0.0) * turn * Pose::translation(0.5, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let (shoulder, elbow) = (0.3, 0.8_f64); // rad
+    /// let reached = Pose::rotation(vector![0.0, 0.0, shoulder])
+    ///     * Pose::translation(0.6, 0.0, 0.0)
+    ///     * Pose::rotation(vector![0.0, 0.0, elbow])
+    ///     * Pose::translation(0.5, 0.0, 0.0);
+    /// let posture = arm.posture(PostureRequest::pose(&reached))?; // or `arm.posture(&reached)`
+    /// let commands = posture.commands();
+    /// assert!((commands[0] - shoulder).abs() < 1e-9 && (commands[1] - elbow).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn pose(target: &Pose) -> Self {
         Self::of(Query::Pose(*target))
@@ -88,6 +116,35 @@ impl<'a> PostureRequest<'a> {
 
     /// Commands and passive coordinates of every limb are known, with the tool nominally at `target`. Platforms
     /// between base and tool are put where the limbs lead, along the fewest of them.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let drive = |stiffness, limits| ActuatorSpec {
+    /// #     limits: Some(limits), // rad
+    /// #     home: 0.5,
+    /// #     ..ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness) // N m/rad
+    /// # };
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", drive(2e5, (-2.0, 2.0)))
+    /// #     .translation(vector![0.6, 0.0, 0.0])
+    /// #     .actuator("elbow", drive(1e5, (0.2, 2.5)))
+    /// #     .translation(vector![0.5, 0.0, 0.0])
+    /// #     .build()?;
+    /// # let turn = Pose::rotation(vector![0.0, 0.0, 0.5]); // rad: both joints at home
+    /// # let home = turn * Pose::translation(0.6, 0.0, 0.0) * turn * Pose::translation(0.5, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // A controller says where it thinks that its joints are, and where the tool should be.
+    /// let joints = machine::LimbPosture { commands: vec![0.5, 0.5], coordinates: vec![0.0, 0.0] }; // rad
+    /// let target = Pose::new(vector![0.76, 0.7, 0.0], vector![0.0, 0.0, 1.0]);
+    /// let posture = arm.posture(PostureRequest::joints(&target, vec![joints]))?;
+    /// assert_eq!(posture.commands(), [0.5, 0.5], "nothing is solved");
+    /// // Where springs at rest lead from there: the two bars, one after the other.
+    /// let (x, y) = (0.6 * 0.5_f64.cos() + 0.5 * 1.0_f64.cos(), 0.6 * 0.5_f64.sin() + 0.5 * 1.0_f64.sin());
+    /// let rests = posture.deflected_by(&Wrench::zero())?.tool.translation.vector;
+    /// assert!((rests - vector![x, y, 0.0]).norm() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn joints(target: &Pose, limbs: Vec<LimbPosture>) -> Self {
         Self::of(Query::Joints(*target, limbs))
@@ -103,6 +160,33 @@ impl<'a> PostureRequest<'a> {
 
     /// As [`Self::near`], for a position along the straight line from the other posture and no other: where many
     /// positions are tried that cannot be taken, a search around each would be dear.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let drive = |stiffness, limits| ActuatorSpec {
+    /// #     limits: Some(limits), // rad
+    /// #     home: 0.5,
+    /// #     ..ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness) // N m/rad
+    /// # };
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", drive(2e5, (-2.0, 2.0)))
+    /// #     .translation(vector![0.6, 0.0, 0.0])
+    /// #     .actuator("elbow", drive(1e5, (0.2, 2.5)))
+    /// #     .translation(vector![0.5, 0.0, 0.0])
+    /// #     .build()?;
+    /// # let turn = Pose::rotation(vector![0.0, 0.0, 0.5]); // rad: both joints at home
+    /// # let home = turn * Pose::translation(0.6, 0.0, 0.0) * turn * Pose::translation(0.5, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let start = arm.posture(PostureRequest::commands(&[0.3, 0.9]))?;
+    /// let from = start.target().translation.vector;
+    /// let at = |position| arm.posture(PostureRequest::position(&position, &home.rotation).straight_from(&start));
+    /// let beside = at(from + vector![-0.05, 0.1, 0.0])?; // m
+    /// assert!((beside.target().translation.vector - from - vector![-0.05, 0.1, 0.0]).norm() < 1e-9);
+    /// assert!(beside.commands()[1] > 0.0, "the elbow stays on its side");
+    /// assert!(at(from + vector![0.9, 0.0, 0.0]).is_err(), "1.1 m is all that the arm reaches");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn straight_from(mut self, posture: &'a Posture) -> Self {
         self.from = Start::StraightFrom(posture);

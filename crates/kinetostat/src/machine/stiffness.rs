@@ -75,6 +75,28 @@ impl Posture {
 }
 
 /// Unloaded stiffness of a mechanism and its limbs.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+/// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+/// # let chain = Chain::builder("boom").link("bar", &bar, length).build()?;
+/// # let home = Pose::translation(length, 0.0, 0.0);
+/// # let boom = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let stiffness = boom.posture(&home)?.stiffness()?;
+/// assert_eq!(stiffness.rank(), 6);
+/// // A hand that pushes the end feels 3 E I / L^3, as the end may turn; held straight it is four times as stiff.
+/// let bending = 3.0 * ei / length.powi(3); // N/m
+/// assert!((stiffness.stiffness_against_force() / bending - 1.0).abs() < 1e-9);
+/// assert!((stiffness.cartesian.matrix[(1, 1)] / (4.0 * bending) - 1.0).abs() < 1e-9);
+/// let compliance = stiffness.compliance();
+/// assert!((compliance.springs[(2, 2)] * bending - 1.0).abs() < 1e-9, "a round bar, across in any direction");
+/// assert!(compliance.free.is_empty() && compliance.rigid.is_empty());
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct UnloadedStiffness {

@@ -5,43 +5,12 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
 use crate::error::{Error, Part, Place, Result};
+use crate::model::actuator::ActuatorSpec;
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
-use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, scaled};
+use crate::model::chain_check::{natural_scale, spring_fault, usable};
+use crate::model::springs::block::{Segment, SpringBlock, SpringLaw};
 use crate::model::springs::parallelogram::ParallelogramLaw;
-use crate::number::short;
 use crate::spatial::{MotionKind, Pose};
-
-/// An actuator as the builder takes it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ActuatorSpec {
-    /// Prismatic or revolute.
-    pub kind: MotionKind,
-    /// Axis in the local frame; need not be normalised.
-    pub axis: Vector3<f64>,
-    /// Stiffness of the drive (N/m or N m/rad); `None` is a rigid drive.
-    pub stiffness: Option<f64>,
-    /// Deflection at rest, `theta0` (m or rad).
-    pub rest: f64,
-    /// Command from which inverse kinematics starts (m or rad).
-    pub home: f64,
-    /// Limits of the command (m or rad).
-    pub limits: Option<(f64, f64)>,
-}
-
-impl ActuatorSpec {
-    /// An actuator with an elastic drive, at home at zero, without limits.
-    #[must_use]
-    pub fn new(kind: MotionKind, axis: Vector3<f64>, stiffness: f64) -> Self {
-        Self {
-            kind,
-            axis,
-            stiffness: Some(stiffness),
-            rest: 0.0,
-            home: 0.0,
-            limits: None,
-        }
-    }
-}
 
 /// Directions of a 6-D virtual spring in the order of its motions: `x y z rx ry rz`.
 const SIX: [(MotionKind, usize); 6] = [
@@ -53,11 +22,6 @@ const SIX: [(MotionKind, usize); 6] = [
     (MotionKind::Revolute, 2),
 ];
 const SIX_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-
-/// Finite, and so that powers are finite too.
-fn usable(x: f64) -> bool {
-    x.abs() <= crate::model::limits::LARGEST
-}
 
 fn unit(axis: usize) -> Vector3<f64> {
     let mut v = Vector3::zeros();
@@ -74,9 +38,6 @@ pub struct ChainBuilder {
     chain: Chain,
     mistake: Option<Mistake>,
 }
-
-/// Smallest eigenvalue of a scaled stiffness matrix that is distinct from rounding.
-const SINGULAR: f64 = 1e-12;
 
 impl Chain {
     /// Starts a description.
@@ -231,6 +192,27 @@ impl ChainBuilder {
     /// `name`, then the passive rotation `name.turn` about the same axis, which also changes the
     /// length by `lead / (2 pi)` (m per turn; positive for a right-hand thread). A force `F` along the
     /// axis and the moment `M` about it then hold `M + F lead / (2 pi) = 0`: a screw without friction.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let (drive, lead) = (2e8, 0.01); // N/m, m per turn
+    /// let strut = Chain::builder("strut")
+    ///     .screw("screw", ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), drive), lead)
+    ///     .build()?;
+    /// let (at_rest, commands) = (strut.home_coordinates(), strut.home_commands());
+    /// let stiffness = unloaded_stiffness(&strut, &Pose::identity(), &at_rest, &commands)?;
+    /// // A nut that turns travels by its lead ...
+    /// let free = stiffness.directions.iter().find(|direction| direction.kind == DirectionKind::Free);
+    /// let twist = free.expect("the far end is free to turn").twist;
+    /// let pitch = lead / std::f64::consts::TAU; // m/rad
+    /// assert!((twist.linear().x / twist.angular().x - pitch).abs() < 1e-12);
+    /// // ... so that a force of the drive comes with a moment about the axis.
+    /// let pushed = stiffness.cartesian * Twist::new(vector![1e-6, 0.0, 0.0], Vector3::zeros());
+    /// assert!((pushed.force().x - 1e-6 * drive).abs() < 1e-6);
+    /// assert!((pushed.moment().x + pushed.force().x * pitch).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn screw(mut self, name: &str, spec: ActuatorSpec, lead: f64) -> Self {
         if spec.kind != MotionKind::Prismatic {
@@ -269,6 +251,21 @@ impl ChainBuilder {
     }
 
     /// A spherical joint: passive rotations about x, y, z in this order, named `name.x` ...
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let slide = ActuatorSpec::new(MotionKind::Prismatic, vector![1.0, 2.0, 2.0], 9e6); // N/m
+    /// let strut = Chain::builder("strut").actuator("slide", slide).passive_spherical("ball").build()?;
+    /// let (at_rest, commands) = (strut.home_coordinates(), strut.home_commands());
+    /// let stiffness = unloaded_stiffness(&strut, &Pose::identity(), &at_rest, &commands)?;
+    /// assert_eq!(stiffness.count(DirectionKind::Free), 3, "it turns about every axis");
+    /// // What the drive holds is the force along its axis (1, 2, 2) / 3.
+    /// let pushed = stiffness.cartesian * Twist::new(vector![0.0, 1e-6, 0.0], vector![0.3, -0.2, 0.1]);
+    /// assert!((pushed.force() - vector![2.0, 4.0, 4.0]).norm() < 1e-9); // N
+    /// assert!(pushed.moment().norm() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn passive_spherical(mut self, name: &str) -> Self {
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
@@ -285,6 +282,24 @@ impl ChainBuilder {
     /// One more motion driven by an existing coordinate: displacement `ratio * coordinate`. This is
     /// how parallelograms and mimic joints are written. Where the name is an actuator's, the motion
     /// follows the joint: its command, and with it the deflection of its drive.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let swing = Chain::builder("parallelogram")
+    ///     .passive("swing", MotionKind::Revolute, Vector3::y(), 0.0)
+    ///     .translation(vector![0.5, 0.0, 0.1])
+    ///     .coupled("swing", MotionKind::Revolute, Vector3::y(), -1.0)
+    ///     .build()?;
+    /// assert_eq!(swing.coordinate_count(), 1);
+    /// let angle = 0.4_f64; // rad
+    /// let end = model::unloaded_tip(&swing, &Pose::identity(), &[angle], &[]);
+    /// assert!(end.rotation.angle() < 1e-15, "it swings without turning");
+    /// let (s, c) = angle.sin_cos();
+    /// let place = vector![0.5 * c + 0.1 * s, 0.0, 0.1 * c - 0.5 * s]; // m
+    /// assert!((end.translation.vector - place).norm() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn coupled(
         mut self,
@@ -334,6 +349,24 @@ impl ChainBuilder {
 
     /// A virtual spring of one degree of freedom with any law of one coordinate, such as
     /// [`crate::model::BilinearLaw`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// use kinetostat::model::{BilinearLaw, SpringLaw};
+    ///
+    /// let gear = BilinearLaw { stiffness: 1e4, beyond: 3e4, knee: 1e-3 }; // N m/rad, rad
+    /// let joint = Chain::builder("joint")
+    ///     .spring_with_law("gear", MotionKind::Revolute, Vector3::z(), SpringLaw::Bilinear(gear), 0.0)
+    ///     .build()?;
+    /// for (moment, angle) in [(8.0, 8e-4), (40.0, 1e-3 + 30.0 / 3e4), (-40.0, -2e-3)] {
+    ///     let load = Wrench::new(vector![0.0, 0.0, 90.0], vector![5.0, 0.0, moment]); // N, N m
+    ///     let problem = ChainProblem::new(&joint, EndCondition::wrench(load));
+    ///     let found = solve_chain(&problem, &Settings::default())?;
+    ///     assert!((found.coordinates[0] - angle).abs() < 1e-12, "only the moment about z turns it");
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn spring_with_law(
         mut self,
@@ -353,6 +386,25 @@ impl ChainBuilder {
     /// Value (m or rad) that the coordinate `name`, written before, has when the machine is at home
     /// without load. For a spring inverse kinematics keeps it: a spring whose home is its rest
     /// stands there unloaded; one at home elsewhere is assembled with a preload.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let buffer = |home| {
+    ///     Chain::builder("buffer")
+    ///         .spring("slide", MotionKind::Prismatic, Vector3::x(), 2e4, 0.02) // N/m, at rest at 20 mm
+    ///         .home("slide", home)
+    ///         .build()
+    /// };
+    /// // Where it rests it needs no force; 20 mm shorter it is assembled with 2e4 N/m * 0.02 m.
+    /// for (home, force) in [(0.02, 0.0), (0.0, -400.0)] {
+    ///     let chain = buffer(home)?;
+    ///     let held = EndCondition::pose(Pose::translation(home, 0.0, 0.0));
+    ///     let found = solve_chain(&ChainProblem::new(&chain, held), &Settings::default())?;
+    ///     assert!((found.wrench.force().x - force).abs() < 1e-9);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn home(mut self, name: &str, value: f64) -> Self {
         match self.chain.coordinates.iter_mut().find(|c| c.name == name) {
@@ -383,6 +435,25 @@ impl ChainBuilder {
     }
 
     /// Some of the six directions (0..6 = `x y z rx ry rz`, increasing) held by one law.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// use kinetostat::model::SpringLaw;
+    ///
+    /// // A leaf: what a force along y does and what a moment about z does are coupled.
+    /// let (across, coupling, turn) = (4e5, -6e4, 1.5e4); // N/m, N/rad, N m/rad
+    /// let law = nalgebra::DMatrix::from_row_slice(2, 2, &[across, coupling, coupling, turn]);
+    /// let leaf = Chain::builder("leaf").springs("leaf", &[1, 5], SpringLaw::Linear(law), vec![0.0; 2]).build()?;
+    /// let stiffness = unloaded_stiffness(&leaf, &Pose::identity(), &leaf.home_coordinates(), &[])?;
+    /// assert_eq!(stiffness.count(DirectionKind::Rigid), 4);
+    /// // A force alone finds the leaf softer than a motion that may not turn.
+    /// let load = Wrench::new(vector![0.0, 1.0, 0.0], Vector3::zeros()); // N
+    /// let found = solve_chain(&ChainProblem::new(&leaf, EndCondition::wrench(load)), &Settings::default())?;
+    /// let softened = across - coupling * coupling / turn;
+    /// assert!((found.tip.translation.y * softened - 1.0).abs() < 1e-6);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn springs(
         mut self,
@@ -443,6 +514,28 @@ impl ChainBuilder {
     /// A bar parallelogram along local x that swings about local y: `Ry(q2) Tx(length) V5 Ry(-q2)`,
     /// with the passive coordinate `name` and the spring `name.bars` (see [`ParallelogramLaw`]).
     /// `bar` is the cantilever matrix of one bar, `width` the distance of the bars (m).
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let (length, width, q) = (0.6, 0.1, 0.4_f64); // m, m, rad
+    /// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.014); // Pa, m
+    /// let leg = Chain::builder("leg").parallelogram("bars", length, width, &bar.cantilever(length)?, q).build()?;
+    /// let posture = leg.home_coordinates();
+    /// let end = model::unloaded_tip(&leg, &Pose::identity(), &posture, &[]);
+    /// assert!(end.rotation.angle() < 1e-15, "it swings about y and does not turn");
+    /// let stiffness = unloaded_stiffness(&leg, &Pose::identity(), &posture, &[])?;
+    /// // Along the bars there are two of them, each E A / L.
+    /// let along = vector![q.cos(), 0.0, -q.sin()];
+    /// let pulled = stiffness.cartesian * Twist::new(along * 1e-6, Vector3::zeros());
+    /// let axial = 2.1e11 * bar.area / length; // N/m
+    /// assert!((pulled.force() - along * (2e-6 * axial)).norm() < 1e-9 * axial);
+    /// // A turn about y lengthens one and shortens the other, half the distance of their lines away.
+    /// let turned = stiffness.cartesian * Twist::new(Vector3::zeros(), vector![0.0, 1e-6, 0.0]);
+    /// let arm = 0.5 * width * q.cos();
+    /// assert!((turned.moment().y / (2e-6 * axial * arm * arm) - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn parallelogram(
         self,
@@ -482,6 +575,24 @@ impl ChainBuilder {
 
     /// A mass (kg) fixed to the frame reached so far: centre of mass (m, local) and inertia about
     /// it (kg m^2, local axes). Its centre becomes a node named `name`.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let (mass, g) = (30.0, 9.81); // kg, m/s^2
+    /// let arm = Chain::builder("arm")
+    ///     .spring("shoulder", MotionKind::Revolute, Vector3::z(), 2e3, 0.0) // N m/rad
+    ///     .body("motor", mass, vector![0.4, 0.15, 0.2], nalgebra::Matrix3::zeros())
+    ///     .translation(vector![0.8, 0.0, 0.0])
+    ///     .build()?;
+    /// let mut problem = ChainProblem::new(&arm, EndCondition::wrench(Wrench::zero()));
+    /// problem.loads.push(Load::gravity(vector![0.0, -g, 0.0]));
+    /// let found = solve_chain(&problem, &Settings::default())?;
+    /// let sunk = found.nodes[arm.node("motor")?].translation;
+    /// assert!((found.spring_torques[0] + mass * g * sunk.x).abs() < 1e-6, "the spring carries weight times arm");
+    /// assert_eq!(found.tip.translation.vector.norm(), 0.8, "the mass moves no frame");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn body(
         mut self,
@@ -540,61 +651,6 @@ impl ChainBuilder {
         self.chain.springs.push(block);
     }
 
-    /// What is wrong with a spring.
-    fn check_spring(block: &SpringBlock) -> Option<String> {
-        let posture = vec![0.3; block.first + 6];
-        let k = block.stiffness_at(&posture);
-        if k.nrows() != block.len() || k.ncols() != block.len() {
-            return Some(format!(
-                "a {0} x {0} matrix is needed, {1} x {2} was given",
-                block.len(),
-                k.nrows(),
-                k.ncols()
-            ));
-        }
-        if let Some(fault) = block.law.fault() {
-            return Some(fault.to_owned());
-        }
-        if k.iter().any(|x| !usable(*x)) {
-            return Some(
-                "its stiffness holds a number that is not finite, or beyond 1e60".to_owned(),
-            );
-        }
-        let scaled = scaled(&k);
-        if (&scaled - scaled.transpose()).amax() > 1e-9 {
-            return Some("its stiffness matrix is not symmetric".to_owned());
-        }
-        if let Some(i) = (0..k.nrows()).find(|&i| k[(i, i)] <= 0.0) {
-            return Some(format!(
-                "its stiffness {} is not positive (diagonal entry {}); a free direction is a passive joint",
-                k[(i, i)],
-                i + 1
-            ));
-        }
-        // A coupling as large as the diagonal is indefinite; found here because extreme numbers can
-        // keep an eigenvalue iteration busy for ever.
-        if let Some((i, j)) = (0..k.nrows())
-            .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .find(|&(i, j)| scaled[(i, j)].abs() > 1.0 + SINGULAR)
-        {
-            return Some(format!(
-                "its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
-                i + 1,
-                j + 1
-            ));
-        }
-        let least = scaled.symmetric_eigenvalues().min();
-        if least < -SINGULAR {
-            return Some(format!(
-                "its stiffness matrix is not positive definite (smallest scaled eigenvalue {})",
-                short(least)
-            ));
-        }
-        (least <= SINGULAR).then(|| {
-            format!("its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest scaled eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
-        })
-    }
-
     /// Checks the description and freezes it.
     ///
     /// # Errors
@@ -629,7 +685,7 @@ impl ChainBuilder {
             }
         }
         for spring in &chain.springs {
-            if let Some(reason) = Self::check_spring(spring) {
+            if let Some(reason) = spring_fault(spring) {
                 let place = place.with_part(Part::Spring(spring.name.clone()));
                 return Err(Error::model(place, reason));
             }
@@ -637,47 +693,4 @@ impl ChainBuilder {
         chain.scale = natural_scale(&chain);
         Ok(chain)
     }
-}
-
-fn is_body(chain: &Chain, node: usize) -> bool {
-    chain.bodies.iter().any(|b| b.node == node)
-}
-
-/// Length: sum of the rigid offsets. Stiffness: geometric mean of the springs, rotations referred
-/// to that length.
-fn natural_scale(chain: &Chain) -> Scale {
-    let mut length = 0.0;
-    for (i, element) in chain.elements.iter().enumerate() {
-        // A centre of mass is reached by an offset and left by its inverse: no part of the chain.
-        let to_mass =
-            matches!(chain.elements.get(i + 1), Some(Element::Node(n)) if is_body(chain, *n));
-        let from_mass =
-            i > 0 && matches!(chain.elements[i - 1], Element::Node(n) if is_body(chain, n));
-        if let Element::Rigid(pose) = element
-            && !to_mass
-            && !from_mass
-        {
-            length += pose.translation.vector.norm();
-        }
-    }
-    let length = if length > 1e-9 { length } else { 1.0 };
-    let posture = chain.home_coordinates();
-    let (mut sum, mut count) = (0.0, 0.0);
-    for block in &chain.springs {
-        let k = block.stiffness_at(&posture);
-        for i in 0..block.len() {
-            let unit = match chain.coordinates[block.first + i].kind {
-                MotionKind::Prismatic => 1.0,
-                MotionKind::Revolute => length * length,
-            };
-            sum += (k[(i, i)] / unit).ln();
-            count += 1.0;
-        }
-    }
-    let stiffness = if count > 0.0 {
-        (sum / count).exp()
-    } else {
-        1.0
-    };
-    Scale { length, stiffness }
 }

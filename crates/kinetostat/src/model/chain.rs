@@ -110,6 +110,39 @@ pub struct Body {
 
 /// An ordered product of elementary motions with springs, passive joints, nodes and masses.
 /// Never changes after [`crate::ChainBuilder::build`].
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// use kinetostat::model::{Element, Role};
+///
+/// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.03); // Pa, m
+/// let slide = ActuatorSpec { home: 0.2, ..ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), 1e7) }; // m, N/m
+/// let leg = Chain::builder("leg")
+///     .actuator("slide", slide)
+///     .node("carriage")
+///     .body("motor", 12.0, vector![0.1, 0.0, -0.05], nalgebra::Matrix3::zeros()) // kg, m
+///     .passive("hinge", MotionKind::Revolute, Vector3::y(), 0.4)
+///     .link("bar", &bar, 0.5)
+///     .build()?;
+/// assert_eq!(leg.name(), "leg");
+/// assert_eq!(leg.nodes(), ["carriage", "motor", "tip"]);
+/// assert!(leg.node("carriage")? == 0 && leg.tip() == 2);
+/// assert_eq!(leg.bodies()[0].mass, 12.0);
+/// // The drive's deflection, the hinge, and six of the bar: springs but for the hinge.
+/// assert!(leg.coordinate_count() == 8 && leg.coordinates().len() == 8);
+/// assert_eq!(leg.indices_of(Role::Passive), [1]);
+/// assert_eq!(leg.springs().len(), 2, "the drive's and the bar's");
+/// assert_eq!(leg.actuators()[0].coordinate, Some(0), "the drive is elastic");
+/// assert_eq!(leg.home_commands(), [0.2]);
+/// assert_eq!(leg.home_coordinates(), [0.0, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+/// let motions = leg.elements().iter().filter(|element| matches!(element, Element::Motion(_)));
+/// assert_eq!(motions.count(), 8, "drive and command share one motion");
+/// assert!((leg.scale().length - 0.5).abs() < 1e-15, "the way to the motor's centre does not count");
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Chain {
@@ -242,6 +275,26 @@ impl Chain {
     ///
     /// # Errors
     /// [`Error::Model`] if a node has that name already.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+    /// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+    /// let cantilever = Chain::builder("boom").link("bar", &bar, length).build()?;
+    /// let (along, up) = (0.2, 0.1); // m
+    /// let tooled = cantilever.with_end("flange", &Pose::translation(along, up, 0.0))?;
+    /// assert_eq!(tooled.nodes(), ["flange", "tip"]);
+    /// let at_rest = tooled.home_coordinates();
+    /// let stiffness = unloaded_stiffness(&tooled, &Pose::identity(), &at_rest, &[])?.cartesian;
+    /// let compliance = stiffness.compliance().expect("a clamped bar holds its end"); // m/N
+    /// // A force across bends the bar, and its end turns the tool.
+    /// let across = ((length + along).powi(3) - along.powi(3)) / (3.0 * ei);
+    /// let turn = (0.5 * length + along) * length / ei;
+    /// assert!((compliance[(1, 1)] / across - 1.0).abs() < 1e-9);
+    /// assert!((compliance[(0, 1)] / (-up * turn) - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn with_end(&self, name: &str, offset: &Pose) -> Result<Self> {
         if self.nodes.iter().any(|n| n == name) {
             return Err(Error::model(

@@ -67,6 +67,32 @@ pub enum LinkElasticity {
 }
 
 /// A straight elastic link along local x; see [`ChainBuilder::link_with`].
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+/// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+/// use kinetostat::model::LinkConvention;
+///
+/// // From its section or from its matrix, in one piece or in several, by one convention or another:
+/// // without load the end of a cantilever sinks by P L^3 / 3 E I.
+/// let whole = bar.cantilever(length)?;
+/// for link in [
+///     LinkSpec::beam(bar, length).segments(3),
+///     LinkSpec::matrix(whole, length),
+///     LinkSpec::matrix(whole, length).segments(5).convention(LinkConvention::Middle),
+///     LinkSpec::beam(bar, length).segments(2).convention(LinkConvention::Exponential),
+/// ] {
+///     let boom = Chain::builder("boom").link_with("bar", &link).build()?;
+///     let stiffness = unloaded_stiffness(&boom, &Pose::identity(), &boom.home_coordinates(), &[])?;
+///     let compliance = stiffness.cartesian.compliance().expect("a clamped bar holds its end");
+///     assert!((compliance[(1, 1)] / (length.powi(3) / (3.0 * ei)) - 1.0).abs() < 1e-9);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct LinkSpec {
@@ -216,6 +242,28 @@ impl ChainBuilder {
     /// beam of its stiffness; the buckling load of a cone converges with the fourth power of the pieces.
     ///
     /// A fault where there is no piece, or a matrix is no stiffness of a piece.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// // A stepped bar: the half at the root is thicker than the half at the end.
+    /// let [thick, thin] = [0.05, 0.03].map(|diameter| BeamSection::tube(2.1e11, 8.1e10, diameter, 0.0)); // Pa, m
+    /// let (length, half) = (0.8_f64, 0.4_f64); // m
+    /// let pieces = [thick.cantilever(half)?, thin.cantilever(half)?];
+    /// let whole = LinkSpec::beam(thin, length); // its length and convention count
+    /// let bar = Chain::builder("bar").link_of_pieces("bar", &whole, &pieces).build()?;
+    /// let stiffness = unloaded_stiffness(&bar, &Pose::identity(), &bar.home_coordinates(), &[])?;
+    /// let compliance = stiffness.cartesian.compliance().expect("a clamped bar holds its end");
+    /// // Moment P (L - x) over each half: [x^3 / 3 E I] between its ends.
+    /// let bends = |bar: &BeamSection, from: f64, to: f64| {
+    ///     (to.powi(3) - from.powi(3)) / (3.0 * 2.1e11 * bar.second_moment_z)
+    /// };
+    /// let across = bends(&thin, 0.0, half) + bends(&thick, half, length); // m/N
+    /// let along = half / (2.1e11 * thick.area) + half / (2.1e11 * thin.area);
+    /// assert!((compliance[(1, 1)] / across - 1.0).abs() < 1e-9);
+    /// assert!((compliance[(0, 0)] / along - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn link_of_pieces(self, name: &str, whole: &LinkSpec, pieces: &[Matrix6<f64>]) -> Self {
         let whole = whole.segments(pieces.len());
@@ -309,6 +357,26 @@ impl ChainBuilder {
     /// N m/rad) at the far end, root clamped, in the axes of that frame; `offset` from near to far
     /// end, m. It is [`ChainBuilder::spring6`] ([`LinkConvention::TranslationsFirst`]) with the
     /// link's axial load given.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+    /// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+    /// // A bar that lies along the diagonal of x and y.
+    /// let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_4);
+    /// let turned = spatial::turn_matrix(&turn);
+    /// let matrix = turned * bar.cantilever(length)? * turned.transpose();
+    /// let offset = turn * vector![length, 0.0, 0.0]; // m
+    /// let brace = Chain::builder("brace").translation(offset).link_spring("bar", &matrix, &offset).build()?;
+    /// let push = Wrench::new(turn * vector![-5e3, 0.0, 0.0], Vector3::zeros()); // N
+    /// let found = solve_chain(&ChainProblem::new(&brace, EndCondition::wrench(push)), &Settings::default())?;
+    /// let load = &found.link_loads(&brace)[0];
+    /// assert!((load.axial_force + 5e3).abs() < 1e-6, "all of the push goes along the bar");
+    /// let euler = (std::f64::consts::PI / length).powi(2) * ei; // N
+    /// assert!((load.euler_load / euler - 1.0).abs() < 1e-9 && (load.share * euler / 5e3 - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
         let length = offset.norm();

@@ -20,6 +20,29 @@ use crate::number::larger;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = ActuatorSpec::new(MotionKind::Revolute, Vector3::x(), 4e4); // N m/rad
+/// # let chain = Chain::builder("hinge").actuator("hinge", slide).build()?;
+/// let head = Platform {
+///     mass: 50.0, // kg
+///     centre_of_mass: vector![0.1, 0.2, -0.05], // m
+///     ..Platform::new("head", Pose::identity())
+/// };
+/// let mut machine = Mechanism::builder("tilting head").gravity(vector![0.0, 0.0, -9.81]); // m/s^2
+/// let head = machine.platform(head);
+/// let machine = machine.limb(Limb::between("hinge", 0, head, chain)).build()?;
+/// let tilted = machine.posture(&Pose::identity())?.deflected_by(&Wrench::zero())?;
+/// // The hinge turns about x until its spring holds the weight at the arm that it has then.
+/// let angle = tilted.tool.rotation.scaled_axis().x;
+/// let arm = (tilted.tool * nalgebra::Point3::new(0.1, 0.2, -0.05)).y;
+/// assert!(angle < 0.0 && (4e4 * angle + 50.0 * 9.81 * arm).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Platform {
@@ -50,6 +73,36 @@ impl Platform {
 }
 
 /// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.05, 0.04); // Pa, m
+/// let boom = |head: f64| {
+///     Chain::builder("boom")
+///         .actuator("slide", ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), 1e7)) // N/m
+///         .link("bar", &bar, 0.5)
+///         .translation(vector![head, 0.0, 0.0])
+///         .build()
+/// };
+/// // Its tip holds the platform 0.1 m left of the platform's reference point, and it its head came out 1 mm too long.
+/// let tip_on_platform = Pose::translation(-0.1, 0.0, 0.05);
+/// let limb = Limb::between("boom", 0, 1, boom(0.02)?).fixed_at(tip_on_platform).with_actual(boom(0.021)?);
+/// let mut machine = Mechanism::builder("crane");
+/// let tool = machine.platform(Platform::new("tool", Pose::translation(0.62, 0.0, -0.05)));
+/// let machine = machine.limb(limb).build()?;
+/// let posture = machine.posture(&machine.platforms()[tool].home)?;
+/// let unloaded = posture.deflected_by(&Wrench::zero())?;
+/// assert!((unloaded.displacement.linear() - vector![1e-3, 0.0, 0.0]).norm() < 1e-12, "1 mm beyond its target");
+/// // The limb carries the load on the platform, whose lever arm is that between tip and reference point.
+/// let load = Wrench::new(vector![200.0, -150.0, 80.0], vector![0.0, 5.0, 10.0]); // N, N m
+/// let loaded = posture.deflected_by(&load)?;
+/// let arm = loaded.tool.rotation * tip_on_platform.translation.vector;
+/// assert!((loaded.limbs[0].wrench - load.shifted(&arm)).0.norm() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
@@ -102,6 +155,44 @@ impl Limb {
 /// Platforms, limbs, loads on limbs and gravity. Never changes after
 /// [`MechanismBuilder::build`](crate::MechanismBuilder::build), and is shared: a copy costs nothing, so that
 /// postures and batches own theirs and go to other threads with it.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let slide = |axis, home, stiffness| {
+/// #     ActuatorSpec { home, ..ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness) }
+/// # };
+/// # let rail = Chain::builder("rail")
+/// #     .translation(vector![0.0, 0.0, 1.0])
+/// #     .actuator("trolley", slide(Vector3::x(), 0.3, 1e6)) // N/m
+/// #     .build()?;
+/// # let boom = Chain::builder("boom")
+/// #     .translation(vector![0.0, 0.2, 0.0])
+/// #     .actuator("hoist", slide(Vector3::z(), -0.5, 1e5)) // N/m
+/// #     .build()?;
+/// # let mut machine = Mechanism::builder("crane");
+/// # let carriage = machine.platform(Platform::new("carriage", Pose::translation(0.3, 0.0, 1.0)));
+/// # let home = Pose::translation(0.3, 0.2, 0.5);
+/// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
+/// let crane = machine
+///     .limb(Limb::between("rail", 0, carriage, rail))
+///     .limb(Limb::between("boom", carriage, hook, boom))
+///     .gravity(vector![0.0, 0.0, -9.81]) // m/s^2
+///     .build()?;
+/// assert_eq!(crane.name(), "crane");
+/// assert_eq!(crane.platforms()[0].name, "base");
+/// assert_eq!(crane.platform_named("hook")?, crane.tool());
+/// assert_eq!(crane.limbs()[crane.limb_named("boom")?].from, carriage);
+/// assert_eq!(crane.actuator_names(), ["rail.trolley", "boom.hoist"]);
+/// assert_eq!(crane.actuator_count(), 2);
+/// assert_eq!(crane.posture(&home)?.commands(), [0.3, -0.5]); // m, in this order
+/// assert_eq!(crane.gravity(), vector![0.0, 0.0, -9.81]);
+/// // A rail of 1 m carries a boom of 0.2 m.
+/// assert!((crane.size() - 1.2).abs() < 1e-15 && (crane.natural_length() - 0.6).abs() < 1e-15);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(
@@ -282,6 +373,39 @@ impl Mechanism {
 
     /// The same machine without gravity and without the loads of its model (springs between nodes,
     /// counterweights and so on). Deviations and preloads of springs inside its limbs stay.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, home, stiffness| {
+    /// #     ActuatorSpec { home, ..ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness) }
+    /// # };
+    /// # let rail = Chain::builder("rail")
+    /// #     .translation(vector![0.0, 0.0, 1.0])
+    /// #     .actuator("trolley", slide(Vector3::x(), 0.3, 1e6)) // N/m
+    /// #     .build()?;
+    /// # let boom = Chain::builder("boom")
+    /// #     .translation(vector![0.0, 0.2, 0.0])
+    /// #     .actuator("hoist", slide(Vector3::z(), -0.5, 1e5)) // N/m
+    /// #     .build()?;
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let carriage = machine.platform(Platform::new("carriage", Pose::translation(0.3, 0.0, 1.0)));
+    /// # let home = Pose::translation(0.3, 0.2, 0.5);
+    /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
+    /// # let crane = machine
+    /// #     .limb(Limb::between("rail", 0, carriage, rail))
+    /// #     .limb(Limb::between("boom", carriage, hook, boom))
+    /// #     .gravity(vector![0.0, 0.0, -9.81]) // m/s^2
+    /// #     .build()?;
+    /// assert!(crane.has_own_loads(), "the hook has a mass of 40 kg");
+    /// let sunk = crane.posture(&home)?.deflected_by(&Wrench::zero())?.displacement.linear();
+    /// assert!((sunk - vector![0.0, 0.0, -40.0 * 9.81 / 1e5]).norm() < 1e-12, "on the spring of its hoist");
+    /// let weightless = crane.without_own_loads();
+    /// assert!(!weightless.has_own_loads());
+    /// let still = weightless.posture(&home)?.deflected_by(&Wrench::zero())?.displacement;
+    /// assert!(still.linear().norm() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn without_own_loads(&self) -> Self {
         let mut parts = MechanismParts::clone(&self.parts);
@@ -308,6 +432,26 @@ impl Mechanism {
 
     /// The load has a potential on this limb: statements about energy hold. A dead moment has one
     /// only where everything before its node, from the fixed base on, turns about one axis.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let hinge = |axis| ActuatorSpec::new(MotionKind::Revolute, axis, 2e5); // N m/rad
+    /// let chain = Chain::builder("wrist")
+    ///     .actuator("yaw", hinge(Vector3::z()))
+    ///     .node("fork")
+    ///     .actuator("pitch", hinge(Vector3::y()))
+    ///     .translation(vector![0.1, 0.0, 0.0])
+    ///     .build()?;
+    /// let (fork, tip) = (chain.node("fork")?, chain.tip());
+    /// let wrist = Mechanism::serial(chain, Pose::translation(0.1, 0.0, 0.0), Vector3::zeros())?;
+    /// // The fork turns about one axis, and a moment on it has a potential; what is behind turns about two.
+    /// let moment = |node| Load::dead(node, Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 5.0])); // N m
+    /// assert!(wrist.load_conservative(0, &moment(fork)) && !wrist.load_conservative(0, &moment(tip)));
+    /// assert!(wrist.with_load("wrist", moment(fork))?.loads_conservative(0));
+    /// assert!(!wrist.with_load("wrist", moment(fork))?.with_load("wrist", moment(tip))?.loads_conservative(0));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn load_conservative(&self, limb: usize, load: &Load) -> bool {
         let own = &self.limbs()[limb];
@@ -416,6 +560,29 @@ impl Mechanism {
 impl Mechanism {
     /// The same mechanism with its tool platform's reference point and axes moved to `tool`
     /// (platform from tool): a spindle's tip, say. Results then refer to that point.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let (length, bar) = (0.6, BeamSection::tube(2.1e11, 8.1e10, 0.08, 0.06)); // m, Pa
+    /// let shoulder = 2e5; // N m/rad
+    /// let chain = Chain::builder("arm")
+    ///     .actuator("shoulder", ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), shoulder))
+    ///     .link("arm", &bar, length)
+    ///     .build()?;
+    /// let arm = Mechanism::serial(chain, Pose::translation(length, 0.0, 0.0), Vector3::zeros())?;
+    /// let spindle = Pose::translation(0.15, 0.0, -0.1); // m, ahead of and below the flange
+    /// let milling = arm.with_tool(&spindle);
+    /// let home = milling.platforms()[milling.tool()].home;
+    /// assert!((home.translation.vector - vector![0.75, 0.0, -0.1]).norm() < 1e-15);
+    /// let compliance = milling.posture(&home)?.stiffness()?.compliance().springs; // m/N
+    /// // A force across at the spindle turns the shoulder, bends the arm, and twists it by the height.
+    /// let bending = (0.75_f64.powi(3) - 0.15_f64.powi(3)) / (3.0 * 2.1e11 * bar.second_moment_z);
+    /// let torsion = 0.1 * 0.1 * length / (8.1e10 * bar.torsion_constant);
+    /// let across = 0.75 * 0.75 / shoulder + bending + torsion;
+    /// assert!((compliance[(1, 1)] / across - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn with_tool(&self, tool: &Pose) -> Self {
         let mut moved = MechanismParts::clone(&self.parts);

@@ -75,6 +75,43 @@ impl MechanismBuilder {
     /// Adds a load on platforms: a wrench on any of them, or a spring or compensator between points
     /// of two, whatever limbs they belong to. It is there in every equilibrium; commands and the
     /// unloaded stiffness do not feel it.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, home, stiffness| {
+    /// #     ActuatorSpec { home, ..ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness) }
+    /// # };
+    /// # let rail = Chain::builder("rail")
+    /// #     .translation(vector![0.0, 0.0, 1.0])
+    /// #     .actuator("trolley", slide(Vector3::x(), 0.3, 1e6)) // N/m
+    /// #     .build()?;
+    /// # let boom = Chain::builder("boom")
+    /// #     .translation(vector![0.0, 0.2, 0.0])
+    /// #     .actuator("hoist", slide(Vector3::z(), -0.5, 1e5)) // N/m
+    /// #     .build()?;
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let carriage = machine.platform(Platform::new("carriage", Pose::translation(0.3, 0.0, 1.0)));
+    /// # let home = Pose::translation(0.3, 0.2, 0.5);
+    /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
+    /// // A spring from the base, straight under the hook, pulls it down; a wire pulls the carriage aside.
+    /// let law = LengthLaw::Linear { stiffness: 2e4, free_length: 0.4, preload: 0.0 }; // N/m, m, N
+    /// let spring = PlatformLoad::strut((0, vector![0.3, 0.2, 0.0]), (hook, Vector3::zeros()), law);
+    /// let pull = Wrench::new(vector![250.0, 0.0, 0.0], Vector3::zeros()); // N
+    /// let point = vector![0.0, 0.1, 0.0]; // m
+    /// let wire = PlatformLoad::Wrench { platform: carriage, point, wrench: pull, turns: false };
+    /// let crane = machine
+    ///     .limb(Limb::between("rail", 0, carriage, rail))
+    ///     .limb(Limb::between("boom", carriage, hook, boom))
+    ///     .platform_load(spring)
+    ///     .platform_load(wire)
+    ///     .build()?;
+    /// assert_eq!(crane.platform_loads().len(), 2);
+    /// let moved = crane.posture(&home)?.deflected_by(&Wrench::zero())?.displacement.linear();
+    /// assert!((moved.x - 250.0 / 1e6).abs() < 1e-6, "the trolley's spring gives way, and takes the hook along");
+    /// assert!((moved.z + 2e4 * 0.1 / (1e5 + 2e4)).abs() < 1e-6, "two springs share the 100 mm of stretch");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn platform_load(mut self, load: PlatformLoad) -> Self {
         self.mechanism.platform_loads.push(load);
@@ -82,6 +119,35 @@ impl MechanismBuilder {
     }
 
     /// Gravity, m/s^2, base axes; zero if not called.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, home, stiffness| {
+    /// #     ActuatorSpec { home, ..ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness) }
+    /// # };
+    /// # let rail = Chain::builder("rail")
+    /// #     .translation(vector![0.0, 0.0, 1.0])
+    /// #     .actuator("trolley", slide(Vector3::x(), 0.3, 1e6)) // N/m
+    /// #     .build()?;
+    /// # let boom = Chain::builder("boom")
+    /// #     .translation(vector![0.0, 0.2, 0.0])
+    /// #     .actuator("hoist", slide(Vector3::z(), -0.5, 1e5)) // N/m
+    /// #     .build()?;
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let carriage = machine.platform(Platform::new("carriage", Pose::translation(0.3, 0.0, 1.0)));
+    /// # let home = Pose::translation(0.3, 0.2, 0.5);
+    /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
+    /// let crane = machine
+    ///     .limb(Limb::between("rail", 0, carriage, rail))
+    ///     .limb(Limb::between("boom", carriage, hook, boom))
+    ///     .gravity(vector![1.0, 0.0, -9.81]) // m/s^2: it stands on a slope
+    ///     .build()?;
+    /// // The mass of 40 kg hangs on the hoist's spring, and pulls the trolley down the slope.
+    /// let sunk = crane.posture(&home)?.deflected_by(&Wrench::zero())?.displacement.linear();
+    /// assert!((sunk - vector![40.0 / 1e6, 0.0, -40.0 * 9.81 / 1e5]).norm() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
         self.mechanism.gravity = gravity;
@@ -196,6 +262,38 @@ impl Mechanism {
     ///
     /// # Errors
     /// [`Error::UnknownName`] for a limb that does not exist, [`Error::Model`] for a load that does not fit it.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, home, stiffness| {
+    /// #     ActuatorSpec { home, ..ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness) }
+    /// # };
+    /// # let rail = Chain::builder("rail")
+    /// #     .translation(vector![0.0, 0.0, 1.0])
+    /// #     .actuator("trolley", slide(Vector3::x(), 0.3, 1e6)) // N/m
+    /// #     .build()?;
+    /// # let boom = Chain::builder("boom")
+    /// #     .translation(vector![0.0, 0.2, 0.0])
+    /// #     .actuator("hoist", slide(Vector3::z(), -0.5, 1e5)) // N/m
+    /// #     .build()?;
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let carriage = machine.platform(Platform::new("carriage", Pose::translation(0.3, 0.0, 1.0)));
+    /// # let home = Pose::translation(0.3, 0.2, 0.5);
+    /// # let hook = machine.platform(Platform { mass: 40.0, ..Platform::new("hook", home) });
+    /// # let crane = machine
+    /// #     .limb(Limb::between("rail", 0, carriage, rail))
+    /// #     .limb(Limb::between("boom", carriage, hook, boom))
+    /// #     .build()?;
+    /// let hook_node = crane.limbs()[1].actual.tip();
+    /// let rope = Load::constant_tension(Anchor::Base(vector![0.3, 0.2, 4.0]), Anchor::node(hook_node), 300.0); // N
+    /// let roped = crane.with_load("boom", rope.clone())?;
+    /// assert_eq!(roped.loads(1), [rope]);
+    /// assert!(crane.loads(1).is_empty(), "the machine itself stays as it was");
+    /// let lifted = roped.posture(&home)?.deflected_by(&Wrench::zero())?.displacement.linear();
+    /// assert!((lifted - vector![0.0, 0.0, 300.0 / 1e5]).norm() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn with_load(&self, limb: &str, load: Load) -> Result<Self> {
         let mut machine = self.clone();
         add_load(machine.parts_mut(), limb, load)?;

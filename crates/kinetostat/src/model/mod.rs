@@ -11,9 +11,11 @@
 //! torques of a spring block  -dU/dtheta, tangent d2U/dtheta2              [R 3.2, 4.9]
 //! ```
 
+pub(crate) mod actuator;
 pub(crate) mod beam;
 pub(crate) mod builder;
 pub(crate) mod chain;
+pub(crate) mod chain_check;
 pub(crate) mod kinematics;
 pub(crate) mod limits;
 pub(crate) mod link;
@@ -24,8 +26,9 @@ pub(crate) mod mechanism_check;
 pub(crate) mod springs;
 pub(crate) mod uniform;
 
+pub use actuator::ActuatorSpec;
 pub use beam::BeamSection;
-pub use builder::{ActuatorSpec, ChainBuilder};
+pub use builder::ChainBuilder;
 pub use chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
 pub use kinematics::{Kinematics, NodeTangent, unloaded_tip};
 pub use link::{LinkConvention, LinkElasticity, LinkSpec};

@@ -19,6 +19,11 @@ const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 /// assert!(directions.contains(2) && !directions.contains(3));
 /// assert_eq!(directions.to_string(), "x y z");
 /// assert_eq!(Directions::from([true, true, true, false, false, false]), directions);
+/// assert_eq!(directions.as_array(), [true, true, true, false, false, false]);
+///
+/// let milling = Directions::NONE.with(4).with(0).with(1); // in any order
+/// assert_eq!(milling.iter().collect::<Vec<_>>(), [0, 1, 4]);
+/// assert!(milling.len() == 3 && Directions::NONE.is_empty());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]

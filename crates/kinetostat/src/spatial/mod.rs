@@ -26,12 +26,45 @@ pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
 
 /// Small motion of a body, `[dp; dpsi]`: linear part (m) of the reference point and spatial
 /// rotation vector (rad), both in base axes.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::vector;
+/// # use kinetostat::*;
+/// let motion = Twist::new(vector![1e-3, -2e-3, 5e-4], vector![0.01, 0.02, -0.03]); // m, rad
+/// let load = Wrench::new(vector![120.0, -40.0, 75.0], vector![3.0, -1.5, 2.0]); // N, N m
+/// let work = motion.dot(&load); // J
+/// let by_hand = motion.linear().dot(&load.force()) + motion.angular().dot(&load.moment());
+/// assert!((work - by_hand).abs() < 1e-15);
+/// // Work asks neither at which point nor in which axes motion and load are written down.
+/// let arm = vector![0.2, -0.1, 0.4]; // m
+/// assert!((motion.shifted(&arm).dot(&load.shifted(&arm)) - work).abs() < 1e-15);
+/// let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.7, 1.1);
+/// assert!((motion.rotated(&turn).dot(&load.rotated(&turn)) - work).abs() < 1e-15);
+/// // A turn about z moves a point on the x axis along y, by the arm times the angle.
+/// let turned = Twist::new(vector![0.0, 0.0, 0.0], vector![0.0, 0.0, 0.01]);
+/// assert_eq!(turned.shifted(&vector![0.5, 0.0, 0.0]).linear(), vector![0.0, 0.005, 0.0]);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Twist(pub Vector6<f64>);
 
 /// Load on a body, `[f; m]`: force (N) and moment (N m) about the reference point, both in base
 /// axes, applied by the environment to the body.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::vector;
+/// # use kinetostat::*;
+/// let cut = Wrench::new(vector![0.0, -200.0, 50.0], vector![0.0, 0.0, 0.0]); // N, N m, at the tool's point
+/// let tool = vector![0.3, 0.1, -0.2]; // m, from the flange
+/// let on_flange = cut.shifted(&-tool);
+/// assert_eq!(on_flange.force(), cut.force());
+/// assert_eq!(on_flange.moment(), vector![-35.0, -15.0, -60.0], "arm times force");
+/// assert_eq!(on_flange - on_flange, Wrench::zero());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Wrench(pub Vector6<f64>);
@@ -154,6 +187,32 @@ pub fn moved(pose: &Pose, twist: &Twist) -> Pose {
 /// Under a load with a moment `m` it is not symmetric: `K - K^T = blkdiag(0, -hat(m))` exactly,
 /// unless dead moments act on inner nodes or loads are not conservative.
 /// [`Self::symmetric`] is the Hessian of the stored energy in exponential coordinates.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::vector;
+/// # use kinetostat::*;
+/// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0); // Pa, m
+/// let (length, arm) = (0.5, vector![0.2, 0.0, 0.0]); // m: a rigid tool sits on the end of the bar
+/// let end = CartesianStiffness { matrix: bar.cantilever(length)? };
+/// let tool = end.shifted(&-arm, &Wrench::zero());
+/// // The bar bends under the force and under its moment: ((L + a)^3 - a^3) / 3 E I.
+/// let bending = ((length + arm.x).powi(3) - arm.x.powi(3)) / (3.0 * 2.1e11 * bar.second_moment_z);
+/// let compliance = tool.compliance().expect("a clamped bar holds its end");
+/// assert!((compliance[(1, 1)] / bending - 1.0).abs() < 1e-9);
+/// // A round bar is as stiff in axes turned about it.
+/// let turn = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::x_axis(), 0.7);
+/// assert!((tool.rotated(&turn).matrix - tool.matrix).amax() < 1e-12 * tool.matrix.amax());
+/// // Under a force on the end its moment about the tool's point is what makes the matrix lopsided.
+/// let load = Wrench::new(vector![300.0, -500.0, 200.0], vector![0.0, 0.0, 0.0]); // N, N m
+/// let loaded = end.shifted(&-arm, &load);
+/// let lopsided = (loaded.matrix - loaded.matrix.transpose()).fixed_view::<3, 3>(3, 3).into_owned();
+/// let moment = load.shifted(&arm).moment(); // about the tool's point
+/// assert!((lopsided + spatial::hat(&moment)).amax() < 1e-6);
+/// assert!((loaded.symmetric() - loaded.symmetric().transpose()).amax() == 0.0);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct CartesianStiffness {

@@ -79,6 +79,27 @@ impl Posture {
     ///
     /// # Errors
     /// As [`Self::deflected_by`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("gantry")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .build()?;
+    /// # let home = Pose::translation(0.1, -0.2, 0.0);
+    /// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = gantry.posture(&home)?;
+    /// let mut state = posture.rest_state();
+    /// for force in [100.0, 250.0, 400.0] {
+    ///     let cutting = Wrench::new(vector![force, -0.5 * force, 0.0], Vector3::zeros()); // N
+    ///     state = posture.rest_under(&cutting, state)?; // each from the one before
+    ///     let gone = state.platforms[gantry.tool()].translation.vector - home.translation.vector;
+    ///     assert!((gone - vector![force, -0.5 * force, 0.0] / 5e7).norm() < 1e-15, "the springs of its drives");
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
         self.stable_state(wrench, self.converged_solver(wrench, start)?)
     }

@@ -49,6 +49,29 @@ impl Posture {
     /// # Errors
     /// [`crate::Error::NotConverged`] where the branch cannot be followed; the share of the load is
     /// that of the path.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # // A spring across a guide: it snaps through where the guide is as high as its far end.
+    /// # let (b, h, k) = (0.5_f64, 0.1_f64, 1e5); // m, m, N/m
+    /// # let free_length = b.hypot(h);
+    /// # let chain = Chain::builder("guide").passive("slide", MotionKind::Prismatic, Vector3::z(), h).build()?;
+    /// # let (post, tip) = (Anchor::Base(vector![b, 0.0, 0.0]), Anchor::node(chain.tip()));
+    /// # let spring = Load::spring_between(post, tip, k, free_length);
+    /// # let home = Pose::translation(0.0, 0.0, h);
+    /// # let guide = Mechanism::serial(chain, home, Vector3::zeros())?.with_load("guide", spring)?;
+    /// let posture = guide.posture(&home)?;
+    /// let force = |z: f64| k * (b.hypot(z) - free_length) * z / b.hypot(z); // by hand
+    /// let mut state = posture.rest_state();
+    /// // Held, it is taken through the place where it would snap, and out on the other side.
+    /// for z in [0.06, 0.02, -0.03, -0.08] {
+    ///     let held = posture.wrench_at_from(&Pose::translation(0.0, 0.0, z), state)?; // each from the one before
+    ///     assert!((held.wrench.force().z - force(z)).abs() < 1e-6);
+    ///     state = held.state;
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn wrench_at_from(
         &self,
         pose: &Pose,
@@ -132,6 +155,25 @@ impl Posture {
     ///
     /// # Errors
     /// [`crate::Error::Model`] for a direction without length; else as [`Self::displaced_along`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let (length, bar) = (0.5, BeamSection::tube(2.1e11, 8.1e10, 0.04, 0.0)); // m, Pa
+    /// # let ei = 2.1e11 * bar.second_moment_z; // N m^2
+    /// # let chain = Chain::builder("boom").link("bar", &bar, length).build()?;
+    /// # let home = Pose::translation(length, 0.0, 0.0);
+    /// # let boom = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = boom.posture(&home)?;
+    /// let (across, distances) = (vector![0.0, 0.6, 0.8], [0.0, 1e-5, 2e-5]); // m
+    /// let pushed = posture.pushed_along(&across, &distances, &Wrench::zero(), None)?;
+    /// let held = posture.displaced_along(&Twist::new(across, Vector3::zeros()), &distances, None)?;
+    /// // By a pin, the end turns as the bar likes: 3 E I / L^3. Held so that it cannot turn: 12 E I / L^3.
+    /// let bending = ei / length.powi(3); // N/m
+    /// assert!((pushed.points[2].force / (2e-5 * 3.0 * bending) - 1.0).abs() < 1e-3);
+    /// assert!((held.points[2].force / (2e-5 * 12.0 * bending) - 1.0).abs() < 1e-3);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn pushed_along(
         &self,
         direction: &Vector3<f64>,

@@ -45,6 +45,40 @@ impl Posture {
     ///
     /// # Errors
     /// Those of the equilibrium without load.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # // A spring across a guide: it snaps through where the guide is as high as its far end.
+    /// # let (b, h, k, own) = (0.5_f64, 0.1_f64, 1e5, 100.0); // m, m, N/m, N/m
+    /// # let free_length = b.hypot(h);
+    /// # let chain = Chain::builder("guide")
+    /// #     .spring("slide", MotionKind::Prismatic, Vector3::z(), own, h)
+    /// #     .home("slide", h)
+    /// #     .build()?;
+    /// # let (post, tip) = (Anchor::Base(vector![b, 0.0, 0.0]), Anchor::node(chain.tip()));
+    /// # let spring = Load::spring_between(post, tip, k, free_length);
+    /// # let home = Pose::translation(0.0, 0.0, h);
+    /// # let guide = Mechanism::serial(chain, home, Vector3::zeros())?.with_load("guide", spring)?;
+    /// let posture = guide.posture(&home)?;
+    /// let rest = posture.deflected_by(&Wrench::zero())?;
+    /// // The force is largest where length^3 = b^2 times the free length, a little less for the slide's own spring.
+    /// let top = (free_length * b * b / (1.0 + own / k)).powf(2.0 / 3.0); // length^2
+    /// let (z, length) = ((top - b * b).sqrt(), top.sqrt());
+    /// let largest = k * (free_length - length) * z / length + own * (h - z); // N
+    /// for share in [0.9, -3.0] {
+    ///     let push = Wrench::new(vector![0.0, 0.0, -share * largest], Vector3::zeros());
+    ///     let loaded = posture.deflected_by(&push)?;
+    ///     assert_eq!(posture.snaps_before(&rest, &loaded)?, None, "below the limit, or pulled up");
+    /// }
+    /// let push = Wrench::new(vector![0.0, 0.0, -20.0 * largest], Vector3::zeros());
+    /// let beyond = posture.deflected_by(&push)?;
+    /// assert!(beyond.stable() && beyond.tool.translation.z < -0.2, "it hangs on the other side");
+    /// let limit = posture.snaps_before(&rest, &beyond)?.expect("it has snapped on the way");
+    /// assert!((limit.share * 20.0 - 1.0).abs() < 1e-6);
+    /// assert!((limit.displacement.linear().z - (z - h)).abs() < 1e-6);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn snaps_before(
         &self,
         rest: &MechanismEquilibrium,

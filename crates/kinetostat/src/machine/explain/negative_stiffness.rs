@@ -41,6 +41,26 @@ impl Posture {
     ///
     /// # Errors
     /// An equilibrium of another machine.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let (mass, height, g) = (80.0, 1.2, 9.81); // kg, m, m/s^2
+    /// let chain = Chain::builder("mast")
+    ///     .actuator("foot", ActuatorSpec::new(MotionKind::Revolute, Vector3::x(), 700.0)) // N m/rad
+    ///     .body("lamp", mass, vector![0.0, 0.0, height], nalgebra::Matrix3::zeros())
+    ///     .translation(vector![0.0, 0.0, 1.5])
+    ///     .build()?;
+    /// let home = Pose::translation(0.0, 0.0, 1.5);
+    /// let mast = Mechanism::serial(chain, home, vector![0.0, 0.0, -g])?;
+    /// let posture = mast.posture(&home)?;
+    /// let upright = posture.wrench_at(&home)?; // held there
+    /// let beaten = &posture.negative_net_stiffnesses(&upright)?[0];
+    /// assert_eq!(beaten.coordinate, "foot");
+    /// // An upside-down pendulum: its weight takes m g h from the spring, more than there is.
+    /// assert!((beaten.by_gravity + mass * g * height).abs() < 1e-9 && beaten.spring == 700.0);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn negative_net_stiffnesses(
         &self,
         at: &MechanismEquilibrium,

@@ -16,6 +16,26 @@ impl Mechanism {
     /// The pose next to `target` that every limb can reach, if it lies within `limit` (m; rotations
     /// at the natural length) and `target` differs from it only along motions that the machine does not
     /// have; `target` itself where it can be reached.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("gantry")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
+    /// #     .build()?;
+    /// # let home = Pose::translation(0.4, 0.0, 0.0);
+    /// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // Two slides at right angles leave the plane z = 0 no more than they turn.
+    /// let wanted = Pose::new(vector![0.5, 0.2, 1e-3], vector![0.0, 2e-3, 0.0]); // m, rad
+    /// let taken = gantry.nearest_reachable(&wanted, 5e-3).expect("less than 5 mm beside it");
+    /// let reached = Pose::translation(0.5, 0.2, 0.0);
+    /// assert!(spatial::pose_residual(&reached, &taken).0.norm() < 1e-9);
+    /// assert!(gantry.nearest_reachable(&wanted, 1e-4).is_none());
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn nearest_reachable(&self, target: &Pose, limit: f64) -> Option<Pose> {
         let length = self.scale().length;
@@ -81,6 +101,27 @@ impl Mechanism {
 
     /// Puts the tool's home at the nearest pose that the machine can take, if it lies within `limit`
     /// (see [`Self::nearest_reachable`]). The home as it was, if it was changed.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("gantry")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
+    /// #     .build()?;
+    /// # let home = Pose::translation(0.4, 0.1, 2e-4);
+    /// # let mut gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // Its drawing puts the tool 0.2 mm above the plane in which it moves.
+    /// assert!(gantry.posture(&home).is_err());
+    /// assert_eq!(gantry.move_home_within_reach(1e-3), Some(home));
+    /// let moved = gantry.platforms()[gantry.tool()].home;
+    /// assert!((moved.translation.vector - vector![0.4, 0.1, 0.0]).norm() < 1e-9);
+    /// assert!(gantry.posture(&moved).is_ok());
+    /// assert_eq!(gantry.move_home_within_reach(1e-3), None, "there is nothing more to do");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn move_home_within_reach(&mut self, limit: f64) -> Option<Pose> {
         let home = self.platforms()[self.tool()].home;
         if self.posture(&home).is_ok() {

@@ -19,6 +19,32 @@ pub struct LengthResponse {
 pub type LengthFunction = Arc<dyn Fn(f64) -> LengthResponse + Send + Sync>;
 
 /// Tension of a strut by its length.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// use kinetostat::model::LengthResponse;
+///
+/// let spring = LengthLaw::Linear { stiffness: 2e3, free_length: 0.3, preload: 50.0 }; // N/m, m, N
+/// assert_eq!(spring.respond(0.3).tension, 50.0);
+/// let gas = LengthLaw::Gas { force: 600.0, length: 0.4, column: 0.25, exponent: 1.4 }; // N, m, m
+/// let pressed = gas.respond(0.3); // 0.1 m shorter: p V^1.4 stays
+/// assert!((pressed.tension * 0.15_f64.powf(1.4) + 600.0 * 0.25_f64.powf(1.4)).abs() < 1e-9);
+/// // A law of one's own: a rubber band, slack below 0.2 m.
+/// let band = LengthLaw::function(|length| {
+///     let stretch = (length - 0.2).max(0.0);
+///     LengthResponse { tension: 1e4 * stretch.powi(2), slope: 2e4 * stretch, energy: 1e4 / 3.0 * stretch.powi(3) }
+/// });
+/// assert_eq!(band.respond(0.1).tension, 0.0);
+/// // Tension is the slope of energy, slope that of tension.
+/// for law in [spring, gas, band] {
+///     let (shorter, here, longer) = (law.respond(0.35 - 1e-6), law.respond(0.35), law.respond(0.35 + 1e-6));
+///     assert!(((longer.energy - shorter.energy) / 2e-6 - here.tension).abs() < 1e-6);
+///     assert!(((longer.tension - shorter.tension) / 2e-6 - here.slope).abs() < 1e-3);
+/// }
+/// ```
 #[derive(Clone)]
 #[non_exhaustive]
 pub enum LengthLaw {

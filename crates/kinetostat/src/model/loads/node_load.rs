@@ -6,6 +6,43 @@ use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::spatial::Wrench;
 
 /// A load that a user brings along: fields, controllers, anything that node poses decide.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// use kinetostat::model::{Kinematics, NodeTangent};
+/// use nalgebra::Matrix6;
+///
+/// /// A magnet on the node pulls it up, the more the higher it is: `f = c z`.
+/// #[derive(Debug)]
+/// struct Magnet(usize, f64); // N/m
+///
+/// impl NodeLoad for Magnet {
+///     fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>) {
+///         let force = vector![0.0, 0.0, self.1 * kinematics.node_pose(self.0).translation.z];
+///         out.push((self.0, Wrench::new(force, Vector3::zeros())));
+///     }
+///     fn tangents(&self, _: &Kinematics, out: &mut Vec<NodeTangent>) {
+///         let mut matrix = Matrix6::zeros();
+///         matrix[(2, 2)] = self.1;
+///         out.push(NodeTangent { on: self.0, by: self.0, matrix });
+///     }
+/// }
+///
+/// let slide = Chain::builder("slide")
+///     .spring("spring", MotionKind::Prismatic, Vector3::z(), 5e3, 0.0) // N/m
+///     .translation(vector![0.1, 0.0, 0.2])
+///     .build()?;
+/// let mut problem = ChainProblem::new(&slide, EndCondition::wrench(Wrench::zero()));
+/// problem.loads.push(Load::custom(Magnet(slide.tip(), 1e3)));
+/// let found = solve_chain(&problem, &Settings::default())?;
+/// assert!((found.coordinates[0] - 1e3 * 0.2 / (5e3 - 1e3)).abs() < 1e-12); // k x = c (0.2 + x)
+/// let stiffness = found.stiffness.cartesian.matrix[(2, 2)];
+/// assert!((stiffness - 4e3).abs() < 1e-6, "the magnet takes from the spring");
+/// # Ok::<(), Error>(())
+/// ```
 pub trait NodeLoad: Send + Sync + std::fmt::Debug {
     /// Appends `(node, wrench)`: base axes, about the node's origin, applied to the chain.
     fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>);

@@ -8,6 +8,37 @@ use crate::model::loads::strut::{Anchor, Strut};
 use crate::spatial::{Pose, Wrench, hat, rotational};
 
 /// Something that acts on the platforms of a mechanism and belongs to no limb.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// let law = LengthLaw::Linear { stiffness: 3e3, free_length: 0.5, preload: 0.0 }; // N/m, m, N
+/// let spring = PlatformLoad::strut((1, vector![0.1, 0.0, 0.0]), (2, vector![0.0, -0.2, 0.05]), law);
+/// assert_eq!(spring.platforms(), [1, 2]);
+/// let turned = nalgebra::Isometry3::new(vector![0.3, 0.5, -0.2], vector![0.4, -0.3, 0.2]);
+/// let poses = [Pose::identity(), Pose::translation(0.1, 0.2, 0.3), turned];
+/// // Equal and opposite, in one line: about the base's origin the two wrenches cancel.
+/// let mut wrenches = Vec::new();
+/// spring.wrenches(&poses, &mut wrenches);
+/// let about_base = |(on, wrench): &(usize, Wrench)| wrench.shifted(&-poses[*on].translation.vector);
+/// assert!(wrenches.iter().map(about_base).sum::<Wrench>().0.norm() < 1e-12 * wrenches[0].1.0.norm());
+/// let ends = [poses[1] * nalgebra::Point3::new(0.1, 0.0, 0.0), poses[2] * nalgebra::Point3::new(0.0, -0.2, 0.05)];
+/// let stretch = (ends[1] - ends[0]).norm() - 0.5; // m
+/// let energy = spring.energy(&poses).expect("a spring has a potential"); // J
+/// assert!(spring.conservative() && (energy - 1.5e3 * stretch * stretch).abs() < 1e-12);
+/// // Both platforms moved alike change no force.
+/// let mut tangents = Vec::new();
+/// spring.tangents(&poses, &mut tangents);
+/// let on_first = tangents.iter().filter(|tangent| tangent.on == 1);
+/// let by_all = on_first.map(|tangent| tangent.matrix.fixed_view::<6, 3>(0, 0).into_owned());
+/// assert!(by_all.sum::<nalgebra::SMatrix<f64, 6, 3>>().amax() < 1e-9);
+/// // What turns with its platform has no potential.
+/// let jet = Wrench::new(vector![0.0, 20.0, 0.0], Vector3::zeros()); // N
+/// let follower = PlatformLoad::Wrench { platform: 2, point: Vector3::zeros(), wrench: jet, turns: true };
+/// assert!(!follower.conservative() && follower.energy(&poses).is_none());
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum PlatformLoad {

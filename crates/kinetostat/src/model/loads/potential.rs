@@ -46,6 +46,24 @@ pub(crate) fn dead_moment_is_conservative(
 impl Load {
     /// The load's work on any closed path of this chain is zero: statements about energy hold.
     /// Dead moments are conservative only where everything turns about one axis.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let joint = |second| {
+    ///     Chain::builder("joint")
+    ///         .spring("first", MotionKind::Revolute, Vector3::z(), 100.0, 0.0)
+    ///         .spring("second", MotionKind::Revolute, second, 100.0, 0.0)
+    ///         .build()
+    /// };
+    /// let (hinges, universal) = (joint(Vector3::z())?, joint(Vector3::x())?);
+    /// let moment = Load::dead(0, Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 5.0])); // N m
+    /// // About one axis a moment works by its angle; about two the work depends on the way.
+    /// assert!(moment.conservative(&hinges) && !moment.conservative(&universal));
+    /// assert!(Load::dead(0, Wrench::new(vector![1.0, 2.0, 3.0], Vector3::zeros())).conservative(&universal));
+    /// assert!(!Load::follower(0, Wrench::new(vector![1.0, 0.0, 0.0], Vector3::zeros())).conservative(&hinges));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn conservative(&self, chain: &Chain) -> bool {
         match self {

@@ -10,6 +10,28 @@ use crate::model::loads::node_load::NodeLoad;
 use crate::spatial::{Pose, Wrench, hat, rotational, shift_matrix};
 
 /// Where a strut is hinged.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let lever = Chain::builder("lever") // a joint about z on a spring, and an arm of 0.4 m
+/// #     .spring("joint", MotionKind::Revolute, Vector3::z(), 500.0, 0.0) // N m/rad
+/// #     .translation(vector![0.4, 0.0, 0.0])
+/// #     .build()?;
+/// let post = Anchor::Base(vector![0.1, 0.5, 0.0]); // m
+/// let eye = Anchor::Node { node: lever.tip(), point: vector![-0.1, 0.05, 0.0] }; // beside the end, m
+/// assert_eq!(Anchor::node(0), Anchor::Node { node: 0, point: Vector3::zeros() });
+/// let mut problem = ChainProblem::new(&lever, EndCondition::wrench(Wrench::zero()));
+/// problem.loads.push(Load::constant_tension(post, eye, 200.0)); // N
+/// let found = solve_chain(&problem, &Settings::default())?;
+/// // Pull along the line between the two points, times its distance from the joint.
+/// let at = (found.tip * nalgebra::Point3::new(-0.1, 0.05, 0.0)).coords;
+/// let pull = (vector![0.1, 0.5, 0.0] - at).normalize() * 200.0;
+/// assert!((500.0 * found.coordinates[0] - at.cross(&pull).z).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
     /// A point that does not move, m, base axes.

@@ -1,0 +1,56 @@
+//! An actuator as a chain is told of it.
+
+use nalgebra::Vector3;
+
+use crate::spatial::MotionKind;
+
+/// An actuator as the builder takes it.
+///
+/// # Examples
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// let elastic = ActuatorSpec::new(MotionKind::Prismatic, vector![0.0, 3.0, 4.0], 2e6); // along (0, 3, 4), N/m
+/// let rigid = ActuatorSpec { stiffness: None, ..elastic.clone() };
+/// let preloaded = ActuatorSpec { rest: 1e-4, ..elastic.clone() }; // m
+/// let load = Wrench::new(vector![70.0, 300.0, 400.0], Vector3::zeros()); // N, 500 N of it along the slide
+/// for (drive, gone) in [(elastic, 500.0 / 2e6), (rigid, 0.0), (preloaded, 500.0 / 2e6 + 1e-4)] {
+///     let slide = Chain::builder("slide").actuator("drive", drive).build()?;
+///     let home = Pose::identity();
+///     let machine = Mechanism::serial(slide, home, Vector3::zeros())?;
+///     let moved = machine.posture(&home)?.deflected_by(&load)?.displacement.linear();
+///     assert!((moved - vector![0.0, 0.6, 0.8] * gone).norm() < 1e-12);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActuatorSpec {
+    /// Prismatic or revolute.
+    pub kind: MotionKind,
+    /// Axis in the local frame; need not be normalised.
+    pub axis: Vector3<f64>,
+    /// Stiffness of the drive (N/m or N m/rad); `None` is a rigid drive.
+    pub stiffness: Option<f64>,
+    /// Deflection at rest, `theta0` (m or rad).
+    pub rest: f64,
+    /// Command from which inverse kinematics starts (m or rad).
+    pub home: f64,
+    /// Limits of the command (m or rad).
+    pub limits: Option<(f64, f64)>,
+}
+
+impl ActuatorSpec {
+    /// An actuator with an elastic drive, at home at zero, without limits.
+    #[must_use]
+    pub fn new(kind: MotionKind, axis: Vector3<f64>, stiffness: f64) -> Self {
+        Self {
+            kind,
+            axis,
+            stiffness: Some(stiffness),
+            rest: 0.0,
+            home: 0.0,
+            limits: None,
+        }
+    }
+}
