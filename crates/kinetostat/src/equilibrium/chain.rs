@@ -11,6 +11,7 @@ use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain::stability::stability_as_prescribed;
 use crate::error::{Error, Result};
 use crate::model::kinematics::Kinematics;
+use crate::model::loads::load::lagged_steps;
 use crate::settings::Settings;
 use crate::spatial::{Wrench, pose_residual};
 
@@ -54,10 +55,11 @@ pub fn solve_along(
     settings.check(&chain.place())?;
     let mut attempt = Attempt::new(problem, settings, method);
     let mut spent = 0;
+    let lagged = lagged_steps(problem.loads.iter(), settings.picard_steps);
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
         let mut wrench = Wrench::zero();
-        match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
+        match attempt.newton(&mut x, &mut wrench, 1.0, lagged) {
             Ok((iterations, norms)) => Some((x, wrench, iterations, norms)),
             Err((iterations, _)) => {
                 spent += iterations;

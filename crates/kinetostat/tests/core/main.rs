@@ -46,6 +46,7 @@ mod loads_in_mechanisms;
 mod loads_of_every_kind;
 mod loads_on_platforms;
 mod loads_that_follow;
+mod loads_that_snap;
 mod long_chains;
 mod lost_motions;
 mod machines_reach_what_chains_reach;

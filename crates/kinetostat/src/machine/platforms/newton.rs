@@ -9,6 +9,7 @@ use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::{MechanismResiduals, PlatformSolver};
 use crate::machine::state::MechanismState;
+use crate::model::loads::load::lagged_steps;
 use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved};
 
 /// A step that was gone by some share of its length.
@@ -259,10 +260,9 @@ impl PlatformSolver<'_> {
         let start = self.state.clone();
         // A state that carries load already is better than the report's first step from rest.
         let loaded = self.state.wrenches.iter().any(|w| *w != Wrench::zero());
-        let picard = if loaded {
-            0
-        } else {
-            self.settings.picard_steps
+        let picard = match loaded || !self.mechanism.platform_loads().is_empty() {
+            true => 0,
+            false => lagged_steps(self.loads.iter().flatten(), self.settings.picard_steps),
         };
         match self.solve(1.0, picard) {
             Ok((iterations, norms)) => Ok(self.residual(&norms, iterations)),

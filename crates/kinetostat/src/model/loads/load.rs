@@ -54,6 +54,16 @@ impl PartialEq for Load {
     }
 }
 
+/// How many first steps may leave the tangents of loads out [R 4.15]: as many as wanted where all loads are dead, none
+/// where one changes as its node goes. What a spring between two nodes holds is no less real than the springs of the
+/// chain, and a step without it goes too far, past the equilibrium to which the load leads.
+pub(crate) fn lagged_steps<'a>(mut loads: impl Iterator<Item = &'a Load>, wanted: usize) -> usize {
+    match loads.any(|load| matches!(load, Load::Custom(_))) {
+        true => 0,
+        false => wanted,
+    }
+}
+
 impl Load {
     /// A wrench (N, N m; base axes, about the node's origin) that keeps its components while its
     /// node moves. With a moment it has a potential only if all turns share one axis.
