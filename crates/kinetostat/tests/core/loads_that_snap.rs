@@ -72,3 +72,34 @@ fn a_guide_under_a_spring_across_it_stays_on_the_branch_from_rest() {
     let most = largest_size(differences);
     assert!(most < 1e-7, "{most:e} of the height");
 }
+
+/// Nothing but the spring holds the guide: beyond the limit it rests on the other side, however hard it is pushed.
+#[test]
+fn a_guide_on_a_passive_slide_rests_beyond_the_limit() {
+    let chain = Chain::builder("guide")
+        .passive("slide", MotionKind::Prismatic, Vector3::z(), HEIGHT)
+        .build()
+        .unwrap();
+    let post = Anchor::Base(vector![ACROSS, 0.0, 0.0]);
+    let spring = Load::spring_between(post, Anchor::node(chain.tip()), STIFF, ACROSS.hypot(HEIGHT));
+    let home = Pose::translation(0.0, 0.0, HEIGHT);
+    let machine = Mechanism::serial(chain, home, Vector3::zeros()).unwrap();
+    let posture = machine
+        .with_load("guide", spring)
+        .unwrap()
+        .posture(&home)
+        .unwrap();
+    for force in [-70.0, -76.0, -100.0, -150.0, -300.0, -1509.0, -5000.0] {
+        let push = Wrench::new(vector![0.0, 0.0, force], Vector3::zeros());
+        let loaded = posture.deflected_by(&push).unwrap();
+        let z = loaded.tool.translation.z;
+        assert_eq!(z > 0.0, force == -70.0, "{force} N: {z} m");
+        assert!(loaded.stable());
+        let off = (force_at(z, 0.0) - force) / force;
+        assert!(
+            off.abs() < 1e-8,
+            "{force} N is held by {} N",
+            force_at(z, 0.0)
+        );
+    }
+}

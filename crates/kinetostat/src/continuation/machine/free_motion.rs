@@ -153,7 +153,7 @@ impl Posture {
                 return FollowedTo::Endless;
             }
             by = (1.5 * by).min(0.1 * length);
-            here = next;
+            here = next.onwards_from(&here);
         }
         FollowedTo::Lost(false)
     }

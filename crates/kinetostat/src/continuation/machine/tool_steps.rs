@@ -32,6 +32,18 @@ pub(crate) struct ToolPoint {
     factor: f64,
 }
 
+impl ToolPoint {
+    /// The same point with its tangent in the direction in which the tool came, whatever the load did on the step: over
+    /// a limit of the load its rate changes its sign, and the motion goes on.
+    pub(crate) fn onwards_from(mut self, before: &Self) -> Self {
+        let (motion, rate) = self.tangent;
+        if motion.dot(&before.tangent.0) < 0.0 {
+            self.tangent = (-motion, -rate);
+        }
+        self
+    }
+}
+
 impl ToolConditions<'_> {
     /// The first point of steps along a driven motion.
     pub(crate) fn first(&self, displacement: f64) -> Result<ToolPoint> {
