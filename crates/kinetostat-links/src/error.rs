@@ -5,9 +5,34 @@ use std::fmt;
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// What an error is about.
+///
+/// ```
+/// use kinetostat_links::{LinkErrorKind, identify};
+/// use nalgebra::vector;
+///
+/// let error = identify("bar.csv", &[], &vector![0.3, 0.0, 0.0]).unwrap_err(); // m
+/// assert_eq!(error.kind, LinkErrorKind::LoadCases);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LinkErrorKind {
+    /// A file that cannot be read, or a line of it that says nothing that belongs there.
+    File,
+    /// The interfaces of a link do not fit its matrix: nodes without a row, motions that nothing holds.
+    Interface,
+    /// Load cases of an experiment that do not determine a stiffness.
+    LoadCases,
+    /// Numbers of a section or of a beam that no beam has.
+    Section,
+}
+
 /// A file, a line of it where one can be named, what is wrong there, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub struct Error {
+    /// What it is about.
+    pub kind: LinkErrorKind,
     /// Name of the file, or of the request where no file is meant.
     pub file: String,
     /// Line, from 1; `None` where the whole file or request is meant.
@@ -21,11 +46,13 @@ pub struct Error {
 impl Error {
     /// An error of a whole file or request.
     pub fn new(
+        kind: LinkErrorKind,
         file: impl Into<String>,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
         Self {
+            kind,
             file: file.into(),
             line: None,
             message: message.into(),

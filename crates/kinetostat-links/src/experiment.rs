@@ -11,7 +11,7 @@ use kinetostat::number::larger;
 use kinetostat::number::short;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 use crate::interface::{RigidFit, RigidRank, invert, rigid_fit, rigid_rank};
 use crate::stiffness_check::DIRECTIONS;
 
@@ -66,7 +66,8 @@ const NOISY: f64 = 0.3;
 /// Fewer than six cases, wrenches that do not span six directions, an interface that leaves a motion
 /// unknown (collinear or coincident nodes), a compliance that cannot be inverted; `file` is named.
 pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Identified> {
-    let fault = |message: String, help: &str| Error::new(file, message, help);
+    let fault =
+        |message: String, help: &str| Error::new(LinkErrorKind::LoadCases, file, message, help);
     if cases.len() < 6 {
         return Err(fault(
             format!("there are {} load cases", cases.len()),
@@ -120,7 +121,8 @@ fn fits_of(
     cases: &[LoadCase],
     end: &Vector3<f64>,
 ) -> Result<(Vec<RigidFit>, RigidRank)> {
-    let fault = |message: String, help: &str| Error::new(file, message, help);
+    let fault =
+        |message: String, help: &str| Error::new(LinkErrorKind::LoadCases, file, message, help);
     let mut fits = Vec::with_capacity(cases.len());
     let mut rank: Option<RigidRank> = None;
     for case in cases {
@@ -187,6 +189,7 @@ fn singular(file: &str, fits: &[RigidFit]) -> Error {
     let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, larger);
     if worst > NOISY {
         return Error::new(
+            LinkErrorKind::LoadCases,
             file,
             format!(
                 "the compliance that comes out is singular or has no positive diagonal: noise hides it, up to {:.0} % of the displacements of a case are no rigid motion",
@@ -196,6 +199,7 @@ fn singular(file: &str, fits: &[RigidFit]) -> Error {
         );
     }
     Error::new(
+        LinkErrorKind::LoadCases,
         file,
         "the compliance that comes out is singular or has no positive diagonal",
         "check that every case has its own displacements, that loads and displacements have the same axes, and the sign of the loads",
@@ -228,6 +232,7 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
     let unloaded = norms.iter().position(|n| !(n.is_finite() && *n > 0.0));
     if let Some(m) = unloaded {
         return Err(Error::new(
+            LinkErrorKind::LoadCases,
             file,
             format!("load case {} has no load", m + 1),
             "give its force or moment",
@@ -242,6 +247,7 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
     if eigen.eigenvalues.min() < 1e-8 * eigen.eigenvalues.max() {
         let missing = eigen.eigenvectors.column(eigen.eigenvalues.imin()).iamax();
         return Err(Error::new(
+            LinkErrorKind::LoadCases,
             file,
             format!(
                 "the loads do not span six directions: nothing loads {} on its own",
@@ -252,6 +258,7 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
     }
     let inverse = gram.try_inverse().ok_or_else(|| {
         Error::new(
+            LinkErrorKind::LoadCases,
             file,
             "the loads do not span six directions",
             "add load cases",

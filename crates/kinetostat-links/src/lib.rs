@@ -35,7 +35,7 @@ pub use beam::taper::{Shear, cantilever, cantilever_by};
 pub use condensation::condense::{CondensationRequest, Condensed, Tie, condense};
 pub use condensation::envelope::MOST_ENVELOPE;
 pub use condensation::free_test::{FreeTest, free_test};
-pub use error::{Error, Result};
+pub use error::{Error, LinkErrorKind, Result};
 pub use experiment::{Identified, LoadCase, identify};
 pub use files::displacements::{LoadTable, read_displacements, read_loads, unit_loads};
 pub use files::matrix::{LinkMatrix, axes_from, read_matrix};

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 
 /// Largest file that is read, bytes.
 pub const MOST_BYTES: u64 = 64 << 20;
@@ -26,19 +26,27 @@ impl Text {
         let name = path.display().to_string();
         if path.is_dir() {
             return Err(Error::new(
+                LinkErrorKind::File,
                 &name,
                 "this is a directory",
                 "name a file in it",
             ));
         }
         let unread = |error: &std::io::Error| match error.kind() {
-            ErrorKind::NotFound => Error::new(&name, "the file does not exist", "check the path"),
+            ErrorKind::NotFound => Error::new(
+                LinkErrorKind::File,
+                &name,
+                "the file does not exist",
+                "check the path",
+            ),
             ErrorKind::PermissionDenied => Error::new(
+                LinkErrorKind::File,
                 &name,
                 "the file may not be read",
                 "ask for the right to read it",
             ),
             _ => Error::new(
+                LinkErrorKind::File,
                 &name,
                 format!("the file cannot be read: {error}"),
                 "check the path",
@@ -69,6 +77,7 @@ impl Text {
         }
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
             return Err(Error::new(
+                LinkErrorKind::File,
                 name,
                 "the file is written in UTF-16",
                 "save it as UTF-8",
@@ -76,6 +85,7 @@ impl Text {
         }
         if bytes.contains(&0) {
             return Err(Error::new(
+                LinkErrorKind::File,
                 name,
                 "this is a binary file",
                 "let the program write text (DMIG in a punch file, .mtx, .sti, .dat, CSV, JSON)",
@@ -87,13 +97,24 @@ impl Text {
                 .iter()
                 .filter(|b| **b == b'\n')
                 .count();
-            Error::new(&name, "this is not UTF-8 text", "save the file as UTF-8").at(line)
+            Error::new(
+                LinkErrorKind::File,
+                &name,
+                "this is not UTF-8 text",
+                "save the file as UTF-8",
+            )
+            .at(line)
         })?;
         let body = body
             .strip_prefix('\u{feff}')
             .map_or(body.clone(), str::to_owned);
         if body.trim().is_empty() {
-            return Err(Error::new(name, "the file is empty", "export it again"));
+            return Err(Error::new(
+                LinkErrorKind::File,
+                name,
+                "the file is empty",
+                "export it again",
+            ));
         }
         Ok(Self { name, body })
     }
@@ -116,7 +137,7 @@ impl Text {
     }
 
     pub(crate) fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
-        Error::new(&self.name, message, help)
+        Error::new(LinkErrorKind::File, &self.name, message, help)
     }
 
     /// A finite number of a field.
@@ -156,6 +177,7 @@ impl Text {
 
 fn too_large(name: &str) -> Error {
     Error::new(
+        LinkErrorKind::File,
         name,
         format!("the file is larger than {} MB", MOST_BYTES >> 20),
         "export the interface only: a superelement of its nodes, or the displacements of its nodes",

@@ -10,18 +10,28 @@ use crate::schema::{Axis, Placement};
 
 pub use crate::exact::wrong_length;
 
+/// What is wrong with a table, as the message of a model file says it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault(pub String);
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
 /// The pose that a table of a model file states.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn pose(written: &Placement) -> Result<Pose, String> {
-    placement::pose(&KeyPath::root(), written).map_err(|finding| finding.message)
+pub fn pose(written: &Placement) -> Result<Pose, Fault> {
+    placement::pose(&KeyPath::root(), written).map_err(|finding| Fault(finding.message))
 }
 
 /// The direction that a model file states.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn direction(axis: &Axis) -> Result<Unit<Vector3<f64>>, String> {
-    placement::direction(&KeyPath::root(), axis).map_err(|finding| finding.message)
+pub fn direction(axis: &Axis) -> Result<Unit<Vector3<f64>>, Fault> {
+    placement::direction(&KeyPath::root(), axis).map_err(|finding| Fault(finding.message))
 }

@@ -5,11 +5,29 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use thiserror::Error;
 
+/// Why a program is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ProgramErrorKind {
+    /// Bytes, words or numbers that no controller reads.
+    Malformed,
+    /// A code that is not known here, or whose motion is not.
+    UnknownCode,
+    /// Controllers do different things here, or the program has not stated what it rests on.
+    Ambiguous,
+    /// An arc that does not exist.
+    Arc,
+    /// A tool that is not known.
+    Tool,
+}
+
 /// A program that is refused: where, what stands there, why, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("line {line}: `{found}`: {reason}; {remedy}")]
 #[non_exhaustive]
 pub struct ProgramError {
+    /// Which kind of refusal it is.
+    pub kind: ProgramErrorKind,
     /// Line of the file, counted from 1.
     pub line: usize,
     /// Bytes of the file that are meant, counted from 0.

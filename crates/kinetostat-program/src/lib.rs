@@ -55,7 +55,7 @@ mod writing;
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};
 pub use checking::verifier::Verification;
 pub use checking::verify::verify_written;
-pub use error::{MapError, ProgramError, WriteError};
+pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
 pub use field::map::CorrectionMap;
 pub use field::request::{
     CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,

@@ -1,5 +1,6 @@
 //! The reach of an arm: one joint after the other, from evenly spread starts.
 
+use kinetostat::number::larger;
 use kinetostat::{
     Limb, Mechanism, MotionKind, Pose,
     model::{Drive, Element, Role},
@@ -200,7 +201,7 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
                 break;
             }
         }
-        best = best.max(reached);
+        best = larger(best, reached);
     }
     (best, STARTS)
 }

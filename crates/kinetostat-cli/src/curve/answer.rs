@@ -2,7 +2,7 @@
 //! units.
 
 use kinetostat::continuation::{BranchEnd, SpecialKind};
-use kinetostat::number::larger;
+use kinetostat::number::{larger, smaller};
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -265,7 +265,7 @@ pub(crate) fn letter(index: usize) -> String {
 /// Smallest and largest of the values of a curve's parameter.
 pub(crate) fn reached(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
+        (smaller(low, x), larger(high, x))
     })
 }
 

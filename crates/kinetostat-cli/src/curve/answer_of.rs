@@ -33,6 +33,9 @@ pub(crate) fn answer_of<S: Subject>(
     };
     let (named_points, jumps) = view.named();
     let own = branches.first().map_or(&[][..], |b| &b.points);
+    // A limit point lies between two points, and farther out than both.
+    let on_own = specials.iter().filter(|s| s.branches.contains(&0));
+    let turns = on_own.map(|s| &s.point);
     let mut points = branches.iter().flat_map(|b| &b.points);
     let [model, model_source, tool] = names;
     CurveAnswer {
@@ -56,6 +59,6 @@ pub(crate) fn answer_of<S: Subject>(
         subject: q.holding.subject,
         units: Units::of(q),
         requested: (q.shown(q.range.0), q.shown(q.range.1)),
-        reached: reached(own.iter().map(|p| q.shown(p.parameter))),
+        reached: reached(own.iter().chain(turns).map(|p| q.shown(p.parameter))),
     }
 }

@@ -52,7 +52,7 @@ pub(crate) struct CurveArgs {
     pub(crate) factor: Option<Vec<f64>>,
     #[command(flatten)]
     pub(crate) end: EndArgs,
-    /// Branches followed at most [default: 12]
+    /// Branches followed at most, from the start and from each shape that --all finds [default: 12]
     #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) branches: Option<usize>,
     /// Points of one branch at most, each way [default: 600]

@@ -1,5 +1,6 @@
 //! The drawing of a curve: stable parts solid, unstable ones dashed, special points named.
 
+use kinetostat::number::{larger, smaller};
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 
 use crate::curve::answer::{CurveAnswer, NamedPoint, PointAnswer, kind_description};
@@ -127,7 +128,7 @@ fn marks(a: &CurveAnswer) -> Vec<PlotMark> {
     let all = || a.branches.iter().flat_map(|b| &b.points);
     let size = |k: usize| {
         let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-            (l.min(p.shown[k]), h.max(p.shown[k]))
+            (smaller(l, p.shown[k]), larger(h, p.shown[k]))
         });
         (high - low).max(f64::MIN_POSITIVE)
     };

@@ -75,12 +75,14 @@ fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
 
 fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     let v = vector(option, values)?;
-    if v.norm() == 0.0 {
+    // Its size does not matter, and the squares of very large or very small numbers are no numbers.
+    let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+    if most == 0.0 {
         return Err(Failure::input(format!(
             "{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"
         )));
     }
-    Ok(v.normalize())
+    Ok((v / most).normalize())
 }
 
 /// A number of the query, as short as it can be: a small one is never called nothing.

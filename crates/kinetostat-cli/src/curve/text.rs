@@ -54,7 +54,7 @@ fn table(a: &CurveAnswer) -> String {
         unit(u.load, u.load_unit),
         unit("slope", u.slope_unit),
         "dead load".to_owned(),
-        "held".to_owned(),
+        "displ. control".to_owned(),
     ];
     let factor = a.grows == "load" && !u.load_unit.is_empty();
     if factor {

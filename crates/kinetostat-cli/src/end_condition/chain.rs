@@ -62,8 +62,12 @@ pub(crate) fn node_force(chain: &Chain, option: &str, before: &str, text: &str) 
         let names: Vec<&str> = known.iter().map(String::as_str).collect();
         let near = crate::ui::spelling::nearest(name, &names)
             .map_or_else(|| ".".to_owned(), |n| format!("; did you mean '{n}'?"));
+        let whose = match before.trim_end_matches(':') {
+            "" => "the chain".to_owned(),
+            limb => format!("the limb '{limb}'"),
+        };
         return Err(refuse(format!(
-            "the chain has no node '{name}'{near} It has: {}. A model file names one with {{ node = \"NAME\" }}",
+            "{whose} has no node '{name}'{near} It has: {}. A model file names one with {{ node = \"NAME\" }}",
             known.join(", ")
         )));
     };

@@ -1,6 +1,7 @@
 //! The answer of `equilibria`: every shape with its energy, stability and forces, and how complete
 //! the list is.
 
+use kinetostat::number::larger;
 use kinetostat_machining::Warning;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -8,6 +9,7 @@ use serde::Serialize;
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
 use crate::place::query::PlaceAnswer;
+use crate::ui::numbers::number;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -77,4 +79,19 @@ pub(crate) struct Coverage {
     pub(crate) chance_of_more_at_most: f64,
     #[serde(rename = "settled")]
     pub(crate) exhausted: bool,
+}
+
+/// Energies below are rounding, J: less than what warmth gives a molecule.
+const NO_ENERGY: f64 = 1e-20;
+
+impl EquilibriaAnswer {
+    /// The energy of a shape for people, J: zero where it is rounding beside the others.
+    pub(crate) fn energy(&self, shape: &ShapeAnswer, digits: i32) -> String {
+        let sizes = self.equilibria.iter().map(|e| e.energy_j.abs());
+        let least = larger(NO_ENERGY, 1e-12 * sizes.fold(0.0, larger));
+        match shape.energy_j.abs() <= least {
+            true => "0".to_owned(),
+            false => number(shape.energy_j, digits),
+        }
+    }
 }

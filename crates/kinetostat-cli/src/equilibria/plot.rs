@@ -4,15 +4,14 @@ use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::Vector3;
 
 use crate::equilibria::answer::EquilibriaAnswer;
-use crate::ui::numbers::number;
-use kinetostat::number::smaller;
+use kinetostat::number::{larger, smaller};
 
 /// The shapes over the two axes of the base in which they differ most.
 pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
     let points = || a.outlines.iter().flatten();
     let extent = |k: usize| {
         let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-            (l.min(p[k]), h.max(p[k]))
+            (smaller(l, p[k]), larger(h, p[k]))
         });
         high - low
     };
@@ -32,7 +31,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
                 "{}: {}, {} J",
                 e.number,
                 if e.stable { "stable" } else { "unstable" },
-                number(e.energy_j, 4)
+                a.energy(e, 4)
             ),
             colour: e.number - 1,
             dashed: !e.stable,
@@ -59,7 +58,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
                 detail: format!(
                     "{}: energy {} J, {}",
                     e.number,
-                    number(e.energy_j, 6),
+                    a.energy(e, 6),
                     if e.stable { "stable" } else { "unstable" }
                 ),
             });

@@ -123,7 +123,7 @@ fn table(a: &EquilibriaAnswer) -> String {
         };
         let mut row = vec![
             e.number.to_string(),
-            number(e.energy_j, 6),
+            a.energy(e, 6),
             stability.to_owned(),
             e.share_to_buckling
                 .map_or_else(|| "-".to_owned(), kinetostat_machining::number::share),

@@ -8,7 +8,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::format::{Axes, CornerWord, LoadTable};
 use crate::job::job_file::JobFile;
 use crate::options::{finite, vector};
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 
 pub(crate) fn load(
     job: Option<&JobFile>,
@@ -68,6 +68,7 @@ pub(crate) fn load(
     } else {
         CuttingLoad::None
     };
+    possible(cutting)?;
     let mut load = ProgramLoad::new(cutting);
     load.at_corners = match flags.load_at_corners.or(table.at_corners) {
         Some(CornerWord::FollowsFeed) => CornerLoad::FollowsFeed,
@@ -98,4 +99,28 @@ pub(crate) fn load(
         load.turning_length_mm = *length.get_ref();
     }
     Ok(load)
+}
+
+/// Largest part of a load on a tool, N or N m: far beyond what any limit allows, and far below where squares overflow.
+const LARGEST: f64 = 1e9;
+
+fn possible(cutting: CuttingLoad) -> Answer<()> {
+    let parts = match cutting {
+        CuttingLoad::Constant { wrench, .. } => wrench.0.iter().copied().collect(),
+        CuttingLoad::Milling {
+            radial,
+            tangential,
+            axial,
+        } => vec![radial, tangential, axial],
+        _ => Vec::new(),
+    };
+    match parts
+        .into_iter()
+        .find(|part| !(-LARGEST..=LARGEST).contains(part))
+    {
+        Some(part) => Err(Failure::input(format!(
+            "a part of the load on the tool is {part:e} N or N m; no more than {LARGEST:e} is possible: write the force in N and the moment in N m"
+        ))),
+        None => Ok(()),
+    }
 }

@@ -12,7 +12,7 @@ use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{OutputPaths, output_paths};
 use crate::job::reading::reading;
-use crate::job::values::{above_zero, chosen, micrometres};
+use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.
@@ -125,7 +125,9 @@ fn tolerances(
         tolerances.max_feed_factor.as_ref(),
         |factor| match (1.0..=1000.0).contains(&factor) {
             true => Ok(factor),
-            false => Err("1 (never above the programmed feed) to 1000 are allowed"),
+            false => Err(NotAllowed(
+                "1 (never above the programmed feed) to 1000 are allowed",
+            )),
         },
     )? {
         write.max_feed_factor = factor;
@@ -146,7 +148,9 @@ fn tolerances(
             if (3..=8).contains(&decimals) {
                 Ok(decimals)
             } else {
-                Err("3 to 8 decimals can be written; 4 keep the rounding below 0.1 micrometres")
+                Err(NotAllowed(
+                    "3 to 8 decimals can be written; 4 keep the rounding below 0.1 micrometres",
+                ))
             }
         },
     )?;

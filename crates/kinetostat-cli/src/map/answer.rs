@@ -1,5 +1,6 @@
 //! The figures of a map, gathered block by block.
 
+use kinetostat::number::larger;
 use kinetostat_machining::{Grid, MapPlace, PlaceState, Warning};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -215,7 +216,7 @@ impl Figures {
         for place in places {
             own.places.count(place.state);
             // Places without figures have none.
-            own.largest_turn_deg = own.largest_turn_deg.max(place.tool_turn_deg);
+            own.largest_turn_deg = larger(own.largest_turn_deg, place.tool_turn_deg);
             for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
                 figure.take(quantity.of(place), place.position_mm);
             }
@@ -225,7 +226,7 @@ impl Figures {
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.places.add(&other.places);
-        self.largest_turn_deg = self.largest_turn_deg.max(other.largest_turn_deg);
+        self.largest_turn_deg = larger(self.largest_turn_deg, other.largest_turn_deg);
         for (own, other) in self.figures.iter_mut().zip(&other.figures) {
             own.add(other);
         }

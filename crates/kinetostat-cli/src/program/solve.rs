@@ -1,5 +1,6 @@
 //! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
+use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
@@ -64,7 +65,7 @@ pub(crate) fn solve(
         if !chord_stated {
             // Never finer than the program of a machine that is not known.
             let in_proportion = 0.8 * usual_mm.min(writing.tolerance_mm);
-            writing.chord_tolerance_mm = writing.chord_tolerance_mm.max(in_proportion);
+            writing.chord_tolerance_mm = larger(writing.chord_tolerance_mm, in_proportion);
         }
     }
     if let Some(header) = &mut writing.header {

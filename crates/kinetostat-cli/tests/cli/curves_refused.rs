@@ -190,3 +190,46 @@ fn an_interrupt_ends_a_search_and_writes_nothing() {
         .collect();
     assert_eq!(left.len(), 2, "{left:?}");
 }
+
+/// The size of a direction does not matter, however large or small; a node that is missing is missed where it was sought.
+#[test]
+fn directions_of_any_size_and_nodes_of_limbs() {
+    let here = workplace();
+    let curve = |size: &str| {
+        let words = [
+            "curve",
+            "orthoglide",
+            "--displacement-mm",
+            "-1",
+            "1",
+            "--direction",
+            "0",
+            "0",
+            size,
+        ];
+        run(here.path(), &words).answered().out
+    };
+    let usual = curve("1");
+    for size in ["1e300", "1e-300"] {
+        assert_eq!(curve(size), usual, "{size}");
+    }
+    let words = [
+        "curve",
+        "orthoglide",
+        "--force",
+        "0",
+        "0",
+        "1",
+        "--factor",
+        "0",
+        "1",
+    ];
+    let load = ["--load", "leg x:nosuch=0,0,1"];
+    let said = run(here.path(), &[&words[..], &load[..]].concat());
+    assert_eq!(said.code, 1, "{said:?}");
+    assert!(
+        said.err
+            .contains("the limb 'leg x' has no node 'nosuch'. It has: tip."),
+        "{said:?}"
+    );
+}

@@ -359,3 +359,32 @@ fn a_limit_of_blocks_per_second_holds_in_short_programs() {
     });
     assert_eq!(refused, after > 0.1 && after > 1.05 * before, "{summary}");
 }
+
+/// A force whose square is no number is a wrong number, and is named as it was written.
+#[test]
+fn a_force_that_nothing_carries_is_refused_with_its_number() {
+    let here = workplace();
+    let strong = ARM_JOB.replace("radial_n = 215.0", "radial_n = 1e300");
+    assert_ne!(strong, ARM_JOB);
+    let (said, _) = compensated(here.path(), &strong, HEAVY, &[]);
+    assert_eq!(said.code, 1, "{said:?}");
+    assert!(said.err.contains("1e300 N"), "{said:?}");
+    for word in ["infinite", "not available"] {
+        assert!(!said.err.contains(word), "{said:?}");
+    }
+}
+
+/// The energy of a shape that nothing strains is shown as zero, not as what rounding leaves.
+#[test]
+fn the_energy_of_an_unstrained_shape_is_zero() {
+    let here = workplace();
+    let said = run(
+        here.path(),
+        &["equilibria", "two_link", "--at", "150", "0", "0"],
+    )
+    .answered();
+    let first = said.out.lines().find(|line| line.starts_with("  1 "));
+    let energy = first.and_then(|line| line.split_whitespace().nth(1));
+    assert_eq!(energy, Some("0"), "{}", said.out);
+    assert!(said.out.contains("0.0450846"), "{}", said.out);
+}

@@ -144,7 +144,7 @@ fn search(
     let mut residual = residuals(robot, tree, base, closings, values);
     let mut damping = 1e-6;
     for _ in 0..200 {
-        if residual.amax() < 1e-14 {
+        if residual.iter().all(|x| x.abs() < 1e-14) {
             break;
         }
         let step = 1e-6;

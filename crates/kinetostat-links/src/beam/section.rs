@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use kinetostat::BeamSection;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 
 /// Shape of a section; lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -201,6 +201,7 @@ impl SectionShape {
     fn check(&self, nu: f64) -> Result<()> {
         let fault = |message: String, help: &str| {
             Err(Error::new(
+                LinkErrorKind::Section,
                 format!("section ({})", self.name()),
                 message,
                 help,

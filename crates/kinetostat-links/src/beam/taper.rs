@@ -8,7 +8,7 @@ use kinetostat::spatial::shift_matrix;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::beam::section::SectionShape;
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 use crate::interface::invert;
 
 /// Deflection by shear.
@@ -59,6 +59,7 @@ pub fn cantilever(
     }
     if !(youngs_modulus.is_finite() && youngs_modulus > 0.0) {
         return Err(Error::new(
+            LinkErrorKind::Section,
             "link",
             format!("Young's modulus is {youngs_modulus} Pa"),
             "a number above zero is needed",
@@ -66,6 +67,7 @@ pub fn cantilever(
     }
     if root.towards(tip, 0.5).is_none() {
         return Err(Error::new(
+            LinkErrorKind::Section,
             "link",
             format!(
                 "it goes from the section '{}' to '{}'",
@@ -109,7 +111,8 @@ pub fn cantilever_by(
     length: f64,
     slice: impl Fn(f64) -> Result<Vector6<f64>>,
 ) -> Result<Matrix6<f64>> {
-    let fault = |message: String, help: &str| Error::new("link", message, help);
+    let fault =
+        |message: String, help: &str| Error::new(LinkErrorKind::Section, "link", message, help);
     if !(length.is_finite() && length > 0.0) {
         return Err(fault(
             format!("its length is {length} m"),

@@ -16,7 +16,7 @@ use kinetostat::number::short;
 use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
 
 use crate::condensation::envelope::{Factor, NoFactor};
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 use crate::files::nodes::Nodes;
 use crate::interface::{RigidRank, rigid_rank};
 use crate::superelement::Superelement;
@@ -136,6 +136,7 @@ impl Interface {
         let averaged = request.tie == Tie::Averaged;
         if (!turns || averaged) && rank.rank < 6 {
             return Err(Error::new(
+                LinkErrorKind::Interface,
                 &element.file,
                 format!(
                     "the interface's nodes hold {} of 6 motions: {}",
@@ -166,7 +167,9 @@ fn check_nodes(
     interface: &BTreeSet<u64>,
     fixed: &BTreeSet<u64>,
 ) -> Result<()> {
-    let fault = |message: String, help: &str| Error::new(&element.file, message, help);
+    let fault = |message: String, help: &str| {
+        Error::new(LinkErrorKind::Interface, &element.file, message, help)
+    };
     let known: BTreeSet<u64> = element.nodes().into_iter().collect();
     if interface.is_empty() {
         return Err(fault(
@@ -206,7 +209,9 @@ fn places_of(
     interface: &BTreeSet<u64>,
     end: Option<Vector3<f64>>,
 ) -> Result<Vec<Vector3<f64>>> {
-    let fault = |message: String, help: &str| Error::new(&element.file, message, help);
+    let fault = |message: String, help: &str| {
+        Error::new(LinkErrorKind::Interface, &element.file, message, help)
+    };
     let mut places = Vec::new();
     for node in interface {
         match nodes.places.get(node) {
@@ -395,6 +400,7 @@ fn averaged_stiffness(
         .and_then(|c| moved_to(&c, &(interface.end - interface.middle)).try_inverse())
         .ok_or_else(|| {
             Error::new(
+                LinkErrorKind::Interface,
                 &element.file,
                 "the averaged interface has no stiffness of six directions",
                 "check that the link hangs together and that the other interface is fixed",
@@ -404,7 +410,9 @@ fn averaged_stiffness(
 
 /// Why the inside could not be solved for.
 fn not_solved(error: &NoFactor, element: &Superelement, inner: &[u32]) -> Error {
-    let fault = |message: String, help: &str| Error::new(&element.file, message, help);
+    let fault = |message: String, help: &str| {
+        Error::new(LinkErrorKind::Interface, &element.file, message, help)
+    };
     match *error {
         NoFactor::TooLarge(size) => fault(
             format!(

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, LinkErrorKind, Result};
 use crate::files::dmig::grids;
 use crate::text::{Text, fields, short};
 use crate::units::Units;
@@ -42,6 +42,7 @@ impl Nodes {
                 Ok(list)
             }
             _ => Err(Error::new(
+                LinkErrorKind::File,
                 if self.file.is_empty() {
                     "the nodes"
                 } else {

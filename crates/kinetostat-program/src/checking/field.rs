@@ -8,6 +8,7 @@ use crate::checking::verifier::fail;
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request, Turning};
 use crate::irregular::irregular;
+use crate::number::larger;
 use crate::path::moves::{Knowledge, Move, Path};
 use crate::writing::node::{is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
@@ -139,7 +140,7 @@ pub fn verify_against_field(
         if writing.smallest_step_mm() > writing.tolerance_mm {
             allowed += writing.smallest_step_mm();
         }
-        found.allowed_mm = found.allowed_mm.max(allowed);
+        found.allowed_mm = larger(found.allowed_mm, allowed);
         places(
             piece,
             index,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::curve::Arc;
 use crate::reading::block::Block;
 
@@ -38,6 +38,7 @@ pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramEr
     // Also where the P is meant for another code of the block: LinuxCNC gives it to both.
     if let Some(word) = block.words.iter().find(|word| word.letter == b'P') {
         return Err(block.refuse(
+            ProgramErrorKind::Arc,
             Some(word),
             "P in an arc counts turns, and controllers disagree how",
             "write one block for each turn",
@@ -48,6 +49,7 @@ pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramEr
     let centre = match (block.value(b'R'), any_centre) {
         (Some(_), true) => {
             return Err(block.refuse(
+                ProgramErrorKind::Arc,
                 block.word(b'R'),
                 "the arc has a radius R and a centre I J K",
                 "keep one of the two",
@@ -55,6 +57,7 @@ pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramEr
         }
         (None, false) => {
             return Err(block.refuse(
+                ProgramErrorKind::Arc,
                 None,
                 "the arc has neither a radius R nor a centre I J K",
                 "write I J K or R in every arc block",
@@ -82,6 +85,7 @@ fn centre_by_words(
         && (value != 0.0 || frame.absolute_centre)
     {
         return Err(block.refuse(
+            ProgramErrorKind::Arc,
             block.word(b"IJK"[normal]),
             &format!("{} is not in the plane of the arc", names[normal]),
             "select the plane with G17, G18 or G19, or remove the word",
@@ -96,6 +100,7 @@ fn centre_by_words(
             (Some(value), true) => value * frame.mm_per_unit + frame.offset_mm[axis],
             (None, true) => {
                 return Err(block.refuse(
+                    ProgramErrorKind::Arc,
                     None,
                     &format!(
                         "with G90.1 the centre needs both words, {} is missing",
@@ -120,6 +125,7 @@ fn centre_by_radius(
     let length = chord[0].hypot(chord[1]);
     if length < SAME_POINT_MM {
         return Err(block.refuse(
+            ProgramErrorKind::Arc,
             block.word(b'R'),
             "an arc by radius ends where it starts: its centre could be anywhere",
             "write full circles with I J K",
@@ -128,7 +134,7 @@ fn centre_by_radius(
     let half = 0.5 * length;
     if half > radius.abs() + frame.tolerance_mm {
         return Err(block.refuse(
-            block.word(b'R'),
+            ProgramErrorKind::Arc, block.word(b'R'),
             &format!(
                 "the radius {:.4} mm is too small: the ends are {length:.4} mm apart and need {half:.4} mm",
                 radius.abs()
@@ -159,7 +165,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
     let difference = (start_radius - end_radius).abs();
     if difference > frame.tolerance_mm {
         return Err(block.refuse(
-            None,
+            ProgramErrorKind::Arc, None,
             &format!(
                 "the arc's radius is {start_radius:.4} mm at its start and {end_radius:.4} mm at its \
                  end; they differ by {difference:.4} mm, {:.4} mm are allowed",
@@ -171,6 +177,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
     let smallest = start_radius.min(end_radius);
     if !(1e-6..LARGEST_RADIUS_MM).contains(&smallest) {
         return Err(block.refuse(
+            ProgramErrorKind::Arc,
             None,
             &format!("the arc has a radius of {smallest} mm"),
             "write the block as a straight move, G1",
@@ -186,7 +193,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
         true if apart < SAME_POINT_MM => -TAU,
         _ if between.abs() <= DISPUTED_ANGLE => {
             return Err(block.refuse(
-                None,
+                ProgramErrorKind::Arc, None,
                 &format!(
                     "the arc's ends are only {apart:.7} mm apart: controllers disagree whether this \
                      is a full circle"

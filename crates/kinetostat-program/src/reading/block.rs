@@ -1,6 +1,6 @@
 //! One block, its words sorted by letter.
 
-use crate::error::{ProgramError, excerpt};
+use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::path::moves::Motion;
 use crate::reading::dialect::{Treatment, lookup};
 use crate::text::line::{Line, LineKind, Word};
@@ -61,6 +61,7 @@ impl<'p> Block<'p> {
                     let slot = &mut block.values[usize::from(letter - b'A')];
                     if slot.is_some() {
                         return Err(block.refuse(
+                            ProgramErrorKind::Malformed,
                             Some(&word),
                             &format!(
                                 "the letter {} stands twice in one block",
@@ -90,9 +91,16 @@ impl<'p> Block<'p> {
     }
 
     /// A refusal of the block, at one of its words or at all of it.
-    pub fn refuse(&self, word: Option<&Word>, reason: &str, remedy: &str) -> ProgramError {
+    pub fn refuse(
+        &self,
+        kind: ProgramErrorKind,
+        word: Option<&Word>,
+        reason: &str,
+        remedy: &str,
+    ) -> ProgramError {
         let content = self.program.content(self.line);
         ProgramError {
+            kind,
             line: self.line_number,
             span: word.map_or_else(|| content.clone(), Word::span),
             found: excerpt(&self.program.bytes()[content]),
@@ -109,6 +117,7 @@ impl<'p> Block<'p> {
         let shown = || format!("{letter}{}", word.value);
         if (tenths - whole).abs() > 1e-6 || !(0.0..1e6).contains(&tenths) {
             return Err(self.refuse(
+                ProgramErrorKind::Malformed,
                 Some(word),
                 &format!("{} is no code", shown()),
                 "mend the number",
@@ -118,6 +127,7 @@ impl<'p> Block<'p> {
         match code.map(|code| (code.meaning, code.treatment)) {
             Some((meaning, Treatment::Refused { reason, remedy })) => {
                 return Err(self.refuse(
+                    ProgramErrorKind::UnknownCode,
                     Some(word),
                     &format!("{} ({meaning}): {reason}", shown()),
                     remedy,
@@ -126,6 +136,7 @@ impl<'p> Block<'p> {
             // Builders give their own functions whole numbers; only vendors' commands have others.
             None if letter == 'G' || !tenths.is_multiple_of(10) && !self.is_vendor() => {
                 return Err(self.refuse(
+                    ProgramErrorKind::UnknownCode,
                     Some(word),
                     &format!("{} is not known here and may move the tool", shown()),
                     "remove it, or write what it does with codes that are known",
@@ -168,6 +179,7 @@ impl<'p> Block<'p> {
         };
         if twice {
             return Err(self.refuse(
+                ProgramErrorKind::Malformed,
                 Some(word),
                 &format!(
                     "{} meets another code of its group in the same block",

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::curve::Curve;
 use crate::path::moves::{
     Change, CoordinateWords, Event, ExtraMode, Knowledge, Motion, Move, MoveKind, Path, Warning,
@@ -218,7 +218,7 @@ impl<'o> Interpreter<'o> {
             && (has_axis_words || block.codes.motion.is_some())
         {
             return Err(block.refuse(
-                None,
+                ProgramErrorKind::Ambiguous, None,
                 &format!("the block follows the program's end on line {end}: some controllers run on, some stop"),
                 "remove the blocks after M2 or M30, or the M2 or M30 before them",
             ));
@@ -278,6 +278,7 @@ impl<'o> Interpreter<'o> {
     ) -> Result<(), ProgramError> {
         if block.codes.motion.is_some() {
             return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
                 None,
                 "G92 and a motion word stand in one block",
                 "write them in two blocks",
@@ -287,7 +288,7 @@ impl<'o> Interpreter<'o> {
             Some(920) => {
                 if !has_axis_words {
                     return Err(block.refuse(
-                        None,
+                        ProgramErrorKind::Ambiguous, None,
                         "G92 without an axis is an error to some controllers and means all axes to others",
                         "write each axis with its coordinate",
                     ));
@@ -296,6 +297,7 @@ impl<'o> Interpreter<'o> {
             }
             _ if has_axis_words => {
                 return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous,
                     None,
                     "an axis word stands in a block that clears, suspends or resumes G92",
                     "write the motion as a block of its own",
@@ -349,7 +351,7 @@ impl<'o> Interpreter<'o> {
             && block.codes.motion.is_none()
         {
             return Err(block.refuse(
-                None,
+                ProgramErrorKind::Ambiguous, None,
                 "an axis word beside this M code is its parameter to printers and a motion to mills",
                 "write the motion as a block of its own, with G0 or G1",
             ));
@@ -358,7 +360,7 @@ impl<'o> Interpreter<'o> {
             for letter in *b"IJKRP" {
                 if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
                     return Err(block.refuse(
-                        Some(word),
+                        ProgramErrorKind::Ambiguous, Some(word),
                         &format!(
                             "{} stands in a straight move: some controllers stop, some round a corner",
                             char::from(letter)
@@ -381,7 +383,7 @@ impl<'o> Interpreter<'o> {
             let tenths = word.tenths();
             let Some(moment) = moment_of(tenths) else {
                 return Err(block.refuse(
-                    Some(word),
+                    ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
                         "M{} stands beside a motion, and whether it acts before or after it is not known here",
                         word.value
@@ -391,7 +393,7 @@ impl<'o> Interpreter<'o> {
             };
             if moment.code == 6 && self.options.tools.is_some() {
                 return Err(block.refuse(
-                    Some(word),
+                    ProgramErrorKind::Ambiguous, Some(word),
                     "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
                     "write M6 in a block of its own, before or after the motion",
                 ));
@@ -401,7 +403,7 @@ impl<'o> Interpreter<'o> {
             }
             if moment.placed == Placed::Refused {
                 return Err(block.refuse(
-                    Some(word),
+                    ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
                         "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it",
                         moment.code, moment.meaning
@@ -423,7 +425,7 @@ impl<'o> Interpreter<'o> {
         let motion = match self.modes.motion {
             Some(Motion::Off) | None => {
                 return Err(block.refuse(
-                    None,
+                    ProgramErrorKind::Ambiguous, None,
                     "axis words without a motion word before them: what they do depends on the machine",
                     "write G0, G1, G2 or G3 before the first motion (and after G80)",
                 ));
@@ -433,7 +435,7 @@ impl<'o> Interpreter<'o> {
         self.warn_of_systems_without_offsets(block.line_number);
         if let Some(axis) = (0..3).find(|axis| self.shifts.now[*axis]) {
             return Err(block.refuse(
-                None,
+                ProgramErrorKind::Ambiguous, None,
                 &format!(
                     "line {} shifted the {} coordinates by an offset that is not in the program",
                     self.shifts.line,
@@ -466,7 +468,7 @@ impl<'o> Interpreter<'o> {
                         && (self.known[*axis] || self.modes.plane[..2].contains(axis))
                 }) {
                     return Err(block.refuse(
-                        None,
+                        ProgramErrorKind::Ambiguous, None,
                         &format!(
                             "the arc starts at a place whose {} the program has not stated",
                             char::from(COORDINATES[axis])
@@ -528,7 +530,7 @@ impl<'o> Interpreter<'o> {
             if self.modes.incremental {
                 if !self.known[axis] && kind == MoveKind::Feed {
                     return Err(block.refuse(
-                        block.word(letter),
+                        ProgramErrorKind::Ambiguous, block.word(letter),
                         &format!(
                             "an incremental feed from a place whose {} the program has not stated",
                             char::from(letter)
@@ -543,6 +545,7 @@ impl<'o> Interpreter<'o> {
             }
             if end[axis].abs() > LARGEST_COORDINATE_MM {
                 return Err(block.refuse(
+                    ProgramErrorKind::Malformed,
                     block.word(letter),
                     &format!("{} would be at {:.0} mm", char::from(letter), end[axis]),
                     "check the number and the units",
@@ -560,7 +563,7 @@ impl<'o> Interpreter<'o> {
         for letter in *OTHER_AXES {
             if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
                 return Err(block.refuse(
-                    Some(word),
+                    ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
                         "axis {} changes where the tool stands in the part and in the machine, and there is no model of it",
                         char::from(letter)
@@ -613,7 +616,7 @@ impl<'o> Interpreter<'o> {
             if motion.known != Knowledge::Whole && motion.curve != Curve::Line {
                 let block = Block::of(program, motion.line - 1)?;
                 return Err(block.refuse(
-                    None,
+                    ProgramErrorKind::Ambiguous, None,
                     "the arc is made before the program has stated all axes it moves later",
                     "state X, Y and Z before the first arc, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
                 ));
@@ -663,6 +666,7 @@ fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
     let axes = block.words.iter().filter(axis).count();
     if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
         return Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
             None,
             "a dwell and a motion stand in one block: the axis words may belong to either",
             "write them in two blocks",

@@ -1,6 +1,6 @@
 //! The words that hold until others of their kind replace them.
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Motion, MoveKind};
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
@@ -117,6 +117,7 @@ impl Modes {
     ) -> Result<(), ProgramError> {
         if value <= 0.0 {
             return Err(block.refuse(
+                ProgramErrorKind::Malformed,
                 block.word(b'F'),
                 &format!("a feed of {value} is no feed"),
                 "write a feed above zero",
@@ -145,6 +146,7 @@ impl Modes {
             591..=593 => code as usize - 591 + 6,
             _ => {
                 return Err(block.refuse(
+                    ProgramErrorKind::UnknownCode,
                     block.word(b'P'),
                     "an extended work coordinate system is not known here",
                     "use G54 to G59.3",
@@ -175,7 +177,7 @@ impl Modes {
     pub fn mm_per_unit(&self, block: &Block<'_>) -> Result<f64, ProgramError> {
         self.units.map(Units::mm_per_unit).ok_or_else(|| {
             block.refuse(
-                None,
+                ProgramErrorKind::Ambiguous, None,
                 "the program moves before it names its units",
                 "begin it with G21 (mm) or G20 (inch), or give the units (--units, or units under [reading] in the job file)",
             )
@@ -189,6 +191,7 @@ impl Modes {
         }
         if self.feed_mode == FeedMode::InverseTime && block.value(b'F').is_none() {
             return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
                 None,
                 "with G93 (inverse time) every feed block needs its own F",
                 "write F into the block",
@@ -196,7 +199,7 @@ impl Modes {
         }
         if self.feed_is_stale {
             return Err(block.refuse(
-                None,
+                ProgramErrorKind::Ambiguous, None,
                 "the units were named after the F in force, or changed in its block: its value is read differently by controllers",
                 "write F again in a block after G20 or G21",
             ));
@@ -218,7 +221,7 @@ impl Modes {
             return Ok(());
         }
         Err(block.refuse(
-            None,
+            ProgramErrorKind::Ambiguous, None,
             &format!("line {line} changed the tool length, so the height of the tool point is unknown here"),
             "follow G43 and G49 by a rapid (G0) with an absolute Z word, in the same or the next motion block",
         ))

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{MoveKind, Path, Warning};
 use crate::path::tool_change::ToolChange;
 use crate::reading::block::Block;
@@ -31,6 +31,7 @@ impl ToolWords {
             && whole(b'T').is_none()
         {
             return Err(block.refuse(
+                ProgramErrorKind::Tool,
                 None,
                 &format!("T{} is no number of a tool", word.value),
                 "write a whole number that is not negative, such as T2",
@@ -162,6 +163,7 @@ fn refuse_unknown_tools(path: &Path, program: &Program, known: &[u32]) -> Result
             .any(|motion| (change.line..until).contains(&motion.line));
         if is_used && !known.contains(&change.number) {
             return Err(Block::of(program, change.line - 1)?.refuse(
+                ProgramErrorKind::Tool,
                 None,
                 &format!(
                     "tool {} is not among the tools that are named",
@@ -188,7 +190,7 @@ fn before_first_tool(
         .find(|m| m.kind == MoveKind::Feed);
     if let (Some(cut), false) = (cut, options.tool_before_first) {
         return Err(Block::of(program, cut.line - 1)?.refuse(
-            None,
+            ProgramErrorKind::Tool, None,
             "the block cuts before the program has named a tool, and the tools are known by number only",
             "name the tool before it (T1 M6), or give the one that is in the spindle at the start as [tool] in the job file",
         ));

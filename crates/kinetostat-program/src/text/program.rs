@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::{ProgramError, excerpt};
+use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::text::after_end::acting_word;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::line::{Line, LineKind, Word};
@@ -199,6 +199,7 @@ impl Reader {
             return Ok(());
         };
         Err(ProgramError {
+            kind: ProgramErrorKind::Malformed,
             line: 1,
             span: 0..bytes.len().min(2),
             found: "first bytes of the file".to_owned(),
@@ -245,6 +246,7 @@ impl Reader {
         let text = &self.program.bytes[content.clone()];
         let span = acting_word(text, &mut self.tokens)?;
         Some(ProgramError {
+            kind: ProgramErrorKind::Ambiguous,
             line: number,
             span: content.start + span.start..content.start + span.end,
             found: excerpt(text),
@@ -287,6 +289,7 @@ impl Reader {
     ) -> Result<(LineKind, bool), ProgramError> {
         let text = &self.program.bytes[content.clone()];
         let refuse = |span: Range<usize>, reason: &str, remedy: &str| ProgramError {
+            kind: ProgramErrorKind::Malformed,
             line: number,
             span: content.start + span.start..content.start + span.end,
             found: excerpt(text),

@@ -528,7 +528,7 @@ impl<'a> Emitter<'a> {
                 .map(|index| &self.path.moves[index]);
             let before = before.filter(|before| is_divided(before));
             if let Some(along) = before.and_then(|before| before.tangent(1.0)) {
-                backward = backward.max(-displacement.dot(&along));
+                backward = larger(backward, -displacement.dot(&along));
             }
         }
         let accounting = &mut self.accounting;

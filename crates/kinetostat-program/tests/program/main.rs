@@ -16,6 +16,7 @@ mod internal;
 mod map;
 mod properties;
 mod real_programs;
+mod refusal_kinds;
 mod refusals;
 mod sampled;
 mod sampled_maps;

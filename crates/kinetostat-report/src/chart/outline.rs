@@ -275,10 +275,9 @@ mod tests {
                 .iter()
                 .flatten()
                 .filter(|p| p.0.floor() == f64::from(column));
-            let (low, high) = own.fold((f64::MAX, f64::MIN), |(low, high), p| {
-                (low.min(p.1), high.max(p.1))
-            });
-            assert!((low, high) == (0.0, 999.0), "{low} to {high}");
+            let mut own: Vec<f64> = own.map(|p| p.1).collect();
+            own.sort_by(f64::total_cmp);
+            assert_eq!((own.first(), own.last()), (Some(&0.0), Some(&999.0)));
         }
     }
 

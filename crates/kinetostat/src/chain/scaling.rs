@@ -1,6 +1,7 @@
 //! Units in which all unknowns of a chain are comparable, and sizes of its steps and motions.
 
 use crate::model::chain::{Chain, Role};
+use crate::number::{larger, smaller};
 use crate::spatial::MotionKind;
 
 /// Root of the sum of squares without a part of it.
@@ -23,7 +24,7 @@ pub(crate) fn disparate(scales: &[f64], chain: &Chain) -> bool {
             MotionKind::Revolute => (factor * length).powi(-2),
         });
     let (least, most) = stiffnesses.fold((f64::INFINITY, 0.0_f64), |(least, most), k| {
-        (least.min(k), most.max(k))
+        (smaller(least, k), larger(most, k))
     });
     most > DISPARATE * least
 }

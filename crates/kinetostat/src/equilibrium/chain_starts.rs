@@ -75,7 +75,7 @@ pub(crate) fn spread(system: &ChainSystem<'_, '_>, bounds: &Bounds, index: usize
             let c = &chain.coordinates()[i];
             let (mut low, mut high) = (bounds.low[i], bounds.high[i]);
             if c.role == Role::Spring {
-                low = low.max(-reach[i]);
+                low = larger(low, -reach[i]);
                 high = high.min(reach[i]);
             }
             let wide = match c.kind {

@@ -146,7 +146,7 @@ impl Active {
         if !factors.solve_mut(&mut upper) {
             return None;
         }
-        let sound = pivots == Pivots::Definite || upper.is_empty() || upper.amax() <= GROWTH;
+        let sound = pivots == Pivots::Definite || upper.iter().all(|x| x.abs() <= GROWTH);
         sound.then_some(EliminationStep {
             own,
             outer,

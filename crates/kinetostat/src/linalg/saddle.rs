@@ -5,6 +5,7 @@
 use nalgebra::{DMatrix, Dyn, LU};
 
 use crate::linalg::singular_values::{SingularValues, range};
+use crate::number::{larger, smaller};
 
 /// Pivots or singular values below this share of the largest count as zero. Regular machines stay
 /// above 1e-8 in scaled units (flat postures to 1 um included); rounding stays below 1e-13.
@@ -37,7 +38,7 @@ impl Saddle {
         let lu = a.clone().lu();
         let pivots = lu.lu_internal().diagonal();
         let (least, most) = pivots.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), p| {
-            (l.min(p.abs()), m.max(p.abs()))
+            (smaller(l, p.abs()), larger(m, p.abs()))
         });
         let factors = if n == 0 || least > 10.0 * RANK_TOLERANCE * most {
             Factors::Regular(lu)

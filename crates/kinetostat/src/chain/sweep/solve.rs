@@ -187,7 +187,7 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
                 0.0
             }
         });
-        if right.amax() <= RANK_TOLERANCE {
+        if right.iter().all(|x| x.abs() <= RANK_TOLERANCE) {
             continue;
         }
         let (wrench, x) = bordered.solve(&torque, &right)?;
@@ -481,7 +481,7 @@ pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
     if at_one.above == 0 {
         high = 1.0;
     } else {
-        low = low.max(1.0);
+        low = larger(low, 1.0);
     }
     let mut lost = 0;
     for _ in 0..60 {
@@ -528,7 +528,7 @@ pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
         if trial.quotient > best.quotient - 1e-12 * scale {
             off = (trial.quotient - best.quotient).abs();
             best = trial;
-            low = low.max(best.quotient);
+            low = larger(low, best.quotient);
         }
     }
     // A vector that leaves what is held, by rounding, has any quotient.
