@@ -291,7 +291,7 @@ impl Mechanism {
 
     /// The tool cannot be moved everywhere that it goes with its orientation held: fewer motions
     /// without rotation than directions that its reference point can move in. Counted beside home,
-    /// which may be singular. A place of such a machine is requested by
+    /// which may be singular; false where home cannot be reached, for nothing is known there. A place of such a machine is requested by
     /// [`PostureRequest::position`](crate::machine::PostureRequest::position).
     ///
     /// ```
