@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{cargo, root, step};
 
-/// Works and how many times faster than numpy they must be.
+/// Benchmark cases and how many times faster than numpy they must be.
 pub const CASES: [(&str, f64); 6] = [
     ("W1", 15.0),
     ("W2", 30.0),

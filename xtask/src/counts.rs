@@ -143,9 +143,9 @@ fn skipped(why: &str) {
 }
 
 struct Comparison {
-    /// Works that take more than the slack allows, or that have no baseline.
+    /// Benchmark cases that take more than the slack allows, or that have no baseline.
     more: Vec<String>,
-    /// Works that take less by more than that, or that are gone.
+    /// Benchmark cases that take less by more than that, or that are gone.
     less: Vec<String>,
     table: String,
 }

@@ -19,10 +19,8 @@
 //!   </joint>
 //! </robot>"#;
 //! use kinetostat_import::{UrdfOptions, import_urdf};
-//! let options = UrdfOptions {
-//!     tip: Some("hook".into()),
-//!     ..UrdfOptions::default()
-//! };
+//! let mut options = UrdfOptions::default();
+//! options.tip = Some("hook".into());
 //! let imported = import_urdf(urdf, "crane.urdf", &options)?;
 //! let model = kinetostat_model::Model::from_toml(&imported.toml, "crane.toml")?;
 //! assert_eq!(model.mechanism.actuator_names(), ["shoulder"]);

@@ -30,7 +30,8 @@
 //!     let x = request.position_mm.x;
 //!     Ok(Vector3::new(0.0, 0.0, 1e-4 * x + 1e-5 * x * x))
 //! };
-//! let writing = WriteOptions { header: None, ..WriteOptions::default() };
+//! let mut writing = WriteOptions::default();
+//! writing.header = None;
 //! let written = write_corrected(&program, &path, &field, &writing, &Unwatched)?;
 //! verify_written(&program, &path, &written, &reading, &writing)?;
 //!

@@ -9,7 +9,7 @@ use kinetostat::internal::InstructionSet;
 use kinetostat_bench::machines::benchmark_case;
 use kinetostat_bench::{Answers, Task};
 
-/// Works of the benches, as many postures of each as leave the last register of eight half full.
+/// Cases of the benches, as many postures of each as leave the last register of eight half full.
 const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 const POSTURES: usize = 13;
 

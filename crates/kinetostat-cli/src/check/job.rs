@@ -174,7 +174,9 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
             let Some((line, position)) = end else {
                 continue;
             };
+            // As a compensation commands it: within the limits of the actuators, too.
             let posture = mechanism.posture(&placement.tool_pose(&position));
+            let posture = posture.and_then(|posture| posture.within_limits());
             found.push(EndFinding {
                 end: format!("{word} {name}"),
                 line,

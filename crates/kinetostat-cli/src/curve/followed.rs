@@ -8,7 +8,7 @@ use kinetostat_machining::{Warning, WarningCode};
 
 use crate::curve::answer::CriticalAnswer;
 use crate::curve::figures::short;
-use crate::curve::query::CurveQuery;
+use crate::curve::query::{CurveQuery, Measure};
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
 
@@ -81,6 +81,26 @@ pub(crate) fn add_shapes_off_the_curve<E>(
 }
 
 impl<E: CurveEquilibrium> Followed<E> {
+    /// The curve ends where it starts, because the load there is none of those that were asked for.
+    fn starts_outside(&self, q: &CurveQuery) -> Option<Warning> {
+        let (low, high) = q.force_limits?;
+        let start = self.branches.first()?.points.first()?;
+        let load = start.conjugate;
+        let unit = match q.measure {
+            Measure::Moment(_) => "N m",
+            _ => "N",
+        };
+        (load < low || load > high).then(|| {
+            Warning::new(
+                WarningCode::CurveEnds,
+                format!(
+                    "the curve ends where it starts: the load there is {} {unit}, outside --force-limits {low} {high}. Give limits that hold it",
+                    short(load)
+                ),
+            )
+        })
+    }
+
     /// Why branches end before the requested end, and which were not followed.
     pub(crate) fn what_is_missing(&self, q: &CurveQuery) -> Vec<Warning> {
         let early = self.branches.iter().enumerate().flat_map(|(k, branch)| {
@@ -127,6 +147,10 @@ impl<E: CurveEquilibrium> Followed<E> {
                 ),
             )
         });
-        early.chain(lost).chain(more).collect()
+        early
+            .chain(lost)
+            .chain(more)
+            .chain(self.starts_outside(q))
+            .collect()
     }
 }

@@ -57,6 +57,8 @@ fn table(a: &CurveAnswer) -> String {
         "displ. control".to_owned(),
     ];
     let factor = a.grows == "load" && !u.load_unit.is_empty();
+    let factors = a.named_points.iter().filter_map(|p| p.point.factor);
+    let largest_factor = factors.fold(0.0, |most, x| larger(most, x.abs()));
     if factor {
         header.insert(1, "factor".to_owned());
     }
@@ -66,7 +68,11 @@ fn table(a: &CurveAnswer) -> String {
             .map(|p| p.point.shown[k].abs())
             .fold(0.0, larger)
     };
-    let sizes = [size(0), size(1)];
+    let mut sizes = [size(0), size(1)];
+    if a.grows != "load" {
+        // A curve that ends where it starts is no reason to take rounding for a displacement.
+        sizes[0] = larger(sizes[0], larger(a.requested.0.abs(), a.requested.1.abs()));
+    }
     let mut rows = vec![header];
     let ends = a.named_points.iter().filter(|p| p.kind == "end").count();
     for p in &a.named_points {
@@ -92,7 +98,7 @@ fn table(a: &CurveAnswer) -> String {
             stability_word(p.limits[1], p.point.stable_under_prescribed_motion),
         ];
         if factor {
-            row.insert(1, value(p.point.factor.unwrap_or(f64::NAN), 1.0));
+            row.insert(1, value(p.point.factor.unwrap_or(f64::NAN), largest_factor));
         }
         rows.push(row);
     }

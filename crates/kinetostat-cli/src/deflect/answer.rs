@@ -31,7 +31,8 @@ pub(crate) struct Deflection {
     pub(crate) rotation_size_deg: f64,
     pub(crate) actuators: Vec<ActuatorAnswer>,
     /// What the controller shows, in the order of its axes; empty without a section `controller`.
-    pub(crate) pendant: Vec<JointValue>,
+    #[serde(rename = "pendant")]
+    pub(crate) on_controller: Vec<JointValue>,
     pub(crate) limbs: Vec<LimbAnswer>,
     /// Against a force in the softest direction, the tool free to turn; none if no force moves it.
     pub(crate) smallest_stiffness_n_per_mm: f64,
@@ -159,7 +160,7 @@ pub(crate) fn answer(
         rotation_vector_deg: turn.into(),
         rotation_size_deg: turn.norm(),
         actuators: actuators(&query.mechanism, posture, &loaded.actuator_forces()),
-        pendant: query.in_controller_coordinates(posture),
+        on_controller: query.in_controller_coordinates(posture),
         limbs: loaded
             .limbs
             .iter()

@@ -31,7 +31,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &Deflection) -> String {
     out.push_str(&vectors(a));
     out.push('\n');
     out.push_str(&actuators(a));
-    out.push_str(&joints::values_text("On the controller", &a.pendant));
+    out.push_str(&joints::values_text("On the controller", &a.on_controller));
     out.push_str(&stability(a));
     out.push_str(&links(a));
     out.push_str(&internal(a));

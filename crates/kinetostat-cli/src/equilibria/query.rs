@@ -33,6 +33,11 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
     };
     let shift = part("--displaced-mm", &args.displaced_mm)?;
     let turn = part("--turned-deg", &args.turned_deg)?;
+    if turn.norm() > 180.0 {
+        return Err(Failure::input(
+            "--turned-deg: the tool can be turned by 180 degrees at most (the length of the three)",
+        ));
+    }
     let displaced = args.displaced_mm.is_some() || args.turned_deg.is_some();
     let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
     let subject = moves.subject;

@@ -50,7 +50,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     let mut tree = DeTable::parse(&text).ok()?;
     let mut found = Vec::new();
     let mut taken = Vec::new();
-    // What has the wrong form: unknown keys, words for numbers, numbers that are none.
+    // What has the wrong form: unknown keys, words for numbers, NaN.
     for span in source.not_finite(&tree) {
         add(&mut found, source.not_finite_number(span.clone()));
         take(tree.get_mut(), span, &mut taken);

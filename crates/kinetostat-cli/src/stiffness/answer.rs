@@ -24,7 +24,8 @@ pub(crate) struct Stiffness {
     /// Commands of the actuators there.
     pub(crate) joints: Vec<JointValue>,
     /// What the controller shows, in the order of its axes; empty without a section `controller`.
-    pub(crate) pendant: Vec<JointValue>,
+    #[serde(rename = "pendant")]
+    pub(crate) on_controller: Vec<JointValue>,
     pub(crate) loaded: bool,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
@@ -137,7 +138,7 @@ pub(crate) fn answer(
         tool: query.tool_words.clone(),
         place: query.answer(),
         joints: joints::of_model(&query.mechanism, &posture.commands()),
-        pendant: query.in_controller_coordinates(posture),
+        on_controller: query.in_controller_coordinates(posture),
         loaded,
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),

@@ -11,8 +11,8 @@ use kinetostat::number::larger;
 
 pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     let mut out = query.heading();
-    if !a.pendant.is_empty() {
-        out.push_str(&joints::values_text("On the controller", &a.pendant));
+    if !a.on_controller.is_empty() {
+        out.push_str(&joints::values_text("On the controller", &a.on_controller));
         out.push('\n');
     }
     let state = if a.loaded {

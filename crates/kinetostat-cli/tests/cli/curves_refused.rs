@@ -233,3 +233,41 @@ fn directions_of_any_size_and_nodes_of_limbs() {
         "{said:?}"
     );
 }
+
+/// A curve that ends where it starts says why, and shows no rounding; a turn is at most half a one.
+#[test]
+fn a_start_outside_the_force_limits_is_named() {
+    let here = workplace();
+    let words = [
+        "curve",
+        "heavy_6r",
+        "--direction",
+        "1",
+        "0",
+        "0",
+        "--displacement-mm",
+        "0",
+        "5",
+    ];
+    let limits = ["--force-limits", "-10", "10"];
+    let said = run(here.path(), &[&words[..], &limits[..]].concat()).answered();
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("the curve ends where it starts: the load there is 1007"),
+        "{flat}"
+    );
+    assert!(flat.contains("outside --force-limits -10 10"), "{flat}");
+    assert!(!flat.contains("e-15"), "{flat}");
+    let slope = said
+        .out
+        .lines()
+        .find(|line| line.trim_start().starts_with("A "))
+        .expect("point A");
+    assert!(slope.contains(" 614"), "{slope}");
+    let words = ["equilibria", "heavy_6r", "--turned-deg", "0", "0", "720"];
+    let said = run(here.path(), &words);
+    assert!(
+        said.code == 1 && said.err.contains("180 degrees"),
+        "{said:?}"
+    );
+}

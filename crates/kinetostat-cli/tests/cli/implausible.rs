@@ -388,3 +388,27 @@ fn the_energy_of_an_unstrained_shape_is_zero() {
     assert_eq!(energy, Some("0"), "{}", said.out);
     assert!(said.out.contains("0.0450846"), "{}", said.out);
 }
+
+/// What a compensation refuses, because an actuator would leave its limits, is not called reached by `check`.
+#[test]
+fn an_end_of_the_program_outside_a_limit_is_not_reached() {
+    let here = workplace();
+    run(here.path(), &["demo", "--out", "d"]).answered();
+    let job = std::fs::read_to_string(here.path().join("d/job.toml")).expect("the job");
+    let off = job.replace("[20, 20, 120]", "[0.02, 0.02, 0.12]");
+    assert_ne!(job, off);
+    std::fs::write(here.path().join("d/job.toml"), off).expect("a job");
+    let said = run(here.path(), &["check", "d/job.toml"]);
+    let flat = format!("{} {}", said.out, said.err);
+    let flat = flat.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("outside its limits"), "{flat}");
+    assert_ne!(said.code, 0, "{flat}");
+    let said = run(
+        here.path(),
+        &["compensate", "d/job.toml", "--force-overwrite"],
+    );
+    assert!(
+        said.code != 0 && said.err.contains("outside its limits"),
+        "{said:?}"
+    );
+}

@@ -37,7 +37,7 @@ impl Program {
     /// # Errors
     ///
     /// The first construct that cannot be followed, with its line: bytes that are no text, lines
-    /// longer than [`MAX_READ_LINE_BYTES`], numbers that are none, variables and expressions, control
+    /// longer than [`MAX_READ_LINE_BYTES`], malformed numbers, variables and expressions, control
     /// structure, subroutines and calls, checksums.
     pub fn read(bytes: impl Into<Vec<u8>>) -> Result<Program, ProgramError> {
         let (program, faults) = Self::read_with_faults(bytes.into());

@@ -68,7 +68,16 @@ impl Overlay {
     }
 }
 
-pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
+impl Drawing<'_> {
+    /// The drawing as an SVG document with its own style, right on light and on dark pages and on
+    /// paper, and the factor by which the motion was drawn larger.
+    #[must_use]
+    pub fn svg(&self) -> (String, f64) {
+        paint(self)
+    }
+}
+
+fn paint(d: &Drawing<'_>) -> (String, f64) {
     let scene = Scene::of(d.mechanism, &d.placed);
     let overlay = d.moved.as_ref().map(|m| overlay(d, m, &scene));
     let factor = overlay.as_ref().map_or(1.0, |o| o.factor);

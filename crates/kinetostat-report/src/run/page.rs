@@ -38,7 +38,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         model => name_or(&run_inputs.model, "unnamed machine"),
         version => text::shorten(&result.kinetostat_version, 40),
         compensated => run_inputs.compensated,
-        verdict => context! {
+        assessment => context! {
             class => assessment.level.class(),
             word => assessment.level.word(),
             sentence => assessment.sentence,

@@ -126,16 +126,18 @@ fn every_page_is_sound() {
 #[test]
 fn the_result_comes_first_and_in_words() {
     let page = plain(&html(&circle_groove()).unwrap());
-    let start = page.find("class=\"verdict good\"").expect("a verdict");
+    let start = page
+        .find("class=\"assessment good\"")
+        .expect("an assessment");
     assert!(start < page.find("class=\"cards").expect("cards"));
     assert!(
         page.contains("with the compensated program at most 0.528 µm."),
-        "the verdict names the error after: {}",
+        "the assessment names the error after: {}",
         &page[start..start + 600]
     );
     assert!(page.contains("which a program of positions cannot correct"));
     assert!(plain(&html(&analysis()).unwrap()).contains("This is an analysis only"));
-    assert!(plain(&html(&unstable()).unwrap()).contains("class=\"verdict stop\""));
+    assert!(plain(&html(&unstable()).unwrap()).contains("class=\"assessment stop\""));
 }
 
 #[test]
@@ -222,13 +224,13 @@ fn the_line_of_the_plot_is_the_bound_that_is_compared() {
     let page = html(&result).expect("a page");
     let reported = |page: &str| page.matches("allowed").count();
     assert!(reported(&plain(&page)) >= 2, "card and plot");
-    assert!(page.contains("class=\"verdict good\""), "held");
+    assert!(page.contains("class=\"assessment good\""), "held");
     result.run_inputs.tolerance_mm = 0.1 * worst;
     result.run_inputs.chord_tolerance_mm = 0.0;
     result.summary.max_rounding_error_mm = 0.0;
     assert_eq!(result.holds_tolerance(), Some(false));
     let page = html(&result).expect("a page");
-    assert!(page.contains("class=\"verdict attention\""), "missed");
+    assert!(page.contains("class=\"assessment attention\""), "missed");
     assert!(page.contains("The tolerance is missed"), "said first");
     result.summary.max_position_error_after_mm = f64::NAN;
     assert_eq!(

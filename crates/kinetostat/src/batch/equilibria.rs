@@ -57,7 +57,7 @@ pub struct PostureStability {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct BatchTargets {
-    /// Pose for which the machine is commanded, base from tool; numbers that are none where
+    /// Pose for which the machine is commanded, base from tool; NaN where
     /// `equilibrium.status` says [`Status::Unsolved`].
     pub targets: Vec<Pose>,
     /// The equilibrium of each, without stiffness and stability.

@@ -7,7 +7,7 @@ use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::chain::directions::{Direction, DirectionKind};
+use crate::chain::directions::{Direction, DirectionKind, Share};
 use crate::chain::found_by::FoundBy;
 use crate::chain::link_load::{LinkLoad, link_loads};
 use crate::chain::potential::load_energy;
@@ -21,11 +21,13 @@ use crate::machine::directions::{
     condensed_directions, none_diverges, others_hold, scaled_directions,
 };
 use crate::machine::graded::GradedPlatforms;
+use crate::machine::participation::{name_participation, participation_of_limbs};
 use crate::machine::platform_system::RigidRows;
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
+use crate::model::mechanism::Mechanism;
 use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
@@ -253,9 +255,14 @@ pub(crate) fn conclude(
             || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
     let tool = ToolStiffness::of(solver, tangent, &limbs);
     let (platform, others_hold) = tool.stability(solver, conservative, &limbs);
-    let answer = MechanismEquilibrium {
-        tool: solver.state.platforms[m.tool()],
-        displacement: pose_residual(&solver.state.platforms[m.tool()], &solver.target),
+    let place = solver.state.platforms[m.tool()];
+    let mut directions = tool.directions;
+    name_participation(&mut directions, |twist| {
+        participation_of_limbs(m, &place, limbs.iter().map(|limb| &limb.stiffness), twist)
+    });
+    Ok(MechanismEquilibrium {
+        tool: place,
+        displacement: pose_residual(&place, &solver.target),
         conservative,
         energy,
         wrench,
@@ -264,14 +271,13 @@ pub(crate) fn conclude(
         },
         platform,
         others_hold,
-        directions: tool.directions,
+        directions,
         length: m.scale().length,
         limbs,
         residual,
         found_by: solver.found_by,
         state: solver.state.clone(),
-    };
-    Ok(answer.named(m))
+    })
 }
 
 /// What one limb does at a solved state.
@@ -439,5 +445,14 @@ impl Posture {
         let mut solver = self.solver(state, Unknowns::Displacement);
         let residual = solver.solve_robustly()?;
         conclude(&mut solver, residual)
+    }
+}
+
+impl MechanismEquilibrium {
+    /// As [`UnloadedStiffness::participation`], under load.
+    #[must_use]
+    pub fn participation(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
+        let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
+        participation_of_limbs(mechanism, &self.tool, limbs, twist)
     }
 }

@@ -3,7 +3,7 @@
 //! Takes a [`Mechanism`](crate::Mechanism) and a target of the tool, gives the commands of the actuators (`inverse`), the
 //! posture, its unloaded stiffness, what the limbs constrain, how near a singular posture is (`singular`), what assembly
 //! with errors does to first order (`assembly`), and which joints and springs take part in a motion of the tool
-//! (`explain`). `platforms` is the equilibrium of the platforms at one share of the load.
+//! (`participation`, `negative_stiffness`). `platforms` is the equilibrium of the platforms at one share of the load.
 //!
 //! ```text
 //! W = sum T_i^T F_i,   K = sum T_i^T K_i T_i + sum blkdiag(0, hat(f_i) hat(s_i))     [R 6.21-6.30, 5.28 corrected]
@@ -14,13 +14,14 @@ pub(crate) mod constraints;
 pub(crate) mod directions;
 pub(crate) mod ends;
 pub(crate) mod equilibrium;
-pub(crate) mod explain;
 pub(crate) mod following;
 pub(crate) mod forward;
 pub(crate) mod graded;
 pub(crate) mod inverse;
 pub(crate) mod mobility;
+pub(crate) mod negative_stiffness;
 pub(crate) mod network;
+pub(crate) mod participation;
 pub(crate) mod platform_system;
 pub(crate) mod platforms;
 pub(crate) mod posture;
@@ -33,8 +34,8 @@ pub(crate) mod turned_loads;
 pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
-pub use explain::negative_stiffness::NegativeNetStiffness;
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
+pub use negative_stiffness::NegativeNetStiffness;
 pub use posture::Posture;
 pub use request::PostureRequest;
 pub use singular::near::{NearSingularity, SingularityKind};

@@ -3,14 +3,15 @@
 use nalgebra::Matrix6;
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::chain::directions::{Direction, DirectionKind};
+use crate::chain::directions::{Direction, DirectionKind, Share};
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::Result;
 use crate::machine::directions::{condensed_directions, scaled_directions};
 use crate::machine::graded::GradedPlatforms;
 use crate::machine::network::Network;
+use crate::machine::participation::{name_participation, participation_of_limbs};
 use crate::machine::posture::Posture;
-use crate::spatial::CartesianStiffness;
+use crate::spatial::{CartesianStiffness, Twist};
 
 impl Posture {
     /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13],
@@ -47,7 +48,7 @@ impl Posture {
         let own = network.limbs.iter().zip(scales.clone());
         let own = own.zip(&network.motions).map(|((k, s), e)| (k, s, e));
         let graded = GradedPlatforms::of(scale, network.moving(), own);
-        let (matrix, directions) = if m.platforms().len() > 2 {
+        let (matrix, mut directions) = if m.platforms().len() > 2 {
             let (total, rigid) = (network.stiffness(), network.rows());
             condensed_directions(&total, graded.as_ref(), &rigid, m.tool() - 1, scale)
         } else {
@@ -64,13 +65,15 @@ impl Posture {
             let directions = scaled_directions(&total, graded.as_ref(), scale, own);
             (total, directions)
         };
-        let answer = UnloadedStiffness {
+        name_participation(&mut directions, |twist| {
+            participation_of_limbs(m, &self.target, network.limbs.iter(), twist)
+        });
+        Ok(UnloadedStiffness {
             length: scale.length,
             cartesian: CartesianStiffness { matrix },
             directions,
             limbs: network.limbs,
-        };
-        Ok(answer.named(self))
+        })
     }
 }
 
@@ -132,5 +135,36 @@ impl UnloadedStiffness {
             .iter()
             .filter(|d| d.kind != DirectionKind::Free)
             .count()
+    }
+}
+
+impl UnloadedStiffness {
+    /// Joints and springs that move when the tool of the posture (the one that this is the
+    /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
+    /// `limb: joint`, the most first. Only limbs that run from the base to the tool are listed.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = arm.posture(&home)?;
+    /// let aside = Twist::new(vector![0.0, 1.0, 0.0], Vector3::zeros());
+    /// let shares = posture.stiffness()?.participation(&posture, &aside);
+    /// assert!(shares.iter().any(|share| share.name.contains("shoulder")));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn participation(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
+        let limbs = self.limbs.iter();
+        participation_of_limbs(posture.mechanism(), posture.target(), limbs, twist)
     }
 }

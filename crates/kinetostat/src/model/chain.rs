@@ -40,7 +40,7 @@ pub struct Motion {
     pub command: Option<Drive>,
 }
 
-/// One factor of the product. Exhaustive: who walks a chain must not pass over a factor.
+/// One factor of the product. Exhaustive: who goes along a chain must not pass over a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Element {

@@ -3,6 +3,13 @@
 //! The blocks of a chain's tangent and the three ways to its stiffness [R 3.7-3.16, 4.27-4.29], the elimination of single
 //! passive joints with the cases of Tables 3.1-3.3, the report's own iteration [R 4.15-4.16] and its criterion of a
 //! shape [R 5.16-5.21].
+//!
+//! Takes chains and their problems, gives what the engines give, by the report's own steps.
+//!
+//! ```text
+//! K_C = K_C^0 - K_C^0 J_q (J_q^T K_C^0 J_q)^-1 J_q^T K_C^0                                              [R 3.10-3.16]
+//! theta <- K^-1 (J^T F + ...), q by the bordered system, loads and Jacobians lagged                     [R 4.15-4.16]
+//! ```
 
 pub(crate) mod chain_blocks;
 pub(crate) mod conditions;

@@ -39,7 +39,7 @@ pub fn assert_antisymmetric_part(
 fn assert_stability_is_consistent(s: &ShapeStability) {
     if let Some(mu) = s.share_to_buckling {
         assert!(!mu.is_nan(), "the share is NaN");
-        assert_eq!(s.stable, mu < 1.0, "verdict and share disagree: {mu}");
+        assert_eq!(s.stable, mu < 1.0, "stability and share disagree: {mu}");
     } else {
         assert!(s.stable, "no inner freedom but unstable");
     }

@@ -106,7 +106,7 @@ pub const SIX: [(MotionKind, [f64; 3]); 6] = [
     (MotionKind::Revolute, [0.0, 0.0, 1.0]),
 ];
 
-/// The heavy 6R arm of the benches (KUKA KR-270-like, `bench/models.py`): per joint an actuator
+/// The heavy 6R arm of the benches (KUKA KR-270-like, `benches/numpy/machines.py`): per joint an actuator
 /// spring and a 6-D link spring (tube), link masses.
 pub fn arm(with_masses: bool) -> Chain {
     let axes = [

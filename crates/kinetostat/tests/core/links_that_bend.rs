@@ -71,7 +71,7 @@ pub fn elastica(n: usize, convention: LinkConvention) -> f64 {
 }
 
 #[test]
-fn the_elastica_converges_as_in_the_theory_note() {
+fn the_elastica_converges_with_the_square_of_the_segments() {
     for (convention, expected, digits) in [
         (
             TranslationsFirst,

@@ -94,7 +94,7 @@ pub fn stability(s: &ShapeStability, n: usize) {
             // At one rounding decides; beyond it without a potential, the determinant does.
             if (mu - 1.0).abs() > 1e-9 {
                 let holds = mu < 1.0 || s.may_flutter();
-                assert_eq!(s.stable, holds, "verdict and share {mu} disagree");
+                assert_eq!(s.stable, holds, "stability and share {mu} disagree");
             }
             assert!(!s.stable || mu.is_finite() || mu < 0.0, "stable at {mu}");
         }

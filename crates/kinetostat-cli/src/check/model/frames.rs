@@ -29,8 +29,10 @@ pub(crate) struct Frames {
     zero_problem: Option<String>,
     joints: Vec<JointDirection>,
     /// What the controller shows at home, in the order of its axes.
-    pendant_at_home: Vec<JointValue>,
-    pendant: Vec<ShownAxis>,
+    #[serde(rename = "pendant_at_home")]
+    on_controller_at_home: Vec<JointValue>,
+    #[serde(rename = "pendant")]
+    on_controller: Vec<ShownAxis>,
 }
 
 /// The tool's motion by a small positive motion of one joint, the others held, at home.
@@ -135,11 +137,11 @@ pub(crate) fn frames(model: &Model) -> Frames {
             (Ok(commands), true) => directions(m, &tool.home, commands),
             _ => Vec::new(),
         },
-        pendant_at_home: joints::in_controller_coordinates(
+        on_controller_at_home: joints::in_controller_coordinates(
             model.controller.as_ref(),
             at_home.as_deref().unwrap_or(&commands),
         ),
-        pendant: model
+        on_controller: model
             .controller
             .iter()
             .flat_map(|c| controller_axes(m, c))
@@ -255,15 +257,15 @@ pub(crate) fn frames_text(f: &Frames) -> String {
             2,
         ));
     }
-    if !f.pendant.is_empty() {
+    if !f.on_controller.is_empty() {
         out.push_str("\nOn the controller\n");
-        for axis in &f.pendant {
+        for axis in &f.on_controller {
             out.push_str(&item(&format!(
                 "{} = {}, shown in {}",
                 axis.name, axis.follows, axis.unit
             )));
         }
-        out.push_str(&joints::values_text("  at home", &f.pendant_at_home));
+        out.push_str(&joints::values_text("  at home", &f.on_controller_at_home));
     }
     out
 }

@@ -2,6 +2,10 @@
 //!
 //! Takes arrays of `f64`, gives the same operations for every lane; which instructions a processor has is asked once
 //! (`instruction_set`). Knows nothing of robots.
+//!
+//! ```text
+//! shifted wrench: (f, m + r x f);  symmetric 6 x 6 by 21 numbers;  elimination by reflections I - 2 v v^T / v^T v
+//! ```
 
 pub(crate) mod apart;
 pub(crate) mod eliminate;

@@ -2,6 +2,10 @@
 //!
 //! Takes a chain with its end condition and what grows, gives what [`crate::continuation::tracing`] needs: residual,
 //! matrix, stability, an equilibrium with all of its numbers.
+//!
+//! ```text
+//! G(x, f, lambda) = (g(x) - t(lambda), tau(x) + sum J_j^T G_j(lambda) + J^T f) = 0
+//! ```
 
 pub(crate) mod corrector;
 pub(crate) mod curve;

@@ -2,6 +2,12 @@
 //!
 //! A load on a limb is a [`NodeLoad`](crate::NodeLoad) [R 4.2, 4.22-4.23]; what touches two limbs acts on platforms
 //! (`platform`). `check` compares every tangent with differences of its wrenches.
+//!
+//! Takes poses of nodes or platforms, gives wrenches (N, N m), tangents and potentials (J).
+//!
+//! ```text
+//! dG_j = T_jk dp_k,  T = -d^2 V / dp^2 where the load has a potential V;  a law of length: f(l) along the line
+//! ```
 
 pub(crate) mod check;
 pub(crate) mod follower;

@@ -135,7 +135,7 @@ fn an_elastica_is_solved_vectorised() {
             );
         }
     }
-    // Second order in the length of a segment, 4.5e-5 with a hundred (`shared/design/performance.md`).
+    // Second order in the length of a segment, 4.5e-5 with a hundred.
     println!("elastica, apart from shooting: {errors:?}");
     assert!(
         errors[1] < 5e-5 && errors[0] / errors[1] > 3.5,
