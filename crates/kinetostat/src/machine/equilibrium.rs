@@ -449,7 +449,7 @@ impl Posture {
 }
 
 impl MechanismEquilibrium {
-    /// As [`UnloadedStiffness::participation`], under load.
+    /// As [`UnloadedStiffness::participation`](crate::UnloadedStiffness::participation), under load.
     #[must_use]
     pub fn participation(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
