@@ -11,6 +11,8 @@
 //!
 //! The extremes of measured numbers are here too, for what is stated must not have lost a NaN on its way.
 
+use std::borrow::Borrow;
+
 /// What stands where there is no number.
 pub const MISSING: &str = "not available";
 
@@ -295,6 +297,14 @@ pub fn larger(a: f64, b: f64) -> f64 {
 #[must_use]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
+}
+
+/// The largest size of some numbers, 0 for none, NaN where one of them is.
+#[inline]
+#[must_use]
+pub fn largest_size<N: Borrow<f64>>(numbers: impl IntoIterator<Item = N>) -> f64 {
+    let sizes = numbers.into_iter().map(|x| x.borrow().abs());
+    sizes.fold(0.0, larger)
 }
 
 fn no_number(value: f64) -> Option<&'static str> {

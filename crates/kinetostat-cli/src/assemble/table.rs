@@ -4,7 +4,7 @@ use kinetostat_analysis::assembled::Cases;
 
 use crate::assemble::answer::Assembly;
 use crate::ui::failure::{Answer, Failure};
-use kinetostat::number::larger;
+use kinetostat::number::largest_size;
 
 /// One number in all cases.
 pub(crate) struct Row {
@@ -147,6 +147,5 @@ pub(crate) fn decimals(unit: &str) -> i32 {
 fn weight(x: &Cases<f64>) -> f64 {
     let under = x.under_load_by_deviations.unwrap_or(0.0).abs();
     let whole = x.all().into_iter().flatten();
-    x.without_load_by_deviations.abs().max(under)
-        + 1e-6 * whole.fold(0.0_f64, |m, x| larger(m, x.abs()))
+    x.without_load_by_deviations.abs().max(under) + 1e-6 * largest_size(whole)
 }

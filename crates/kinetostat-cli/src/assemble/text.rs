@@ -6,7 +6,7 @@ use crate::assemble::table::{Row, decimals, rows};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
-use kinetostat::number::larger;
+use kinetostat::number::{larger, largest_size};
 
 /// Rows of a list that is not requested as a whole.
 const SHOWN: usize = 12;
@@ -155,9 +155,7 @@ fn group(
     // What is rounding beside the largest, or shows no digit, is zero.
     let most = |unit: &str| {
         let same = of_group.iter().filter(|r| r.unit == unit);
-        same.flat_map(|r| r.cases.all())
-            .flatten()
-            .fold(0.0_f64, |m, x| larger(m, x.abs()))
+        largest_size(same.flat_map(|r| r.cases.all()).flatten())
     };
     let cell = |row: &Row, x: f64| {
         let least = (1e-5 * most(row.unit)).max(0.5 * 0.1_f64.powi(decimals(row.unit)));

@@ -6,9 +6,9 @@ use kinetostat::{
 };
 use kinetostat_machining::{Warning, WarningCode};
 
-use crate::curve::answer::CriticalAnswer;
+use crate::curve::answer::{CriticalAnswer, Units};
 use crate::curve::figures::short;
-use crate::curve::query::{CurveQuery, Measure};
+use crate::curve::query::CurveQuery;
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
 
@@ -86,10 +86,7 @@ impl<E: CurveEquilibrium> Followed<E> {
         let (low, high) = q.force_limits?;
         let start = self.branches.first()?.points.first()?;
         let load = start.conjugate;
-        let unit = match q.measure {
-            Measure::Moment(_) => "N m",
-            _ => "N",
-        };
+        let unit = Units::of(q).load_unit;
         (load < low || load > high).then(|| {
             Warning::new(
                 WarningCode::CurveEnds,

@@ -1,6 +1,6 @@
 //! The query of `curve`, from its options: what grows, how far, and what acts besides.
 
-use kinetostat::number::larger;
+use kinetostat::number::{larger, largest_size};
 use kinetostat::{EndCondition, Load, Parameter, Twist, Wrench, continuation::LoadPattern};
 use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::{Vector3, Vector6};
@@ -76,7 +76,7 @@ fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
 fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
     let v = vector(option, values)?;
     // Its size does not matter, and the squares of very large or very small numbers are no numbers.
-    let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+    let most = largest_size(&v);
     if most == 0.0 {
         return Err(Failure::input(format!(
             "{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"
@@ -95,7 +95,7 @@ fn given(value: f64) -> String {
 
 /// Three components of the query; what turning them left of nothing is nothing.
 fn given_triple(v: [f64; 3]) -> String {
-    let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+    let most = largest_size(v);
     triple(v, |x| {
         if x.abs() < 1e-12 * most {
             "0".into()

@@ -8,7 +8,7 @@ use crate::curve::stability_text::{reach, stability_text};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::number;
 use crate::ui::warnings;
-use kinetostat::number::larger;
+use kinetostat::number::{larger, largest_size};
 
 /// More ends of branches than this are only counted.
 const MOST_ENDS: usize = 6;
@@ -58,16 +58,11 @@ fn table(a: &CurveAnswer) -> String {
     ];
     let factor = a.grows == "load" && !u.load_unit.is_empty();
     let factors = a.named_points.iter().filter_map(|p| p.point.factor);
-    let largest_factor = factors.fold(0.0, |most, x| larger(most, x.abs()));
+    let largest_factor = largest_size(factors);
     if factor {
         header.insert(1, "factor".to_owned());
     }
-    let size = |k: usize| {
-        a.named_points
-            .iter()
-            .map(|p| p.point.shown[k].abs())
-            .fold(0.0, larger)
-    };
+    let size = |k: usize| largest_size(a.named_points.iter().map(|p| p.point.shown[k]));
     let mut sizes = [size(0), size(1)];
     if a.grows != "load" {
         // A curve that ends where it starts is no reason to take rounding for a displacement.

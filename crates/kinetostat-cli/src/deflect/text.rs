@@ -9,7 +9,7 @@ use crate::place::query::PlaceQuery;
 use crate::ui::layout::{self, columns, wrapped};
 use crate::ui::numbers::{fixed, number, triple};
 use crate::ui::warnings;
-use kinetostat::number::larger;
+use kinetostat::number::largest_size;
 
 /// From this rate of the last corrections on, an iteration is slow.
 const SLOW: f64 = 0.2;
@@ -54,7 +54,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &Deflection) -> String {
 fn vectors(a: &Deflection) -> String {
     let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
         let mut cells = vec![format!("{name}, {unit}")];
-        let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+        let most = largest_size(v);
         // With fixed places a small load, or what it does, would be shown as nothing.
         let small = most > 0.0 && most < 10.0_f64.powf(1.0 - decimals as f64);
         cells.extend(v.iter().map(|x| match small {

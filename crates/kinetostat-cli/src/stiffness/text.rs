@@ -7,7 +7,7 @@ use crate::stiffness::answer::{AtRest, LimbShare, MICRO, Stiffness, per_column};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
-use kinetostat::number::larger;
+use kinetostat::number::largest_size;
 
 pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     let mut out = query.heading();
@@ -118,12 +118,9 @@ fn matrix(
     // The largest entry of the translational, and of the rotational, diagonal.
     let scale = |i: usize| {
         let block = if i < 3 { 0..3 } else { 3..6 };
-        block.map(|k| m[k][k].abs()).fold(0.0, larger)
+        largest_size(block.map(|k| m[k][k]))
     };
-    let most = m
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, x| larger(most, x.abs()));
+    let most = largest_size(m.iter().flatten());
     let cell = |i: usize, j: usize, digits: i32| {
         let noise = (1e-9 * (scale(i) * scale(j)).sqrt()).max(1e-15 * most);
         if m[i][j].abs() <= noise {

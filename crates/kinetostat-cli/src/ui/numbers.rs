@@ -1,6 +1,6 @@
 //! Numbers and vectors as people read them.
 
-use kinetostat::number::larger;
+use kinetostat::number::largest_size;
 use kinetostat_machining::number as formatter;
 use kinetostat_machining::number::without_zeros;
 
@@ -19,7 +19,7 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
 /// Components of a load in brackets, at four decimals, small ones with three digits; what is rounding beside the
 /// largest is zero.
 pub(crate) fn load_triple(v: [f64; 3]) -> String {
-    let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+    let most = largest_size(v);
     triple(v, |x| match x.abs() <= 1e-12 * most {
         true => "0".to_owned(),
         false if x.abs() < 0.01 => formatter::short(x),

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use crate::log::{At, Log};
 use crate::urdf::robot::Origin;
-use kinetostat::number::larger;
+use kinetostat::number::largest_size;
 
 impl Reader<'_> {
     pub(crate) fn at(&self, node: Node<'_, '_>, element: &str) -> At {
@@ -82,10 +82,7 @@ impl Reader<'_> {
             let at = self.at_value(node, "xyz", &element);
             self.log.notice(
                 &at,
-                format!(
-                    "an offset is {:.1} m long",
-                    origin.xyz.iter().fold(0.0_f64, |m, x| larger(m, x.abs()))
-                ),
+                format!("an offset is {:.1} m long", largest_size(origin.xyz)),
                 "lengths of a URDF are metres; are these millimetres?",
             );
         }

@@ -1,6 +1,6 @@
 //! Tables 6.1 and 6.2: legs with errors, assembled without a load [R 6.5.1].
 
-use kinetostat::number::larger;
+use kinetostat::number::{larger, largest_size};
 use kinetostat::{
     Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench, machine::LinearAssembly,
     model::Role,
@@ -20,10 +20,6 @@ struct Row {
     spring_turn: f64,
     spring_force: f64,
     spring_torque: f64,
-}
-
-fn most(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |m, x| larger(m, x.abs()))
 }
 
 /// Largest spring deflections and torques over the legs; torques by each leg's own stiffness.
@@ -76,8 +72,8 @@ fn linear(posture: &Posture, own: &Posture) -> Result<Row, Cause> {
     let mut row = Row {
         shift: (shift.linear() * 1e3).into(),
         turn: shift.angular().map(f64::to_degrees).into(),
-        moment: most(wrenches.iter().flat_map(|w| [w.0[3], w.0[4], w.0[5]])),
-        joint: most(passive.iter().flatten().copied()).to_degrees(),
+        moment: largest_size(wrenches.iter().flat_map(|w| [w.0[3], w.0[4], w.0[5]])),
+        joint: largest_size(passive.iter().flatten().copied()).to_degrees(),
         ..Row::default()
     };
     springs(&mut row, own, &deflections);
@@ -92,7 +88,7 @@ fn exact(posture: &Posture) -> Result<(Row, MechanismEquilibrium), Cause> {
         .iter()
         .zip(posture.limbs())
         .zip(posture.mechanism().limbs());
-    let joint = most(legs.flat_map(|((now, before), limb)| {
+    let joint = largest_size(legs.flat_map(|((now, before), limb)| {
         let moved = |i: usize| now.coordinates[i] - before.coordinates[i];
         limb.nominal
             .indices_of(Role::Passive)
@@ -107,7 +103,7 @@ fn exact(posture: &Posture) -> Result<(Row, MechanismEquilibrium), Cause> {
     let row = Row {
         shift: (e.displacement.linear() * 1e3).into(),
         turn: e.displacement.angular().map(f64::to_degrees).into(),
-        moment: most(moments),
+        moment: largest_size(moments),
         joint: joint.to_degrees(),
         ..Row::default()
     };
@@ -152,7 +148,7 @@ pub(crate) fn table_6_1() -> Result<Contents, Cause> {
         ));
         rows.push((first, second));
     }
-    let over = |value: fn(&Row) -> f64| most(rows.iter().map(|(first, _)| value(first)));
+    let over = |value: fn(&Row) -> f64| largest_size(rows.iter().map(|(first, _)| value(first)));
     for (name, value, unit) in [
         ("spring translation θp", over(|r| r.spring_shift), "mm"),
         ("spring rotation θφ", over(|r| r.spring_turn), "deg"),
@@ -170,7 +166,7 @@ pub(crate) fn table_6_1() -> Result<Contents, Cause> {
     items.push(Item::compared(
         "text: shift up to (Q2)",
         "2.02",
-        over(|r| most(r.shift)),
+        over(|r| largest_size(r.shift)),
         "mm",
         "",
     ));
@@ -342,7 +338,7 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
         ));
         exact_items.push(Item::unprinted(
             format!("{name}: exact largest force in the chains"),
-            most(e.limbs.iter().flat_map(|l| {
+            largest_size(e.limbs.iter().flat_map(|l| {
                 let f = l.wrench.force();
                 [f.x, f.y, f.z]
             })),
@@ -362,7 +358,7 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
 /// Numbers of the text after the table. `rows` are Q0 to Q4.
 fn text(rows: &[Row]) -> Vec<Item> {
     let q1 = rows.get(1).copied().unwrap_or_default();
-    let over = |value: fn(&Row) -> f64| most(rows.iter().map(value));
+    let over = |value: fn(&Row) -> f64| largest_size(rows.iter().map(value));
     let springs =
         "erratum 14 of part 2: the printed value is the platform's at Q1, not a virtual spring's";
     vec![
@@ -404,14 +400,14 @@ fn text(rows: &[Row]) -> Vec<Item> {
         Item::compared(
             "text: shift of the platform up to (Q3)",
             "1.31",
-            over(|r| most(r.shift)),
+            over(|r| largest_size(r.shift)),
             "mm",
             "",
         ),
         Item::compared(
             "text: rotation of the platform up to (Q1)",
             "0.62",
-            over(|r| most(r.turn)),
+            over(|r| largest_size(r.turn)),
             "deg",
             "",
         ),

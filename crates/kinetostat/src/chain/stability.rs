@@ -25,7 +25,7 @@ use crate::linalg::complement::{complement, complement_of_few};
 use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
 use crate::model::chain::Chain;
-use crate::number::larger;
+use crate::number::largest_size;
 
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,7 +167,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
     if motion.iter().any(|x| !x.is_finite()) {
         return Vec::new();
     }
-    let most = motion.iter().fold(0.0_f64, |m, x| larger(m, x.abs()));
+    let most = largest_size(motion.iter());
     for x in &mut motion {
         *x /= most.max(f64::MIN_POSITIVE);
     }

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Dyn, LU};
 
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
 use crate::linalg::sparse::Sparse;
-use crate::number::{larger, smaller};
+use crate::number::{larger, largest_size, smaller};
 
 /// What blocks may be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -340,7 +340,7 @@ impl BlockFactors {
                 values.iter().copied().collect::<Vec<f64>>()
             })
             .collect();
-        let most = values.iter().fold(0.0_f64, |m, v| larger(m, v.abs()));
+        let most = largest_size(&values);
         let least = values.iter().fold(most, |m, v| smaller(m, v.abs()));
         let count = |positive: bool| values.iter().filter(|v| (**v > 0.0) == positive).count();
         let inertia = Inertia {

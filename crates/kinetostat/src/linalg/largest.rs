@@ -2,9 +2,9 @@
 
 use nalgebra::{Dim, Matrix, RawStorage};
 
-use crate::number::larger;
+use crate::number::largest_size;
 
 /// Largest size of an entry, NaN where one is: nalgebra's `amax` forgets it.
 pub(crate) fn largest<R: Dim, C: Dim, S: RawStorage<f64, R, C>>(a: &Matrix<f64, R, C, S>) -> f64 {
-    a.iter().fold(0.0, |most, x| larger(most, x.abs()))
+    largest_size(a.iter())
 }

@@ -14,7 +14,7 @@
 use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage};
 
 use crate::linalg::complement::complement;
-use crate::number::larger;
+use crate::number::{larger, largest_size};
 
 /// Matrices of at most so many columns are rotated as they are: what is exactly zero stays so, and
 /// small values of graded matrices are right relative to themselves.
@@ -50,7 +50,7 @@ impl SingularValues {
     fn of_owned(a: DMatrix<f64>) -> Self {
         let (m, n) = a.shape();
         let k = m.min(n);
-        let most = a.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+        let most = largest_size(a.iter());
         if !most.is_finite() {
             return Self {
                 values: vec![f64::NAN; k],
@@ -260,7 +260,7 @@ fn certain_range(a: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
 /// bounds the others from below.
 fn certain_triangle(a: DMatrix<f64>, share: f64) -> Option<(Triangle, usize)> {
     let n = a.ncols();
-    let most = a.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+    let most = largest_size(a.iter());
     if !(1e-100..1e100).contains(&most) {
         return None;
     }

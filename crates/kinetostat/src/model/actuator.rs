@@ -1,4 +1,4 @@
-//! An actuator as a chain is told of it.
+//! Description of an actuator: its motion, its stiffness, home and limits.
 
 use nalgebra::Vector3;
 

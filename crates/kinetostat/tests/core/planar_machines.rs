@@ -9,7 +9,7 @@ use kinetostat::{
     machine::SingularityKind,
 };
 use kinetostat_testing::Worst;
-use nalgebra::{Matrix3, Vector3, vector};
+use nalgebra::{Matrix3, Vector2, Vector3, vector};
 
 /// A planar 3-RRR with driven, elastic shoulders, rigid bars; the plane is turned anyhow.
 pub struct Planar {
@@ -281,19 +281,28 @@ fn a_pushed_truss_swerves_before_it_snaps_where_that_costs_less() {
     }
 }
 
-/// A symmetric 3-RRR turned about its centre is singular where its outer bars meet there; by
-/// symmetry that is the way.
-#[test]
-fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
-    let on = |r: f64, turn: f64| vector![r * turn.cos(), r * turn.sin()];
+/// A place at a radius and an angle.
+fn on(radius: f64, angle: f64) -> Vector2<f64> {
+    vector![radius * angle.cos(), radius * angle.sin()]
+}
+
+/// Three equal legs, a third of a turn apart.
+fn symmetric_3_rrr() -> Planar {
     let turns = [0.0, THIRD, 2.0 * THIRD];
-    let planar = Planar {
+    Planar {
         feet: turns.map(|a| on(0.6, a)),
         pins: turns.map(|a| on(0.12, a)),
         bars: [0.35, 0.4],
         k: [900.0; 3],
         ..Planar::new()
-    };
+    }
+}
+
+/// A symmetric 3-RRR turned about its centre is singular where its outer bars meet there; by
+/// symmetry that is the way.
+#[test]
+fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
+    let planar = symmetric_3_rrr();
     // The elbow lies on the line through centre and pin, at 0.12 + 0.4 from the centre.
     let (foot, elbow, bar) = (0.6_f64, 0.52, 0.35_f64);
     let angle = ((foot * foot + elbow * elbow - bar * bar) / (2.0 * foot * elbow)).acos();
@@ -334,15 +343,7 @@ fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
 /// A leg of a 3-RRR that is all but stretched: the platform goes straight away from its foot.
 #[test]
 fn a_stretched_leg_of_a_3_rrr_says_how_far_the_platform_may_go() {
-    let on = |r: f64, turn: f64| vector![r * turn.cos(), r * turn.sin()];
-    let turns = [0.0, THIRD, 2.0 * THIRD];
-    let planar = Planar {
-        feet: turns.map(|a| on(0.6, a)),
-        pins: turns.map(|a| on(0.12, a)),
-        bars: [0.35, 0.4],
-        k: [900.0; 3],
-        ..Planar::new()
-    };
+    let planar = symmetric_3_rrr();
     // From foot to pin 0.6 - (0.12 + x).
     let ends = -(0.35 + 0.4 - 0.48);
     let machine = planar.machine(&vector![ends + 0.05, 0.0, 0.0]);

@@ -10,7 +10,7 @@ use crate::chain::sweep::factor::Factored;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};
-use crate::number::larger;
+use crate::number::{larger, largest_size};
 
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, scaled;
 /// every row with an entry of the size one.
@@ -121,7 +121,7 @@ impl<S: Deref<Target = Sweep>> Bordered<S> {
         for attempt in 0..3 {
             let tip = self.sweep.product(self.form, &x, &mut motions, &mut left);
             // Where only passive joints move, all torques are rounding.
-            let moved = x.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
+            let moved = largest_size(x.iter());
             let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
             for own in 0..x.len() {
                 let pull = column(&self.sweep.twists, own).dot(&wrench);

@@ -37,33 +37,35 @@ enum FollowedTo {
 /// A solver at an equilibrium, and its residual.
 pub(crate) type Converged<'p> = (PlatformSolver<'p>, Residual);
 
-/// What following the motions that cost nothing found.
-pub(crate) enum AlongFreeMotions<'p> {
-    /// An equilibrium.
-    Rest(Box<Converged<'p>>),
-    /// The load pushes on along this motion however far one follows.
+/// Why there is no equilibrium where Newton found none and no motion that costs nothing led to one.
+pub(crate) enum NoRest {
+    /// The load pushes on along a motion however far one follows.
     Endless(Twist),
-    /// None; the first motion along which the load still pushed nearly as at the start.
-    Lost(Option<Twist>),
+    /// Newton's error, and the first motion along which the load still pushed nearly as at the start.
+    Lost(Error, Option<Twist>),
 }
 
 impl Posture {
-    /// The equilibrium under a wrench that one motion after the other leads to.
-    pub(crate) fn along_free_motions(&self, wrench: &Wrench) -> AlongFreeMotions<'_> {
+    /// The equilibrium under a wrench that Newton did not find: one motion after the other may lead to it.
+    pub(crate) fn along_free_motions(
+        &self,
+        wrench: &Wrench,
+        newton: Error,
+    ) -> std::result::Result<Converged<'_>, Box<NoRest>> {
         let mut pushed = None;
         for motion in self.costless_motions(wrench) {
             match self.follow_free_motion(&motion, wrench) {
                 FollowedTo::Rest(state) => {
                     if let Some(found) = self.finished(state, wrench, FoundBy::OtherStart) {
-                        return AlongFreeMotions::Rest(Box::new(found));
+                        return Ok(found);
                     }
                 }
-                FollowedTo::Endless => return AlongFreeMotions::Endless(motion),
+                FollowedTo::Endless => return Err(Box::new(NoRest::Endless(motion))),
                 FollowedTo::Lost(true) => pushed = pushed.or(Some(motion)),
                 FollowedTo::Lost(false) => {}
             }
         }
-        AlongFreeMotions::Lost(pushed)
+        Err(Box::new(NoRest::Lost(newton, pushed)))
     }
 
     /// Newton from a state near the equilibrium.

@@ -4,7 +4,7 @@
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
 use crate::chain::scaling::{FAR, SHORT_STEP, gone};
-use crate::continuation::machine::free_motion::{AlongFreeMotions, Converged};
+use crate::continuation::machine::free_motion::{Converged, NoRest};
 use crate::continuation::machine::tool_conditions::ToolConditions;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
@@ -13,8 +13,8 @@ use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
-use crate::number::larger;
-use crate::spatial::{Twist, Wrench, pose_residual};
+use crate::number::largest_size;
+use crate::spatial::{Wrench, pose_residual};
 
 /// A limit below this share of the load is none.
 const LEAST_SHARE: f64 = 1e-9;
@@ -24,18 +24,6 @@ const EFFORT: usize = 20_000;
 
 /// Secant and tangent compliances along a load that differ less belong to one smooth branch.
 const SMOOTH: f64 = 2.0;
-
-/// What Newton's iteration and the motions that cost nothing lead to.
-enum Reached<'p> {
-    Rest(Box<Converged<'p>>),
-    NoRest(NoRest),
-}
-
-/// Why neither found an equilibrium: Newton's error, and the motion along which the load still pushed nearly as at the start.
-struct NoRest {
-    newton: Error,
-    pushed: Option<Twist>,
-}
 
 impl Posture {
     /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
@@ -91,7 +79,7 @@ impl Posture {
         let by = |e: &MechanismEquilibrium| wrench.0.dot(&(e.compliance().springs * wrench.0));
         let secant = pose_residual(&loaded.tool, &rest.tool).dot(&wrench);
         let yields = [by(rest), by(loaded), secant];
-        let most = yields.iter().fold(0.0_f64, |most, y| larger(most, y.abs()));
+        let most = largest_size(yields);
         let smooth = yields.iter().all(|y| *y * SMOOTH > most) || most == 0.0;
         if smooth && loaded.stable() >= rest.stable() {
             return Ok(None);
@@ -108,11 +96,12 @@ impl Posture {
     ) -> Result<Converged<'_>> {
         self.finite("the wrench", wrench.0.iter())?;
         check_state(&self.mechanism, &start)?;
-        let none = match self.reached_directly(wrench, start)? {
-            Reached::Rest(found) => return Ok(*found),
-            Reached::NoRest(none) => none,
+        let none = match self.reached_directly(wrench, start) {
+            Ok(found) => return Ok(found),
+            Err(none) => *none,
         };
-        if wrench.0.norm() > 0.0
+        if let NoRest::Lost(newton, _) = &none
+            && wrench.0.norm() > 0.0
             && let Ok((state, limit)) = self.under_growing_load(wrench)
         {
             if let Some(found) =
@@ -121,7 +110,7 @@ impl Posture {
                 return Ok(found);
             }
             if let Some(limit) = limit {
-                return Err(none.newton.at_limit(limit));
+                return Err(newton.clone().at_limit(limit));
             }
             if let Ok(found) = self.grown(wrench) {
                 return Ok(found);
@@ -131,33 +120,34 @@ impl Posture {
     }
 
     /// What Newton finds from a state, or a motion that costs nothing leads to.
-    fn reached_directly(&self, wrench: &Wrench, start: MechanismState) -> Result<Reached<'_>> {
+    fn reached_directly(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> std::result::Result<Converged<'_>, Box<NoRest>> {
         let mut solver = self.solver(start, Unknowns::Pose);
         solver.wrench = *wrench;
-        let newton = match solver.solve_robustly() {
-            Ok(residual) => return Ok(Reached::Rest(Box::new((solver, residual)))),
-            Err(error) => error,
-        };
-        match self.along_free_motions(wrench) {
-            AlongFreeMotions::Rest(found) => Ok(Reached::Rest(found)),
-            AlongFreeMotions::Endless(motion) => Err(self.free_direction(&motion, wrench)),
-            AlongFreeMotions::Lost(pushed) => Ok(Reached::NoRest(NoRest { newton, pushed })),
+        match solver.solve_robustly() {
+            Ok(residual) => Ok((solver, residual)),
+            Err(newton) => self.along_free_motions(wrench, newton),
         }
     }
 
     fn no_rest(&self, none: NoRest, wrench: &Wrench) -> Error {
-        match none.pushed {
-            Some(motion) => self.free_direction(&motion, wrench),
-            None => none.newton,
+        match none {
+            NoRest::Endless(motion) | NoRest::Lost(_, Some(motion)) => {
+                self.free_direction(&motion, wrench)
+            }
+            NoRest::Lost(newton, None) => newton,
         }
     }
 
     /// Where the machine comes to rest without a wrench on its tool.
     fn rest_without_wrench(&self) -> Result<MechanismState> {
         let none = Wrench::zero();
-        match self.reached_directly(&none, self.rest_state())? {
-            Reached::Rest(found) => self.stable_state(&none, *found),
-            Reached::NoRest(reason) => Err(self.no_rest(reason, &none)),
+        match self.reached_directly(&none, self.rest_state()) {
+            Ok(found) => self.stable_state(&none, found),
+            Err(reason) => Err(self.no_rest(*reason, &none)),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::linalg::saddle::independent_columns;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::{Guide, Unknowns};
 use crate::machine::state::MechanismState;
-use crate::number::larger;
+use crate::number::largest_size;
 use crate::spatial::{Twist, Wrench, moved, pose_residual};
 
 impl ToolConditions<'_> {
@@ -33,10 +33,7 @@ impl ToolConditions<'_> {
             limbs.flat_map(|l| l.spring_torques.clone()).collect()
         };
         let (x, y) = (torques(a), torques(b));
-        let most = x
-            .iter()
-            .chain(&y)
-            .fold(0.0_f64, |most, t| larger(most, t.abs()));
+        let most = largest_size(x.iter().chain(&y));
         let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
         (costly.transpose() * off).norm() < 1e-6 * self.length
