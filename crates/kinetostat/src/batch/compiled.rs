@@ -20,6 +20,9 @@ use crate::parallel;
 /// Blocks of eight postures that a thread takes at a time.
 pub(crate) const BLOCKS: usize = 32;
 
+/// The same of loaded postures, each of which takes longer: both cores then end at nearly the same time.
+pub(crate) const LOADED_BLOCKS: usize = 8;
+
 /// A machine compiled for many postures.
 ///
 /// ```

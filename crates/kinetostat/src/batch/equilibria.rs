@@ -1,6 +1,6 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
-use crate::batch::compiled::{BLOCKS, Batch, in_parallel, left};
+use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::Places;
 use crate::batch::plan::steps::Plan;
@@ -408,6 +408,8 @@ impl Batch {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
+        // On a path only the first posture of each lane's run has no start from its neighbour.
+        let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };
         let mut tables = [
             &mut out.tool,
             &mut out.coordinates,
@@ -417,8 +419,8 @@ impl Batch {
             &mut out.stability,
             targets,
         ]
-        .map(|table| table.parts(BLOCKS));
-        let parts = out.status.chunks_mut(BLOCK * BLOCKS).enumerate();
+        .map(|table| table.parts(blocks));
+        let parts = out.status.chunks_mut(BLOCK * blocks).enumerate();
         let jobs = parts.map(|(k, status)| {
             let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
             let [
@@ -435,8 +437,8 @@ impl Batch {
                 actual,
                 body: (tool.centre_of_mass.into(), tool.mass),
                 gravity: self.mechanism.gravity().into(),
-                places: places.from(k * BLOCKS * BLOCK),
-                wrenches: &wrenches[k * BLOCKS * BLOCK..],
+                places: places.from(k * blocks * BLOCK),
+                wrenches: &wrenches[k * blocks * BLOCK..],
                 directions,
                 along: self.along,
                 buffers: &self.buffers,

@@ -95,8 +95,11 @@ fn exponent(rows: &[(usize, f64)]) -> f64 {
 }
 
 fn main() -> Result<()> {
-    if std::env::args().nth(1).as_deref() == Some("million") {
-        return memory::stream();
+    match std::env::args().nth(1).as_deref() {
+        Some("million") => return memory::stream(),
+        Some("threads") => return threads::two(),
+        Some("single") => return threads::single(),
+        _ => (),
     }
     shapes::table()?;
     threads::single()?;
