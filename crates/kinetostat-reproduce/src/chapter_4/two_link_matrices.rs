@@ -2,7 +2,7 @@
 //! a posture without symmetry.
 
 use kinetostat::{Chain, Error, Pose, Wrench, model::Kinematics};
-use nalgebra::{DMatrix, Matrix6xX, Vector3, vector};
+use nalgebra::{DMatrix, Matrix6xX, Vector3};
 
 use crate::shared::models::{ALPHA0, elastic_links_of, rigid_links_of};
 use crate::{Cause, Contents, Item};
@@ -24,7 +24,7 @@ struct Blocks {
 fn blocks(chain: &Chain, x: &[f64]) -> Result<Blocks, Error> {
     let k = Kinematics::new(chain, &Pose::identity(), x, &[]);
     let (middle, end) = (chain.node("middle")?, chain.tip());
-    let force = |f: [f64; 2]| Wrench::new(vector![f[0], f[1], 0.0], Vector3::zeros());
+    let force = |f: [f64; 2]| Wrench::new(Vector3::new(f[0], f[1], 0.0), Vector3::zeros());
     Ok(Blocks {
         middle: k.jacobian(middle),
         end: k.jacobian(end),

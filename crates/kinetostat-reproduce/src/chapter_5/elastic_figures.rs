@@ -9,7 +9,7 @@ use kinetostat::{
     follow, solve_chain,
 };
 use kinetostat_report::{Plot, PlotLine};
-use nalgebra::{Vector3, vector};
+use nalgebra::Vector3;
 
 use crate::chapter_5::three_link_figures::outline;
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
@@ -155,7 +155,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
     let mut flat = displacement_controlled(&chain, x);
     flat.loads = vec![Load::Dead {
         node: chain.node("middle")?,
-        wrench: Wrench::new(vector![0.0, -load, 0.0], Vector3::zeros()),
+        wrench: Wrench::new(Vector3::new(0.0, -load, 0.0), Vector3::zeros()),
     }];
     // The curve of flat and nearly flat shapes, from one beside the point.
     let beside = {

@@ -10,7 +10,7 @@ use kinetostat::{
     solve_chain,
 };
 use kinetostat_report::{Plot, PlotLine, PlotMark};
-use nalgebra::{Vector3, vector};
+use nalgebra::{Vector2, Vector3};
 
 use crate::chapter_5::three_links::{ThreeLinkShape, pick, shapes};
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
@@ -28,14 +28,14 @@ fn energy(q: f64, elbow: f64) -> Result<Option<f64>, Cause> {
     let z = Vector3::z();
     let chain = Chain::builder("S chain, first link turned")
         .rigid(Pose::rotation(z * q))
-        .translation(vector![1.0, 0.0, 0.0])
+        .translation(Vector3::new(1.0, 0.0, 0.0))
         .spring("theta1", MotionKind::Revolute, z, 1.0, 0.0)
-        .translation(vector![1.0, 0.0, 0.0])
+        .translation(Vector3::new(1.0, 0.0, 0.0))
         .spring("theta2", MotionKind::Revolute, z, 1.0, 0.0)
-        .translation(vector![1.0, 0.0, 0.0])
+        .translation(Vector3::new(1.0, 0.0, 0.0))
         .build()?;
     let mut problem = displacement_controlled(&chain, 3.0 - DELTA);
-    let span = vector![3.0 - DELTA - q.cos(), -q.sin()];
+    let span = Vector2::new(3.0 - DELTA - q.cos(), -q.sin());
     let reach = 0.5 * span.norm();
     if reach >= 1.0 {
         return Ok(None);

@@ -6,7 +6,7 @@ use kinetostat::{
     Settings, Twist, continuation::SpecialKind, follow, solve_chain,
 };
 use kinetostat_report::Plot;
-use nalgebra::{Vector3, vector};
+use nalgebra::Vector3;
 
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::{Cause, Contents, Item};
@@ -17,7 +17,7 @@ fn leg() -> Result<Chain, kinetostat::Error> {
     Chain::builder("leg of the toggle frame")
         .spring("slide", MotionKind::Prismatic, Vector3::x(), 1.0, 0.0)
         .passive("hinge", MotionKind::Revolute, -Vector3::y(), 0.0)
-        .translation(vector![1.0, 0.0, 0.0])
+        .translation(Vector3::new(1.0, 0.0, 0.0))
         .passive("head", MotionKind::Revolute, -Vector3::y(), 0.0)
         .build()
 }

@@ -6,7 +6,7 @@ use kinetostat::{
     machine::LimbPosture,
     model::{LinkConvention, Role},
 };
-use nalgebra::{Vector3, vector};
+use nalgebra::Vector3;
 
 use crate::Cause;
 use crate::orthoglide::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
@@ -68,7 +68,7 @@ impl Barred {
                 &[("q1", q1)],
             );
             for (side, sign) in [("left", -0.5), ("right", 0.5)] {
-                let offset = vector![0.0, 0.0, sign * WIDTH];
+                let offset = Vector3::new(0.0, 0.0, sign * WIDTH);
                 let chain = Chain::builder(format!("bar {name} {side}"))
                     .translation(offset)
                     .passive("near pivot", MotionKind::Revolute, Vector3::y(), 0.0)

@@ -10,7 +10,7 @@ use kinetostat::{
     model::{ParallelogramLaw, Role, SpringLaw},
     spatial::turn_matrix,
 };
-use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
 
 use crate::Cause;
 
@@ -118,7 +118,7 @@ impl Orthoglide {
                 let law = SpringLaw::Linear(DMatrix::from_fn(5, 5, |i, j| matrix[(i, j)]));
                 chain
                     .passive("q2", MotionKind::Revolute, Vector3::y(), 0.0)
-                    .translation(vector![self.bar_length, 0.0, 0.0])
+                    .translation(Vector3::new(self.bar_length, 0.0, 0.0))
                     .springs("q2.bars", &[0, 1, 3, 4, 5], law, vec![0.0; 5])
                     .coupled("q2", MotionKind::Revolute, Vector3::y(), -1.0)
             }
@@ -136,11 +136,11 @@ impl Orthoglide {
         drive.home = -HEAD - self.bar_length;
         let chain = Chain::builder(format!("leg {leg}"))
             .rigid(axes(leg))
-            .translation(vector![0.0, -FOOT, 0.0])
+            .translation(Vector3::new(0.0, -FOOT, 0.0))
             .rigid(Pose::rotation(Vector3::x() * turn))
-            .translation(vector![slide, 0.0, 0.0])
+            .translation(Vector3::new(slide, 0.0, 0.0))
             .actuator("drive", drive)
-            .translation(vector![0.0, FOOT, 0.0])
+            .translation(Vector3::new(0.0, FOOT, 0.0))
             .spring6("foot", &foot_stiffness()?, [0.0; 6])
             .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0);
         Ok(chain)
@@ -151,7 +151,7 @@ impl Orthoglide {
 pub(super) fn head(chain: ChainBuilder, leg: usize) -> ChainBuilder {
     chain
         .passive("q3", MotionKind::Revolute, Vector3::z(), 0.0)
-        .translation(vector![HEAD, 0.0, 0.0])
+        .translation(Vector3::new(HEAD, 0.0, 0.0))
         .rigid(axes(leg).inverse())
 }
 
@@ -209,12 +209,12 @@ pub fn target(point: [f64; 3]) -> Pose {
 pub fn cutting(angle: f64) -> Wrench {
     let [radial, tangential, axial] = CUTTING_N;
     let (s, c) = angle.sin_cos();
-    let force = vector![
+    let force = Vector3::new(
         radial * c - tangential * s,
         radial * s + tangential * c,
-        axial
-    ];
-    Wrench::new(force, vector![-force.y * TOOL, force.x * TOOL, 0.0])
+        axial,
+    );
+    Wrench::new(force, Vector3::new(-force.y * TOOL, force.x * TOOL, 0.0))
 }
 
 /// Inclination of the parallelogram of a leg in a posture, rad.

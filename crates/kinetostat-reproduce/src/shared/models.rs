@@ -4,7 +4,7 @@ use kinetostat::{
     Chain, ChainBuilder, ChainProblem, EndCondition, Error, Load, MotionKind, Parameter, Pose,
     Prescribed, Twist, Wrench,
 };
-use nalgebra::{Vector3, vector};
+use nalgebra::Vector3;
 
 /// Inclination of the links of 4.6 at rest, rad: `theta0 = -30 deg = -2 alpha0`.
 pub(crate) const ALPHA0: f64 = std::f64::consts::PI / 12.0;
@@ -30,10 +30,10 @@ pub(crate) fn rigid_links_of(first: f64, second: f64) -> Result<Chain, Error> {
     let z = Vector3::z();
     Chain::builder("two rigid links")
         .passive("q1", MotionKind::Revolute, z, 0.0)
-        .translation(vector![first, 0.0, 0.0])
+        .translation(Vector3::new(first, 0.0, 0.0))
         .node("middle")
         .spring("theta", MotionKind::Revolute, z, 1.0, -2.0 * ALPHA0)
-        .translation(vector![second, 0.0, 0.0])
+        .translation(Vector3::new(second, 0.0, 0.0))
         .passive("q2", MotionKind::Revolute, z, 0.0)
         .build()
 }
@@ -52,11 +52,11 @@ pub(crate) fn elastic_links_of(first: f64, second: f64, rest: f64) -> Result<Cha
     let (z, x) = (Vector3::z(), Vector3::x());
     Chain::builder("two elastic links")
         .passive("q1", MotionKind::Revolute, z, 0.0)
-        .translation(vector![first, 0.0, 0.0])
+        .translation(Vector3::new(first, 0.0, 0.0))
         .spring("theta1", MotionKind::Prismatic, x, LINK_STIFFNESS, 0.0)
         .node("middle")
         .spring("theta2", MotionKind::Revolute, z, 1.0, -2.0 * rest)
-        .translation(vector![second, 0.0, 0.0])
+        .translation(Vector3::new(second, 0.0, 0.0))
         .spring("theta3", MotionKind::Prismatic, x, LINK_STIFFNESS, 0.0)
         .passive("q2", MotionKind::Revolute, z, 0.0)
         .build()
@@ -69,10 +69,10 @@ pub(crate) fn linked(name: &str, rest: &[f64]) -> ChainBuilder {
     let mut b = Chain::builder(name).passive("q", MotionKind::Revolute, z, 0.0);
     for (i, rest) in rest.iter().enumerate() {
         let name = format!("theta{}", i + 1);
-        b = b.translation(vector![1.0, 0.0, 0.0]);
+        b = b.translation(Vector3::new(1.0, 0.0, 0.0));
         b = b.spring(&name, MotionKind::Revolute, z, 1.0, *rest);
     }
-    b.translation(vector![1.0, 0.0, 0.0])
+    b.translation(Vector3::new(1.0, 0.0, 0.0))
 }
 
 /// The same with the hinge at the end [R 5.5.1].
@@ -107,7 +107,7 @@ pub(crate) fn displacement_controlled(chain: &Chain, x: f64) -> ChainProblem<'_>
 
 /// A load `g` times `G*` downwards on the middle of a chain of 4.6.
 pub(crate) fn load_on_middle(chain: &Chain, g: f64) -> Result<Vec<Load>, Error> {
-    let force = vector![0.0, -g * critical_load(), 0.0];
+    let force = Vector3::new(0.0, -g * critical_load(), 0.0);
     let wrench = Wrench::new(force, Vector3::zeros());
     let node = chain.node("middle")?;
     Ok(vec![Load::Dead { node, wrench }])
