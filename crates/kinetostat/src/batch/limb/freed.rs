@@ -8,6 +8,7 @@ use pulp::Simd;
 
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::reflection::{reflect, reflection};
 use crate::batch::numbers::wrenches::Mat6;
 use crate::batch::plan::steps::Plan;
 
@@ -32,7 +33,7 @@ pub(crate) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
                 z[c][r] = z[c][r] * unit;
             }
         }
-        let (v, u, mut regular) = reflect(simd, joints, width, z);
+        let (v, u, mut regular) = without_joints(simd, joints, width, z);
         let mut m = [[zero; 12]; 12];
         let mut x = [[zero; 6]; 12];
         for p in 0..width {
@@ -69,7 +70,7 @@ pub(crate) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
 /// Reflections `1 - v u^T` that turn `E` into `[R; 0]`, on both sides of `[D E; G H]` (column by column); `v`, `u` and
 /// the smallest relative length of a reflected column.
 #[inline(always)]
-fn reflect<S: Simd>(
+fn without_joints<S: Simd>(
     simd: S,
     joints: usize,
     width: usize,
@@ -79,39 +80,17 @@ fn reflect<S: Simd>(
     let mut regular = one;
     let (mut v, mut u) = ([[zero; 6]; 6], [[zero; 6]; 6]);
     for k in 0..joints {
-        let column = z[6 + k];
-        let (mut whole, mut rest) = (zero, zero);
-        for i in 0..6 {
-            whole = column[i].times_plus(column[i], whole);
-            if i >= k {
-                rest = column[i].times_plus(column[i], rest);
-            }
-        }
-        regular = regular.least_of(rest / whole);
-        let norm = rest.sqrt();
-        let signed = column[k].where_less(zero, -norm, norm);
-        v[k][k..].copy_from_slice(&column[k..6]);
-        v[k][k] = column[k] + signed;
-        let scale = one / (signed * v[k][k]);
-        for i in k..6 {
-            u[k][i] = v[k][i] * scale;
-        }
-        for c in 0..width {
-            let mut along = zero;
-            for i in k..6 {
-                along = u[k][i].times_plus(z[c][i], along);
-            }
-            for i in k..6 {
-                z[c][i] = along.times_from(v[k][i], z[c][i]);
-            }
+        let (v, u) = (&mut v[k], &mut u[k]);
+        v.copy_from_slice(&z[6 + k][..6]);
+        regular = regular.least_of(reflection(k, v, u).share);
+        for column in &mut z[..width] {
+            reflect(k..6, v, u, column);
         }
         for r in 0..width {
-            let mut along = zero;
+            let mut row = [z[0][r], z[1][r], z[2][r], z[3][r], z[4][r], z[5][r]];
+            reflect(k..6, v, u, &mut row);
             for i in k..6 {
-                along = u[k][i].times_plus(z[i][r], along);
-            }
-            for i in k..6 {
-                z[i][r] = along.times_from(v[k][i], z[i][r]);
+                z[i][r] = row[i];
             }
         }
     }
@@ -121,25 +100,16 @@ fn reflect<S: Simd>(
 /// The stiffness in the axes before the reflections.
 #[inline(always)]
 fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S>) {
-    let zero = k[0][0].same(0.0);
     for j in (0..joints).rev() {
         for c in 0..6 {
-            let mut column = zero;
+            let mut column = k.map(|row| row[c]);
+            reflect(j..6, &v[j], &u[j], &mut column);
             for i in j..6 {
-                column = u[j][i].times_plus(k[i][c], column);
-            }
-            for i in j..6 {
-                k[i][c] = column.times_from(v[j][i], k[i][c]);
+                k[i][c] = column[i];
             }
         }
-        for r in 0..6 {
-            let mut row = zero;
-            for i in j..6 {
-                row = u[j][i].times_plus(k[r][i], row);
-            }
-            for i in j..6 {
-                k[r][i] = row.times_from(v[j][i], k[r][i]);
-            }
+        for row in k.iter_mut() {
+            reflect(j..6, &v[j], &u[j], row);
         }
     }
 }

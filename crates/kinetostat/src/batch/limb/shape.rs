@@ -15,6 +15,7 @@ use crate::batch::limb::law;
 use crate::batch::limb::loaded::{LoadedLimb, deflection, twist, twists};
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::reflection::{reflect, reflection};
 use crate::batch::numbers::vectors::{Vec3, cross, dot, minus};
 use crate::batch::numbers::wrenches::{Mat6, inner6, outer};
 use crate::batch::plan::steps::{Law, Plan, Spring, Step, Support};
@@ -323,39 +324,19 @@ impl<S: Simd> Shape<S> {
                 }
             }
             for k in 0..joints {
-                let column = p[k];
-                let (mut whole, mut rest) = (zero, zero);
-                for i in 0..6 {
-                    whole = column[i].times_plus(column[i], whole);
-                    if i >= k {
-                        rest = column[i].times_plus(column[i], rest);
-                    }
-                }
-                self.regular = self.regular.least_of(rest / whole);
-                let norm = rest.sqrt();
-                let signed = column[k].where_less(zero, -norm, norm);
-                let mut v = column;
-                v[k] = column[k] + signed;
-                let scale = one / (signed * v[k]);
-                for other in k..joints {
-                    let mut along = zero;
-                    for i in k..6 {
-                        along = v[i].times_plus(p[other][i], along);
-                    }
-                    along = along * scale;
-                    for i in k..6 {
-                        p[other][i] = along.times_from(v[i], p[other][i]);
-                    }
+                let (mut v, mut u) = (p[k], [zero; 6]);
+                let image = reflection(k, &mut v, &mut u);
+                self.regular = self.regular.least_of(image.share);
+                p[k][k] = image.number;
+                for other in &mut p[k + 1..joints] {
+                    reflect(k..6, &v, &u, other);
                 }
                 for c in 0..springs {
-                    let mut along = zero;
+                    let at = |i: usize| i * springs + c;
+                    let mut twist = [0, 1, 2, 3, 4, 5].map(|i| self.t[at(i)]);
+                    reflect(k..6, &v, &u, &mut twist);
                     for i in k..6 {
-                        along = v[i].times_plus(self.t[i * springs + c], along);
-                    }
-                    along = along * scale;
-                    for i in k..6 {
-                        let own = &mut self.t[i * springs + c];
-                        *own = along.times_from(v[i], *own);
+                        self.t[at(i)] = twist[i];
                     }
                 }
             }
@@ -398,49 +379,17 @@ impl<S: Simd> Shape<S> {
     /// are the last `held` rows of the twists.
     #[inline(always)]
     fn hold(&mut self, k: usize, held: usize) {
-        let zero = Lanes::new(self.simd, 0.0);
         let springs = self.springs;
         let own = (6 - held + k) * springs;
-        let mut whole = zero;
-        for c in 0..springs {
-            self.v[c] = self.t[own + c];
-            if c < k {
-                whole = self.v[c].times_plus(self.v[c], whole);
-                self.v[c] = zero;
-            }
-        }
-        let rest = self.reflection(k);
-        self.regular = self.regular.least_of(rest / (whole + rest));
+        self.v[..springs].copy_from_slice(&self.t[own..own + springs]);
+        let (v, u) = (&mut self.v[..springs], &mut self.u[..springs]);
+        let image = reflection(k, v, u);
+        self.regular = self.regular.least_of(image.share);
         for row in k + 1..held {
             let row = (6 - held + row) * springs;
-            let mut along = zero;
-            for c in k..springs {
-                along = self.u[c].times_plus(self.t[row + c], along);
-            }
-            for c in k..springs {
-                self.t[row + c] = along.times_from(self.v[c], self.t[row + c]);
-            }
+            reflect(k..springs, v, u, &mut self.t[row..row + springs]);
         }
         self.reflect(k);
-    }
-
-    /// Reflection of `v` onto its place `k`: `1 - v u^T`, nothing where `v` is zero; the square of `v`.
-    #[inline(always)]
-    fn reflection(&mut self, k: usize) -> Lanes<S> {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        let mut rest = zero;
-        for c in k..self.springs {
-            rest = self.v[c].times_plus(self.v[c], rest);
-        }
-        let norm = rest.sqrt();
-        let signed = self.v[k].where_less(zero, -norm, norm);
-        self.v[k] = self.v[k] + signed;
-        let least = one * 1e-280;
-        let scale = rest.where_less(least, zero, one / (signed * self.v[k]).max(least));
-        for c in k..self.springs {
-            self.u[c] = self.v[c] * scale;
-        }
-        rest
     }
 
     /// `H <- (1 - v u^T)^T H (1 - v u^T)` from row `k` on: `H - v w^T - w v^T` with `w = H u - v (u^T H u) / 2`.
@@ -482,10 +431,8 @@ impl<S: Simd> Shape<S> {
                 for c in k + 1..springs {
                     self.v[c] = self.h[c * n + k];
                 }
-                let below = self.v[k + 1];
-                let rest = self.reflection(k + 1);
-                let norm = rest.sqrt();
-                self.h[(k + 1) * n + k] = below.where_less(zero, norm, -norm);
+                let (v, u) = (&mut self.v[..springs], &mut self.u[..springs]);
+                self.h[(k + 1) * n + k] = reflection(k + 1, v, u).number;
                 self.reflect(k + 1);
             }
             // Squares beside the diagonal, and a bound from above, in units of the largest row.

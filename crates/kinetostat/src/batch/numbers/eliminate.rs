@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use crate::batch::numbers::apart::apart;
 use crate::batch::numbers::lanes::Lanes;
+use crate::batch::numbers::reflection::{reflect, reflection};
 use crate::batch::numbers::symmetric::Symmetric;
 
 /// Stiffness of a limb in base axes about the platform's point.
@@ -94,35 +95,12 @@ impl<S: Simd> Eliminated<S> {
     fn reflect(&mut self, simd: S, k: usize) {
         let zero = Lanes::new(simd, 0.0);
         let (d, m) = (self.d, self.m);
-        let (mut whole, mut rest) = (zero, zero);
-        for i in 0..d {
-            let x = self.r[k][i];
-            whole = x.times_plus(x, whole);
-            if i >= k {
-                rest = x.times_plus(x, rest);
-            }
-        }
-        self.regular = self.regular.least_of(rest / whole);
-        let norm = rest.sqrt();
-        let own = self.r[k][k];
-        // Away from cancellation.
-        let signed = own.where_less(zero, -norm, norm);
-        let (mut v, mut u) = ([zero; 6], [zero; 6]);
-        v[k..d].copy_from_slice(&self.r[k][k..d]);
-        v[k] = own + signed;
-        let scale = Lanes::new(simd, 1.0) / (signed * v[k]);
-        for i in k..d {
-            u[i] = v[i] * scale;
-        }
-        self.r[k][k] = -signed;
+        let (mut v, mut u) = (self.r[k], [zero; 6]);
+        let image = reflection(k, &mut v[..d], &mut u[..d]);
+        self.regular = self.regular.least_of(image.share);
+        self.r[k][k] = image.number;
         for column in &mut self.r[k + 1..m] {
-            let mut along = zero;
-            for i in k..d {
-                along = u[i].times_plus(column[i], along);
-            }
-            for i in k..d {
-                column[i] = along.times_from(v[i], column[i]);
-            }
+            reflect(k..d, &v, &u, column);
         }
         // C <- H C H = C - v w^T - w v^T with w = C u - v (u^T C u) / 2.
         let mut w = [zero; 6];
@@ -169,13 +147,7 @@ impl<S: Simd> Eliminated<S> {
 
     #[inline(always)]
     fn through(&self, k: usize, mut x: [Lanes<S>; 6]) -> [Lanes<S>; 6] {
-        let mut along = x[0].same(0.0);
-        for i in k..self.d {
-            along = self.u[k][i].times_plus(x[i], along);
-        }
-        for i in k..self.d {
-            x[i] = along.times_from(self.v[k][i], x[i]);
-        }
+        reflect(k..self.d, &self.v[k], &self.u[k], &mut x);
         x
     }
 

@@ -11,6 +11,7 @@ pub(crate) mod apart;
 pub(crate) mod eliminate;
 pub(crate) mod instruction_set;
 pub(crate) mod lanes;
+pub(crate) mod reflection;
 pub(crate) mod symmetric;
 pub(crate) mod vectors;
 pub(crate) mod wrenches;

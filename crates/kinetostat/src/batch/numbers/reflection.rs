@@ -1,0 +1,62 @@
+//! Householder's reflections `H = 1 - v u^T` with `u = 2 v / v^T v`, of several postures at once.
+
+use std::ops::Range;
+
+use pulp::Simd;
+
+use crate::batch::numbers::lanes::Lanes;
+
+/// What a reflection makes of the column that it was made for.
+pub(crate) struct Image<S: Simd> {
+    /// The number at its place; those after it are zero, those before it as they were.
+    pub number: Lanes<S>,
+    /// What was reflected compared with the whole column, squares of lengths: near zero where the column depends on
+    /// those before it.
+    pub share: Lanes<S>,
+}
+
+/// The reflection that leads a column, from place `k` on, to axis `k`: `v` holds the column and becomes `v`, which is
+/// zero before `k`; `u` likewise from there on. Nothing is reflected where the column is zero.
+#[inline(always)]
+pub(crate) fn reflection<S: Simd>(k: usize, v: &mut [Lanes<S>], u: &mut [Lanes<S>]) -> Image<S> {
+    let (zero, one) = (v[k].same(0.0), v[k].same(1.0));
+    let square = |numbers: &[Lanes<S>]| {
+        let mut sum = zero;
+        for x in numbers {
+            sum = x.times_plus(*x, sum);
+        }
+        sum
+    };
+    let (before, own) = (square(&v[..k]), square(&v[k..]));
+    v[..k].fill(zero);
+    let norm = own.sqrt();
+    // Away from cancellation.
+    let signed = v[k].where_less(zero, -norm, norm);
+    v[k] = v[k] + signed;
+    let least = one * 1e-280;
+    let scale = own.where_less(least, zero, one / (signed * v[k]).max(least));
+    for (to, from) in u[k..].iter_mut().zip(&v[k..]) {
+        *to = *from * scale;
+    }
+    Image {
+        number: -signed,
+        share: own / (before + own),
+    }
+}
+
+/// `x - v u^T x`, at these places.
+#[inline(always)]
+pub(crate) fn reflect<S: Simd>(
+    places: Range<usize>,
+    v: &[Lanes<S>],
+    u: &[Lanes<S>],
+    x: &mut [Lanes<S>],
+) {
+    let mut along = x[0].same(0.0);
+    for i in places.clone() {
+        along = u[i].times_plus(x[i], along);
+    }
+    for i in places {
+        x[i] = along.times_from(v[i], x[i]);
+    }
+}
