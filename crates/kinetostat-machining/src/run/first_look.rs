@@ -1,7 +1,7 @@
 //! The first look at a program: a few places, solved before anything is divided, show a wrong unit in
 //! milliseconds where the whole program would take minutes.
 
-use crate::checks::refused::of_points;
+use crate::checks::refused::{of_points, of_task};
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::run::machines::Machines;
@@ -15,6 +15,29 @@ const FIRST_LOOKS: usize = 8;
 /// A correction beyond its limit by this is refused by the first look: what a wrong unit does takes minutes to be
 /// solved everywhere.
 const GROSS: f64 = 10.0;
+
+/// A load beyond its limits that also puts the tool off by far more than any correction: a machine that folds over takes
+/// minutes to be solved everywhere. Of smaller loads an analysis only warns.
+///
+/// # Errors
+/// As [`first_look`].
+pub(crate) fn folding_load(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    watch: &dyn Watch,
+) -> Result<Vec<Beyond>, RunError> {
+    let mut beyond = of_task(task);
+    beyond.retain(|b| ["force_n", "moment_n_m"].contains(&b.limit.name));
+    if beyond.is_empty() {
+        return Ok(beyond);
+    }
+    let mut folded = first_look(task, load, watch)?;
+    folded.retain(|b| b.limit.name == "correction_mm");
+    Ok(match folded.is_empty() {
+        true => folded,
+        false => beyond,
+    })
+}
 
 /// What is beyond its limits by far at a few places of the program as it is.
 ///

@@ -64,7 +64,8 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
     }
 }
 
-/// Points of a chunk, by vector kernels where there are some, else one after the other.
+/// Points of a chunk, by vector kernels where there are some, else one after the other; up to the first that has no
+/// answer.
 pub(crate) fn chunk(
     task: &Task<'_>,
     machine: &AlongPath,
@@ -111,16 +112,21 @@ pub(crate) fn chunk(
         };
         Ok(point(task, &sites[i], &wanted[i], before, after))
     };
-    (0..sites.len())
-        .map(|i| {
-            solved(i).map_err(|cause| RunError::Point {
-                line: sites[i].line,
-                position_mm: sites[i].desired.into(),
-                message: cause_and_advice(&cause),
-                cause: Box::new(cause),
-            })
-        })
-        .collect()
+    let mut points = Vec::with_capacity(sites.len());
+    for (i, site) in sites.iter().enumerate() {
+        let point = solved(i).map_err(|cause| RunError::Point {
+            line: site.line,
+            position_mm: site.desired.into(),
+            message: cause_and_advice(&cause),
+            cause: Box::new(cause),
+        });
+        let ends = point.is_err();
+        points.push(point);
+        if ends {
+            break;
+        }
+    }
+    points
 }
 
 /// What a result states of an equilibrium.
