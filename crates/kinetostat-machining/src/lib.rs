@@ -42,6 +42,7 @@ pub use result::point::{PointKind, PointResult};
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
+pub use result::solving::{FoundCount, Solving};
 pub use result::summary::Summary;
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,

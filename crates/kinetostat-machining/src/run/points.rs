@@ -2,6 +2,7 @@
 //! carries there.
 
 use kinetostat::batch::BatchEquilibrium;
+use kinetostat::chain::FoundBy;
 use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -140,6 +141,7 @@ struct Loaded {
     stiffness_against_force: f64,
     share_to_buckling: Option<f64>,
     stable: bool,
+    found_by: FoundBy,
 }
 
 impl Loaded {
@@ -154,6 +156,7 @@ impl Loaded {
             stiffness_against_force: equilibrium.stiffness_against_force(),
             share_to_buckling: equilibrium.share_to_buckling(),
             stable: equilibrium.stable(),
+            found_by: equilibrium.found_by,
         }
     }
 
@@ -169,6 +172,7 @@ impl Loaded {
             stiffness_against_force: stability.stiffness_against_force,
             share_to_buckling: stability.share_to_buckling,
             stable: stability.stable,
+            found_by: found.found_by[i],
         })
     }
 }
@@ -227,6 +231,7 @@ fn point(
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
         share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
         stable: after.stable,
+        found_by: after.found_by,
     }
 }
 
