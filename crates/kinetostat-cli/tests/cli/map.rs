@@ -229,6 +229,9 @@ fn what_was_found_otherwise_or_one_by_one_is_told() {
         let answer = json(&run(here.path(), &words).answered());
         assert_eq!(answer["found_by"], "growing_load", "{command}");
     }
+    let line = format!("assemble d/model.toml --along 20 20 118 21 20 118 --points 2 {common}");
+    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    assert_eq!(json(&said)["points"][0]["found_by"], "growing_load");
     let said = map(here.path(), "delta --x 0 --force 0 0 -100 --json").answered();
     let answer = json(&said);
     assert!(answer.get("found_otherwise").is_none(), "{answer}");
