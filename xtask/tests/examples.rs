@@ -1,8 +1,8 @@
 //! Every public method of the core's front door is called in an example that runs.
 //!
 //! The front door is what the root of the core re-exports; examples are the code blocks of doc comments and of the
-//! README, hidden lines included. Called is `.method(..)` or `Type::method(..)`: of which type the value before a dot
-//! is, is not looked into. What a macro other than `setters!` writes is not seen.
+//! README, hidden lines included. Called is `Type::function(..)` or, of what takes a value of the type, also `.method(..)`:
+//! of which type the value before a dot is, is not looked into. What a macro other than `setters!` writes is not seen.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -13,8 +13,8 @@ use syn::visit::Visit;
 /// What is read from the sources.
 #[derive(Default)]
 struct Core {
-    /// Type and method.
-    methods: BTreeSet<(String, String)>,
+    /// Type, function, and whether it takes a value of the type.
+    methods: BTreeSet<(String, String, bool)>,
     examples: String,
     /// Inside a code block, and whether that is Rust and runs.
     inside: bool,
@@ -57,10 +57,16 @@ impl Core {
         }
     }
 
-    fn call(&self, (of, method): &(String, String)) -> bool {
-        let calls = [format!(".{method}"), format!("{of}::{method}")];
-        let has = |text: String| self.examples.contains(&text);
-        (calls.iter()).any(|call| has(format!("{call}(")) || has(format!("{call}::<")))
+    fn call(&self, (of, method, takes_self): &(String, String, bool)) -> bool {
+        let by_value = takes_self.then(|| format!(".{method}"));
+        let calls = [Some(format!("{of}::{method}")), by_value];
+        // `Chain::new(` is not a part of `SerialChain::new(`.
+        let whole = |before: &str| !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let has = |text: String| {
+            let mut found = self.examples.match_indices(&text);
+            found.any(|(at, _)| text.starts_with('.') || whole(&self.examples[..at]))
+        };
+        (calls.iter().flatten()).any(|call| has(format!("{call}(")) || has(format!("{call}::<")))
     }
 }
 
@@ -82,7 +88,8 @@ impl<'a> Visit<'a> for Core {
                 && !method.attrs.iter().any(is_hidden)
             {
                 let of = words(&of).next().unwrap_or_default().to_owned();
-                self.methods.insert((of, method.sig.ident.to_string()));
+                let takes_self = method.sig.receiver().is_some();
+                (self.methods).insert((of, method.sig.ident.to_string(), takes_self));
             }
         }
         syn::visit::visit_item_impl(self, item);
@@ -93,7 +100,7 @@ impl<'a> Visit<'a> for Core {
         let text = item.tokens.to_string();
         let of = words(&text).next().unwrap_or_default();
         let setters = words(&text).filter(|word| word.starts_with("with_"));
-        (self.methods).extend(setters.map(|setter| (of.to_owned(), setter.to_owned())));
+        (self.methods).extend(setters.map(|setter| (of.to_owned(), setter.to_owned(), true)));
     }
 }
 
@@ -107,11 +114,13 @@ fn every_method_of_the_front_door_is_called_in_an_example() {
     let exports = lib.split("\npub use ").skip(1);
     let names = exports.flat_map(|text| words(text.split(';').next().unwrap_or_default()));
     let front_door: BTreeSet<&str> = names.collect();
-    let on_front = |(of, _): &&(String, String)| front_door.contains(of.as_str());
+    let on_front = |(of, ..): &&(String, String, bool)| front_door.contains(of.as_str());
     let all: Vec<_> = core.methods.iter().filter(on_front).collect();
     assert!(all.len() > 150, "most methods were not found");
+    let without_value = all.iter().filter(|(.., takes_self)| !takes_self).count();
+    assert!(without_value > 30, "most functions were not found");
     let missing = all.iter().filter(|method| !core.call(method));
-    let names = missing.map(|(of, method)| format!("{of}::{method}\n"));
+    let names = missing.map(|(of, method, _)| format!("{of}::{method}\n"));
     let list: String = names.collect();
     assert!(list.is_empty(), "no example calls\n{list}");
 }

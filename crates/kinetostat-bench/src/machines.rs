@@ -94,11 +94,15 @@ pub const CASES: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
 /// If there is no such case, or its model cannot be read.
 pub fn benchmark_case(name: &str, count: usize) -> Result<Task> {
     match name {
-        "W1" => ARM.task(BenchQuantity::StiffnessAndJacobian, count, false),
-        "W2" => HEXAPOD.task(BenchQuantity::Stiffness, count, false),
-        "W3" => ARM.task(BenchQuantity::Equilibrium, count, false),
-        "W3+K" => ARM.task(BenchQuantity::EquilibriumAndStiffness, count, false),
-        "W4" => PUU3.task(BenchQuantity::Equilibrium, count, false),
+        "W1" => ARM.task(BenchQuantity::StiffnessAndJacobian, count, LinkLaw::Plain),
+        "W2" => HEXAPOD.task(BenchQuantity::Stiffness, count, LinkLaw::Plain),
+        "W3" => ARM.task(BenchQuantity::Equilibrium, count, LinkLaw::Plain),
+        "W3+K" => ARM.task(
+            BenchQuantity::EquilibriumAndStiffness,
+            count,
+            LinkLaw::Plain,
+        ),
+        "W4" => PUU3.task(BenchQuantity::Equilibrium, count, LinkLaw::Plain),
         "W5" => {
             let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
             let across = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0].repeat(count);
@@ -106,6 +110,15 @@ pub fn benchmark_case(name: &str, count: usize) -> Result<Task> {
         }
         other => bail!("no benchmark case is called {other}"),
     }
+}
+
+/// By which law the links of a model deform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkLaw {
+    /// `translations_first`, the convention of the numpy baseline.
+    Plain,
+    /// `bowing`, the default of model files.
+    Bowing,
 }
 
 /// A model file of the benchmarks.
@@ -120,8 +133,11 @@ impl BenchMachine {
     ///
     /// # Errors
     /// If its model cannot be read.
-    pub fn task(&self, quantity: BenchQuantity, count: usize, bowing: bool) -> Result<Task> {
-        let end = if bowing { "_bowing" } else { "" };
+    pub fn task(&self, quantity: BenchQuantity, count: usize, links: LinkLaw) -> Result<Task> {
+        let end = match links {
+            LinkLaw::Plain => "",
+            LinkLaw::Bowing => "_bowing",
+        };
         let loaded = matches!(
             quantity,
             BenchQuantity::Equilibrium | BenchQuantity::EquilibriumAndStiffness

@@ -27,7 +27,7 @@ pub use checks::load::large_load;
 pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;
-pub use checks::unusual::odd_tolerances;
+pub use checks::unusual::{odd_tolerances, of_question};
 pub use field::ModelField;
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
@@ -42,6 +42,7 @@ pub use result::point::{PointKind, PointResult};
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
+pub use result::solving::{FoundCount, Solving};
 pub use result::summary::Summary;
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,

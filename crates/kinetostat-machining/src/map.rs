@@ -2,6 +2,7 @@
 //! at once, in constant memory.
 
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness};
+use kinetostat::chain::FoundBy;
 use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, spatial::pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -9,6 +10,7 @@ use rayon::prelude::*;
 use crate::near::natural_length;
 use crate::postures::neighbour::NEAR;
 use crate::postures::orientation::Orientation;
+use crate::result::solving::one_by_one_because;
 use crate::task::{RunError, Watch};
 
 /// Evenly spaced positions of the tool, base axes, mm.
@@ -74,6 +76,15 @@ pub struct MapTask<'a> {
     pub load: Option<Wrench>,
 }
 
+impl MapTask<'_> {
+    /// Why every place is solved by itself; `None` where kernels take many at once.
+    #[must_use]
+    pub fn one_by_one_because(&self) -> Option<String> {
+        let loaded = self.load.is_some();
+        one_by_one_because(self.mechanism, self.orientation_follows, loaded)
+    }
+}
+
 /// Whether a place has an answer, and of which kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceState {
@@ -130,6 +141,8 @@ pub struct MapPlace {
     pub displacement_mm: [f64; 3],
     /// Rotation vector of the tool under the load, base axes, deg.
     pub rotation_deg: [f64; 3],
+    /// How the equilibrium under the load was found.
+    pub found_by: FoundBy,
 }
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
@@ -184,6 +197,7 @@ fn solved(task: &MapTask<'_>, batch: &Batch, places: std::ops::Range<usize>) -> 
             tool_turn_deg: f64::NAN,
             displacement_mm: [f64::NAN; 3],
             rotation_deg: [f64::NAN; 3],
+            found_by: FoundBy::Directly,
         });
         let position = Vector3::from(position_mm) * 1e-3;
         poses.push(Pose::from_parts(position.into(), task.orientation));
@@ -342,6 +356,7 @@ impl MapPlace {
         };
         self.stiffness_n_per_mm = along(&compliance);
         self.smallest_stiffness_n_per_mm = 1e-3 * stability.stiffness_against_force;
+        self.found_by = found.found_by[i];
         self.moved(&pose_residual(&found.tool_pose(i), pose));
         true
     }
@@ -366,6 +381,7 @@ impl MapPlace {
         self.stiffness_n_per_mm = along(&compliance.springs);
         self.smallest_stiffness_n_per_mm = 1e-3 * e.stiffness_against_force();
         self.moved(&e.displacement);
+        self.found_by = e.found_by;
         self.state = if e.platform.free > 0 {
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
             PlaceState::Singular

@@ -1,11 +1,12 @@
 //! Along a line: deviations alone, load alone, both together, and the sum of both alone
 //! [R 6.5.2, figures 6.6 and 6.7].
 
+use kinetostat::chain::FoundBy;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_analysis::assembled::AssembledMachine;
 use kinetostat_machining::number::counted;
-use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_machining::{Solving, Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -60,6 +61,9 @@ struct Point {
     largest_internal_force_n: f64,
     largest_internal_moment_n_m: f64,
     stable: bool,
+    /// How the equilibrium of both together was found, where it was not directly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found_by: Option<FoundBy>,
 }
 
 /// The machine commanded for a point of the line, by its position only where its orientation follows.
@@ -107,6 +111,7 @@ fn point(solved: &AssembledMachine, place: Vector3<f64>, distance_mm: f64) -> Po
         largest_internal_force_n: inside(|w| w.force().norm()),
         largest_internal_moment_n_m: inside(|w| w.moment().norm()),
         stable: end.stable(),
+        found_by: Some(end.found_by).filter(|by| *by != FoundBy::Directly),
     }
 }
 
@@ -347,6 +352,13 @@ pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &AlongLine) -> String {
         rows.push(row);
     }
     out.push_str(&columns(&rows, 2));
+    let mut solving = Solving::default();
+    for by in a.points.iter().filter_map(|p| p.found_by) {
+        solving.note(by, 1);
+    }
+    for sentence in solving.sentences("point") {
+        out.push_str(&wrapped(&sentence, 2));
+    }
     out.push_str(&warnings::warnings(&a.warnings));
     out
 }

@@ -3,6 +3,7 @@
 use kinetostat::number::larger;
 use kinetostat::{
     MechanismEquilibrium, MotionKind, Posture, Wrench,
+    chain::FoundBy,
     machine::{LinearAssembly, Overconstraint},
     model::Role,
 };
@@ -38,6 +39,9 @@ pub(crate) struct Assembly {
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
+    /// How that equilibrium was found, where it was not directly from the commanded posture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) found_by: Option<FoundBy>,
     pub(crate) warnings: Vec<Warning>,
 }
 
@@ -151,6 +155,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
         length_m: length,
         something_else_acts: acts,
         stable: ends.stable(),
+        found_by: Some(ends.found_by).filter(|by| *by != FoundBy::Directly),
         warnings,
         limbs,
     })

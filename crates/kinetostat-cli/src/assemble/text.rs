@@ -15,6 +15,9 @@ const SHOWN: usize = 12;
 pub(crate) fn answer_text(assembly: &AssemblyQuery, a: &Assembly, all: bool) -> String {
     let mut out = assembly.query.heading();
     out.push_str(&wrapped(&result_text(a), 2));
+    if let Some(by) = a.found_by {
+        out.push_str(&wrapped(&format!("Note: {}.", by.sentence()), 2));
+    }
     out.push_str("\nOver-constraint\n");
     out.push_str(&over_constraint(a));
     let loaded = a.platforms.iter().any(|p| p.shift_mm.under_load.is_some());

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
-use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_description};
+use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_description, of_question};
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -19,6 +19,8 @@ use crate::job::machine::machine_setup;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
+use crate::program::aim::Aim;
+use crate::program::solve::with_task;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
@@ -109,6 +111,14 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &machine.placement,
         &motion,
     ));
+    let read = (&program, &motion);
+    warnings.extend(with_task(
+        Aim::Compensate,
+        &machine,
+        &setting,
+        read,
+        of_question,
+    )?);
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);

@@ -3,14 +3,16 @@
 
 use kinetostat::continuation::{BranchEnd, SpecialKind};
 use kinetostat::number::{larger, smaller};
-use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_machining::Warning;
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
+use crate::machine::displacement_warnings::{folds, stretches};
 use crate::place::query::PlaceAnswer;
+use crate::ui::failure::Failure;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -37,6 +39,9 @@ pub(crate) struct CurveAnswer {
     /// True if everything that acts has a potential: statements about energy hold.
     pub(crate) conservative: bool,
     pub(crate) warnings: Vec<Warning>,
+    /// Limits of the force were given, which may leave nothing but the start.
+    #[serde(skip)]
+    pub(crate) force_limited: bool,
     /// `chain` or `machine`.
     #[serde(skip)]
     pub(crate) subject: &'static str,
@@ -49,29 +54,35 @@ pub(crate) struct CurveAnswer {
     pub(crate) reached: (f64, f64),
 }
 
-/// A chain that is turned over moves its tip by twice its length: what goes further is stretched.
-const STRETCHED: f64 = 2.5;
-
 impl CurveAnswer {
-    /// With a warning where the tool goes further than a machine of this length (m) can.
-    pub(crate) fn with_stretch_warning(mut self, length: f64) -> Self {
-        let points = self.branches.iter().flat_map(|b| &b.points);
-        let places = points.map(|p| Vector3::from(p.position_mm));
-        let start = self.branches.first().and_then(|b| b.points.first());
-        let farthest = start.map_or(0.0, |start| {
-            let start = Vector3::from(start.position_mm);
-            places.map(|p| (p - start).norm()).fold(0.0, larger)
-        });
-        if farthest > STRETCHED * 1e3 * length {
-            self.warnings.push(Warning::new(
-                WarningCode::LargeDisplacement,
-                format!(
-                    "the tool goes {} times as far as the machine is long: its springs are stretched beyond all sense; check the range and its unit",
-                    crate::ui::numbers::number(farthest / (1e3 * length), 2)
-                ),
-            ));
-        }
+    /// With a warning where the tool goes further than a machine of this size (m) can, or where a growing load that it
+    /// bears folds it over.
+    pub(crate) fn with_displacement_warning(mut self, size: f64) -> Self {
+        let Some(own) = self.branches.first() else {
+            return self;
+        };
+        let Some(start) = own.points.first().map(|p| Vector3::from(p.position_mm)) else {
+            return self;
+        };
+        let away = |p: &PointAnswer| 1e-3 * (Vector3::from(p.position_mm) - start).norm();
+        let all = self.branches.iter().flat_map(|b| &b.points);
+        let farthest = all.map(away).fold(0.0, larger);
+        let borne = own.points.iter().take_while(|p| p.stable_under_dead_load);
+        let by_load = (self.grows == "load").then(|| borne.map(away).fold(0.0, larger));
+        let warning =
+            stretches(farthest, size).or_else(|| by_load.and_then(|far| folds(far, size)));
+        self.warnings.extend(warning);
         self
+    }
+
+    /// Why this is no answer: the start alone, within every force.
+    pub(crate) fn unanswered(&self) -> Option<Failure> {
+        let points: usize = self.branches.iter().map(|b| b.points.len()).sum();
+        (points < 2 && !self.force_limited).then(|| {
+            Failure::unanswered(
+                "the curve could not be followed from its start: no second equilibrium was found near it. Check what grows and its unit, or how far",
+            )
+        })
     }
 }
 

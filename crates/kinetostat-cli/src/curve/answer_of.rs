@@ -2,6 +2,7 @@
 
 use kinetostat::continuation::CurveEquilibrium;
 use kinetostat_analysis::rotation::ContinuousRotation;
+use kinetostat_machining::large_load;
 
 use crate::curve::answer::{CurveAnswer, Units, grows, reached};
 use crate::curve::followed::Followed;
@@ -20,6 +21,7 @@ pub(crate) fn answer_of<S: Subject>(
     let critical_loads = std::mem::take(&mut followed.critical);
     let mut warnings = std::mem::take(&mut followed.warnings);
     warnings.extend(followed.what_is_missing(q));
+    warnings.extend(large_load(&q.largest_load()));
     warnings.dedup();
     let (branches, specials) = (&followed.branches, &followed.specials);
     let view = View {
@@ -56,6 +58,7 @@ pub(crate) fn answer_of<S: Subject>(
         more_branches: followed.more_branches,
         conservative: points.all(|p| p.equilibrium.conservative()),
         warnings,
+        force_limited: q.force_limits.is_some(),
         subject: q.holding.subject,
         units: Units::of(q),
         requested: (q.shown(q.range.0), q.shown(q.range.1)),

@@ -41,20 +41,20 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         outputs: &args.outputs,
     };
     let work_of = |query: &PlaceQuery| -> Answer<Work<CurveAnswer>> {
-        let length = query.mechanism.size();
+        let size = query.mechanism.size();
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = curve_query(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 let followed = chain::follow(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, followed, place, names).with_stretch_warning(length))
+                Ok(answer_of(&chain, &q, followed, place, names).with_displacement_warning(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = curve_query(&machine.moves, None, args)?;
             Ok(Box::new(move |place, names, stage| {
                 let followed = machine::follow(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, followed, place, names).with_stretch_warning(length))
+                Ok(answer_of(&machine, &q, followed, place, names).with_displacement_warning(size))
             }))
         }
     };
@@ -67,6 +67,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
                 text: text::answer_text(heading, answer),
                 csv: csv::of_curve(answer)?,
                 svg: plot::plot(answer).svg(),
+                failure: answer.unanswered(),
             })
         },
     )

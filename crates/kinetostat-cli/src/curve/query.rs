@@ -52,6 +52,20 @@ impl CurveQuery {
         0.0_f64.clamp(self.range.0, self.range.1)
     }
 
+    /// The largest load on the tool that was asked for: what acts all the time, and of a growing load the worse end.
+    pub(crate) fn largest_load(&self) -> Wrench {
+        let constant = self.holding.end.wrench;
+        let Parameter::Load(pattern) = &self.parameter else {
+            return constant;
+        };
+        let [low, high] =
+            [self.range.0, self.range.1].map(|factor| constant + pattern.end * factor);
+        match largest_size(&low.0) > largest_size(&high.0) {
+            true => low,
+            false => high,
+        }
+    }
+
     /// The parameter in the unit of the query (mm, deg or a factor).
     pub(crate) fn shown(&self, value: f64) -> f64 {
         match (&self.parameter, self.measure) {

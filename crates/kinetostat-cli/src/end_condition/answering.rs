@@ -12,7 +12,7 @@ use crate::files::outputs::{self, Existing, Outputs};
 use crate::place::arguments::PlaceArgs;
 use crate::place::query::{PlaceAnswer, PlaceQuery, place_query};
 use crate::ui::background::{Stage, interruptible};
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
 /// What queries of `curve` and `equilibria` share.
@@ -32,6 +32,8 @@ pub(crate) struct Shown {
     pub(crate) text: String,
     pub(crate) csv: Vec<u8>,
     pub(crate) svg: String,
+    /// Why the question has no answer, if it has none: said when everything is written.
+    pub(crate) failure: Option<Failure>,
 }
 
 /// From the query to the files: reads the model, claims what will be written, works, shows.
@@ -64,7 +66,8 @@ pub(crate) fn answer_query<A: Serialize + Send + 'static>(
         warnings(&mut answer).extend(query.near_singular().map(|n| n.warning()));
     }
     let shown = show(&query.heading(), &answer)?;
-    targets.finish(&shown, &answer)
+    targets.finish(&shown, &answer)?;
+    shown.failure.map_or(Ok(()), Err)
 }
 
 /// Claimed outputs of `curve` and `equilibria`.

@@ -1,14 +1,16 @@
 //! The answer of `equilibria`: every shape with its energy, stability and forces, and how complete
 //! the list is.
 
-use kinetostat::number::larger;
+use kinetostat::number::{larger, smaller};
 use kinetostat_machining::Warning;
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
+use crate::machine::displacement_warnings::{folds, stretches};
 use crate::place::query::PlaceAnswer;
+use crate::ui::failure::Failure;
 use crate::ui::numbers::number;
 
 /// The answer, stable names with units.
@@ -85,6 +87,29 @@ pub(crate) struct Coverage {
 const NO_ENERGY: f64 = 1e-20;
 
 impl EquilibriaAnswer {
+    /// With a warning where even the equilibrium nearest to the commanded place is so far from it that a load folds a
+    /// machine of this size (m) over, or that its springs are stretched.
+    pub(crate) fn with_displacement_warning(mut self, size: f64) -> Self {
+        let commanded = Vector3::from(self.place.position_mm);
+        let away = |e: &ShapeAnswer| 1e-3 * (Vector3::from(e.position_mm) - commanded).norm();
+        let nearest = self.equilibria.iter().map(away).reduce(smaller);
+        self.warnings.extend(nearest.and_then(|far| {
+            let by_load = || folds(far, size).filter(|_| self.tool_held.held.is_empty());
+            stretches(far, size).or_else(by_load)
+        }));
+        self
+    }
+
+    /// Why this is no answer: nothing was found, which does not say that there is nothing.
+    pub(crate) fn unanswered(&self) -> Option<Failure> {
+        self.equilibria.is_empty().then(|| {
+            Failure::unanswered(format!(
+                "no equilibrium of the {} was found",
+                self.tool_held.subject
+            ))
+        })
+    }
+
     /// The energy of a shape for people, J: zero where it is rounding beside the others.
     pub(crate) fn energy(&self, shape: &ShapeAnswer, digits: i32) -> String {
         let sizes = self.equilibria.iter().map(|e| e.energy_j.abs());

@@ -5,7 +5,7 @@ use kinetostat::{
     continuation::CurveEquilibrium,
     equilibrium::{Equilibria, FoundEquilibrium},
 };
-use kinetostat_machining::Warning;
+use kinetostat_machining::{Warning, large_load};
 
 use crate::end_condition::subject::Subject;
 use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
@@ -15,11 +15,12 @@ use crate::place::query::PlaceAnswer;
 pub(crate) fn answer_of<S: Subject>(
     subject: &S,
     q: &EquilibriaQuery,
-    (all, warnings): (Equilibria<S::Equilibrium>, Vec<Warning>),
+    (all, mut warnings): (Equilibria<S::Equilibrium>, Vec<Warning>),
     place: PlaceAnswer,
     names: [String; 3],
 ) -> EquilibriaAnswer {
     let [model, model_source, tool] = names;
+    warnings.extend(large_load(&q.end.wrench));
     let found = || all.found.iter().map(|f| &f.equilibrium);
     let shapes = all.found.iter().enumerate();
     EquilibriaAnswer {

@@ -33,19 +33,20 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
         outputs: &args.outputs,
     };
     let work_of = |query: &PlaceQuery| -> Answer<Work<EquilibriaAnswer>> {
+        let size = query.mechanism.size();
         if is_serial_chain(&query.mechanism) {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 let all = found::of_chain(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, all, place, names))
+                Ok(answer_of(&chain, &q, all, place, names).with_displacement_warning(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = equilibria_query(&machine.moves, args)?;
             Ok(Box::new(move |place, names, stage| {
                 let all = found::of_machine(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, all, place, names))
+                Ok(answer_of(&machine, &q, all, place, names).with_displacement_warning(size))
             }))
         }
     };
@@ -58,6 +59,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
                 text: text::answer_text(heading, answer),
                 csv: csv::of_equilibria(answer)?,
                 svg: plot::plot(answer).shape_svg(),
+                failure: answer.unanswered(),
             })
         },
     )

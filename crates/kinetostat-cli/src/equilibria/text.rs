@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::end_condition::holding::Holding;
 use crate::equilibria::answer::{EquilibriaAnswer, ShapeAnswer};
 use crate::equilibria::query::MOST_KNOWN;
 use crate::ui::layout::{WIDTH, columns, item, wrapped};
@@ -49,7 +50,7 @@ fn result_text(a: &EquilibriaAnswer) -> String {
 fn found(a: &EquilibriaAnswer) -> String {
     let stable = a.equilibria.iter().filter(|e| e.stable).count();
     match a.equilibria.len() {
-        0 => "No equilibrium was found. This does not say that there is none: the tool may be out of reach, and near a posture in which the chain is stretched out and locked the search may miss some (`kinetostat curve` follows them there from a nearer place).".into(),
+        0 => none_found(&a.tool_held),
         1 if stable == 1 => "One equilibrium, and it is stable.".into(),
         1 => "One equilibrium, and it is NOT stable.".into(),
         n => {
@@ -64,6 +65,27 @@ fn found(a: &EquilibriaAnswer) -> String {
             format!("{n} equilibria; {of}.")
         }
     }
+}
+
+/// What may be why, by what holds the tool and by what acts on it.
+fn none_found(holding: &Holding) -> String {
+    let subject = holding.subject;
+    let mut text = "No equilibrium was found. This does not say that there is none.".to_owned();
+    if !holding.held.is_empty() {
+        let locked = match subject {
+            "machine" => "near a singular posture",
+            _ => "near a posture in which the chain is stretched out and locked",
+        };
+        text.push_str(&format!(
+            " The place where the tool is held may be out of the {subject}'s reach, and {locked} the search may miss some (`kinetostat curve` follows them there from a nearer place)."
+        ));
+    }
+    if !holding.free.is_empty() {
+        text.push_str(&format!(
+            " What acts on the tool, where it is free, may be more than the {subject} can carry: check the load and its unit, or let it grow from nothing (`kinetostat curve` with --force and --factor)."
+        ));
+    }
+    text
 }
 
 fn table(a: &EquilibriaAnswer) -> String {

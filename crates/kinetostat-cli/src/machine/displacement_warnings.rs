@@ -8,12 +8,25 @@ use crate::ui::numbers::{fixed, number, triple};
 /// A displacement by this share of the machine's size is no deflection any more.
 const LARGE: f64 = 0.05;
 
+/// A chain that is turned over moves its tip by twice its length: what goes further is stretched.
+const STRETCHED: f64 = 2.5;
+
 /// The tool moves by `far`, which is no deflection any more of a machine of this size, m.
 pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
     (far > LARGE * size).then(|| {
         Warning::new(WarningCode::LargeDisplacement, format!(
             "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
             number(100.0 * far / size, 2)
+        ))
+    })
+}
+
+/// The tool goes by `far`, further than a machine of this size can, m.
+pub(crate) fn stretches(far: f64, size: f64) -> Option<Warning> {
+    (far > STRETCHED * size).then(|| {
+        Warning::new(WarningCode::LargeDisplacement, format!(
+            "the tool goes {} times as far as the machine is long: its springs are stretched beyond all sense; check the range and its unit",
+            number(far / size, 2)
         ))
     })
 }

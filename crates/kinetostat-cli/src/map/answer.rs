@@ -1,7 +1,7 @@
 //! The figures of a map, gathered block by block.
 
 use kinetostat::number::larger;
-use kinetostat_machining::{Grid, MapPlace, PlaceState, Warning};
+use kinetostat_machining::{Grid, MapPlace, PlaceState, Solving, Warning};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -27,6 +27,9 @@ pub(crate) struct MapAnswer {
     pub(crate) deviations: Vec<String>,
     pub(crate) places: Places,
     pub(crate) figures: Vec<FigureAnswer>,
+    /// How the equilibria were found, where it was not the usual way.
+    #[serde(flatten)]
+    pub(crate) solving: Solving,
     pub(crate) warnings: Vec<Warning>,
 }
 
@@ -207,6 +210,7 @@ pub(crate) struct Figures {
     pub(crate) places: Places,
     /// How far the tool turns where the orientation follows.
     pub(crate) largest_turn_deg: f64,
+    pub(crate) solving: Solving,
     figures: [Gathered; Quantity::LOADED.len()],
 }
 
@@ -215,6 +219,7 @@ impl Figures {
         let mut own = Self::default();
         for place in places {
             own.places.count(place.state);
+            own.solving.note(place.found_by, 1);
             // Places without figures have none.
             own.largest_turn_deg = larger(own.largest_turn_deg, place.tool_turn_deg);
             for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
@@ -226,6 +231,7 @@ impl Figures {
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.places.add(&other.places);
+        self.solving.add(&other.solving);
         self.largest_turn_deg = larger(self.largest_turn_deg, other.largest_turn_deg);
         for (own, other) in self.figures.iter_mut().zip(&other.figures) {
             own.add(other);

@@ -126,6 +126,9 @@ pub(crate) fn answer_text(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64
     out.push_str(&figures(a));
     out.push_str("\nPlaces\n");
     out.push_str(&places(a));
+    for sentence in a.solving.sentences("place") {
+        out.push_str(&wrapped(&sentence, 2));
+    }
     out.push_str(&warnings::warnings(&a.warnings));
     out
 }

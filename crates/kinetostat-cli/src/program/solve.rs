@@ -6,6 +6,7 @@ use kinetostat_machining::{
     Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
     load_description, origin_in_metres,
 };
+use kinetostat_program::{Path as ToolPath, Program};
 
 use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
@@ -28,14 +29,14 @@ pub(crate) fn tools(machine: &MachineSetup) -> Vec<Tool<'_>> {
         .collect()
 }
 
-/// Solves the machine along the program.
-pub(crate) fn solve(
+/// What `work` makes of the task of a run over a program that was read.
+pub(crate) fn with_task<R>(
     aim: Aim,
     machine: &MachineSetup,
     setting: &Setting,
-    threads: Option<usize>,
-) -> Answer<Run> {
-    let (program, path) = read_program(setting)?;
+    (program, path): (&Program, &ToolPath),
+    work: impl FnOnce(&Task<'_>) -> R,
+) -> Answer<R> {
     let tools = tools(machine);
     let mut run_inputs = machine.run_inputs.clone();
     run_inputs.program.clone_from(&setting.program_name);
@@ -79,18 +80,18 @@ pub(crate) fn solve(
                 "load {}",
                 load_description(
                     &machine.mechanism,
-                    &LoadAlongPath::with_tools(machine.load, &path, &tools)
+                    &LoadAlongPath::with_tools(machine.load, path, &tools)
                 )
             ),
             format!("tool {}", run_inputs.tool),
             format!("placement {}", run_inputs.placement),
         ];
     }
-    let task = Task {
+    Ok(work(&Task {
         mechanism: &machine.mechanism,
-        program: &program,
+        program,
         reading: setting.reading.clone(),
-        path: &path,
+        path,
         placement: machine.placement,
         load: machine.load,
         tools: &tools,
@@ -100,13 +101,24 @@ pub(crate) fn solve(
             limits: setting.limits,
             ..machine.bounds.clone()
         },
-    };
+    }))
+}
+
+/// Solves the machine along the program.
+pub(crate) fn solve(
+    aim: Aim,
+    machine: &MachineSetup,
+    setting: &Setting,
+    threads: Option<usize>,
+) -> Answer<Run> {
+    let (program, path) = read_program(setting)?;
     let progress = Progress::new();
-    let work = || match aim {
-        Aim::Analyse => analyse(&task, &progress),
-        Aim::Compensate => compensate_program(&task, &progress),
-    };
-    let result = in_threads(threads, work)?;
+    let result = with_task(aim, machine, setting, (&program, &path), |task| {
+        in_threads(threads, || match aim {
+            Aim::Analyse => analyse(task, &progress),
+            Aim::Compensate => compensate_program(task, &progress),
+        })
+    })??;
     progress.finish();
     let mut run = result.map_err(|error| {
         let failure = Failure::from(error).within(&setting.program_name);

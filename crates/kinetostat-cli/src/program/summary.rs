@@ -21,6 +21,9 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     out.push_str(&wrapped(&result_text(result), 2));
     out.push('\n');
     out.push_str(&figures(result));
+    for sentence in result.summary.solving.sentences("point") {
+        out.push_str(&wrapped(&sentence, 2));
+    }
     out.push('\n');
     out.push_str(&actuators(result));
     out.push_str(&worst(result));

@@ -125,8 +125,10 @@ fn small_loads_are_not_called_nothing() {
     let here = workplace();
     let pushed = ["--force", "-1e-6", "0", "0", "--factor", "0", "2e-6"];
     let list: Vec<&str> = ["curve", "scara"].into_iter().chain(pushed).collect();
-    let said = run(here.path(), &list).answered().out;
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    // A second equilibrium is found near the start, or not.
+    let said = run(here.path(), &list);
+    assert!([0, 2].contains(&said.code), "{said:?}");
+    let said = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         said.contains("grows from 0 to 2.000e-6 times the force (-1.000e-6, 0, 0) N"),
         "{said}"

@@ -412,3 +412,50 @@ fn an_end_of_the_program_outside_a_limit_is_not_reached() {
         "{said:?}"
     );
 }
+
+/// What a compensation would refuse of a job's load and tool, or warn of, `check` tells.
+#[test]
+fn a_check_tells_what_a_compensation_refuses_of_load_and_tool() {
+    let here = workplace();
+    for (from, to, code) in [
+        (
+            "radial_n = 215.0",
+            "radial_n = 215000.0",
+            Some("over_limit"),
+        ),
+        ("length_mm = 180", "length_mm = -100", Some("over_limit")),
+        ("axial_n = 25.0", "axial_n = -300.0", Some("pulling_force")),
+        ("path_um = 20", "path_um = 200", Some("wide_tolerance")),
+        ("radial_n = 215.0", "radial_n = 216.0", None),
+    ] {
+        let job = ARM_JOB.replace(from, to);
+        assert_ne!(job, ARM_JOB);
+        let (said, codes) = compensated(here.path(), &job, &arm(), &[]);
+        let refused = said.code == 1 && said.err.contains("--limit");
+        assert_eq!(refused, code == Some("over_limit"), "{to}: {said:?}");
+        if let Some(code) = code.filter(|_| !refused) {
+            assert!(codes.contains(&code.to_owned()), "{to}: {codes:?}");
+        }
+        let said = run(here.path(), &["check", "job.toml", "--json"]).answered();
+        let found: Value = serde_json::from_str(&said.out).expect("JSON");
+        let list = found["warnings"].as_array().expect("a list");
+        let codes: Vec<_> = list.iter().filter_map(|w| w["code"].as_str()).collect();
+        assert_eq!(codes, Vec::from_iter(code), "{to}: {said:?}");
+    }
+}
+
+/// A load that no cutting has folds the machine over: an analysis refuses it at once, with the limit that moves it.
+#[test]
+fn a_load_that_folds_the_machine_over_is_refused_before_the_program_is_solved() {
+    let here = workplace();
+    run(here.path(), &["demo", "--out", "d"]).answered();
+    let job = std::fs::read_to_string(here.path().join("d/job.toml")).expect("the job");
+    for force in ["1e4", "1e5"] {
+        let strong = job.replace("radial_n = 215", &format!("radial_n = {force}"));
+        assert_ne!(job, strong);
+        std::fs::write(here.path().join("d/job.toml"), strong).expect("a job");
+        let said = run(here.path(), &["deflect", "d/job.toml"]);
+        assert_eq!(said.code, 1, "{said:?}");
+        assert!(said.err.contains("--limit force_n="), "{said:?}");
+    }
+}

@@ -15,6 +15,7 @@ mod controller_poses;
 mod curves;
 mod curves_of_machines;
 mod curves_refused;
+mod curves_warned;
 mod demo;
 mod draw;
 mod figures;

@@ -201,3 +201,44 @@ fn what_makes_no_map_is_refused_and_leaves_nothing() {
         assert_eq!(before, after, "{line}");
     }
 }
+
+/// A place that was found with a growing load is counted by the map, and named by `deflect` and `assemble`; a machine that
+/// no kernel knows says why.
+#[test]
+fn what_was_found_otherwise_or_one_by_one_is_told() {
+    let here = workplace();
+    run(here.path(), &["demo", "--out", "d"]).answered();
+    let common = "--tool-length-mm 100 --json --force 5000 0 0";
+    let said = map(
+        here.path(),
+        &format!("d/model.toml --x 20 --y 20 --z 118 {common}"),
+    )
+    .answered();
+    let answer = json(&said);
+    let found = serde_json::json!([{ "found_by": "growing_load", "places": 1 }]);
+    assert_eq!(answer["found_otherwise"], found);
+    assert!(answer.get("one_by_one_because").is_none(), "{answer}");
+    assert!(
+        said.err.contains("At 1 place the equilibrium was found"),
+        "{}",
+        said.err
+    );
+    for command in ["deflect", "assemble"] {
+        let line = format!("{command} d/model.toml --at 20 20 118 {common}");
+        let words: Vec<&str> = line.split(' ').collect();
+        let answer = json(&run(here.path(), &words).answered());
+        assert_eq!(answer["found_by"], "growing_load", "{command}");
+    }
+    let line = format!("assemble d/model.toml --along 20 20 118 21 20 118 --points 2 {common}");
+    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    assert_eq!(json(&said)["points"][0]["found_by"], "growing_load");
+    let said = map(here.path(), "delta --x 0 --force 0 0 -100 --json").answered();
+    let answer = json(&said);
+    assert!(answer.get("found_otherwise").is_none(), "{answer}");
+    let why = "it has platforms between base and tool";
+    assert_eq!(answer["one_by_one_because"], why);
+    assert!(said.err.contains(why), "{}", said.err);
+    let line = "deflect delta --program part.ngc --part-origin-mm 0 0 -850 --json";
+    let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    assert_eq!(json(&said)["summary"]["one_by_one_because"], why);
+}

@@ -51,7 +51,7 @@ pub(crate) fn loads(task: &Task<'_>) -> Vec<(String, ProgramLoad)> {
         .collect()
 }
 
-/// A load of one place or of a map that is beyond the usual limits: an analysis warns where a program would be
+/// A load of one place, a map, a curve or a search that is beyond the usual limits: an analysis warns where a program would be
 /// refused.
 #[must_use]
 pub fn large_load(wrench: &Wrench) -> Vec<Warning> {

@@ -8,6 +8,7 @@ use crate::checks::exceeded::ODD;
 use crate::checks::load::{loads, never_acts, odd_load};
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
+use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
@@ -53,6 +54,28 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
         .collect()
 }
 
+/// What is to be said of a question before anything is solved: what a compensation refuses it for, and what of it is
+/// allowed and unusual.
+#[must_use]
+pub fn of_question(task: &Task<'_>) -> Vec<Warning> {
+    let refused = of_task(task).into_iter();
+    let mut list: Vec<Warning> = refused.map(|beyond| as_warning(&beyond)).collect();
+    list.extend(odd_loads(task));
+    list.extend(odd_tools(task));
+    list.extend(odd_tolerances(&task.writing));
+    list
+}
+
+fn odd_loads<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> {
+    let loads = loads(task).into_iter();
+    loads.flat_map(move |(whose, load)| odd_load(task, &whose, &load))
+}
+
+fn odd_tools<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> {
+    let tools = task.bounds.tools.iter();
+    tools.filter_map(move |tool| odd_tool(task, tool))
+}
+
 /// Warnings about what is allowed and unusual, of the question first.
 pub(crate) fn unusual(
     task: &Task<'_>,
@@ -60,17 +83,9 @@ pub(crate) fn unusual(
     summary: &Summary,
     compensated: bool,
 ) -> Vec<Warning> {
-    let mut list: Vec<Warning> = loads(task)
-        .iter()
-        .flat_map(|(whose, load)| odd_load(task, whose, load))
-        .collect();
+    let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(never_acts(task, points));
-    list.extend(
-        task.bounds
-            .tools
-            .iter()
-            .filter_map(|tool| odd_tool(task, tool)),
-    );
+    list.extend(odd_tools(task));
     list.extend(origin_in_metres(task.mechanism, &task.placement, task.path));
     list.extend(outside_workspace(task, points));
     let limits = &task.bounds.limits;

@@ -6,6 +6,7 @@ pub(crate) mod point;
 pub(crate) mod run_inputs;
 pub(crate) mod run_result;
 pub(crate) mod selection;
+pub(crate) mod solving;
 pub(crate) mod statements;
 pub(crate) mod summary;
 pub(crate) mod tolerance;

@@ -1,5 +1,6 @@
 //! One place of the path: what happens there, where the tool is and what the machine carries.
 
+use kinetostat::chain::FoundBy;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -71,6 +72,13 @@ pub struct PointResult {
     pub share_to_buckling: Option<f64>,
     /// The equilibrium is stable.
     pub stable: bool,
+    /// How it was found, where it was not directly.
+    #[serde(default, skip_serializing_if = "is_direct")]
+    pub found_by: FoundBy,
+}
+
+fn is_direct(found_by: &FoundBy) -> bool {
+    *found_by == FoundBy::Directly
 }
 
 pub(crate) fn size(v: &[f64; 3]) -> f64 {

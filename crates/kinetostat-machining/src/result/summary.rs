@@ -1,5 +1,6 @@
 //! Figures of a whole run.
 
+use crate::result::solving::Solving;
 use serde::{Deserialize, Serialize};
 
 /// Figures of a run.
@@ -146,4 +147,7 @@ pub struct Summary {
     pub converged: bool,
     /// Every equilibrium is stable, shapes and platform.
     pub stable: bool,
+    /// How the equilibria were found, where it was not the usual way.
+    #[serde(flatten)]
+    pub solving: Solving,
 }

@@ -18,7 +18,7 @@ use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
 use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
-use crate::run::first_look::first_look;
+use crate::run::first_look::{first_look, folding_load};
 use crate::run::following::jump;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
@@ -36,9 +36,10 @@ fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
 /// Deflections along the program as it is.
 ///
 /// # Errors
-/// [`RunError`] naming the line.
+/// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    refuse(folding_load(task, &load, watch)?)?;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (points, _) = solve(task, sites, false, watch)?;
     Ok(conclude(task, &load, points, None, &Checked::default()))

@@ -1,9 +1,10 @@
 //! The first look at a program: a few places, solved before anything is divided, show a wrong unit in
 //! milliseconds where the whole program would take minutes.
 
-use crate::checks::refused::of_points;
+use crate::checks::refused::{of_points, of_task};
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
+use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::chunk;
 use crate::run::sites::{of_path, spacing_mm};
@@ -16,6 +17,33 @@ const FIRST_LOOKS: usize = 8;
 /// solved everywhere.
 const GROSS: f64 = 10.0;
 
+/// A load beyond its limits under which a place has no answer, or that puts the tool off by far more than any correction:
+/// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns.
+///
+/// # Errors
+/// [`RunError::Cancelled`].
+pub(crate) fn folding_load(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    watch: &dyn Watch,
+) -> Result<Vec<Beyond>, RunError> {
+    let mut beyond = of_task(task);
+    beyond.retain(|b| ["force_n", "moment_n_m"].contains(&b.limit.name));
+    if beyond.is_empty() {
+        return Ok(beyond);
+    }
+    let mut points = Vec::new();
+    for found in looks(task, load, watch) {
+        match found {
+            Ok(point) => points.push(point),
+            Err(RunError::Cancelled) => return Err(RunError::Cancelled),
+            Err(_) => return Ok(beyond),
+        }
+    }
+    let folds = (gross(task, &points).iter()).any(|b| b.limit.name == "correction_mm");
+    Ok(if folds { beyond } else { Vec::new() })
+}
+
 /// What is beyond its limits by far at a few places of the program as it is.
 ///
 /// # Errors
@@ -26,29 +54,48 @@ pub(crate) fn first_look(
     load: &LoadAlongPath<'_>,
     watch: &dyn Watch,
 ) -> Result<Vec<Beyond>, RunError> {
+    let mut points = Vec::new();
+    for (index, found) in looks(task, load, watch).enumerate() {
+        match found {
+            Ok(point) => points.push(point),
+            Err(error) if index == 0 || matches!(error, RunError::Cancelled) => return Err(error),
+            Err(_) => {}
+        }
+    }
+    Ok(gross(task, &points))
+}
+
+/// A few places of the program as it is, each solved by itself.
+fn looks<'t>(
+    task: &'t Task<'_>,
+    load: &'t LoadAlongPath<'_>,
+    watch: &'t dyn Watch,
+) -> impl Iterator<Item = Result<PointResult, RunError>> + use<'t> {
     let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
     let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
     let machines = Machines::new(task);
-    let mut points = Vec::new();
-    for (index, site) in sites().step_by(every).enumerate() {
+    sites().step_by(every).flat_map(move |site| {
         if watch.cancelled() {
-            return Err(RunError::Cancelled);
+            return vec![Err(RunError::Cancelled)];
         }
         let (machine, orientation) = machines.at(&site);
         let one = std::slice::from_ref(&site);
-        let mut memory = Default::default();
-        for found in chunk(task, machine, &mut memory, one, (orientation, false)) {
-            match found {
-                Ok(point) => points.push(point),
-                Err(error) if index == 0 => return Err(error),
-                Err(_) => {}
-            }
-        }
-    }
-    let mut beyond = of_points(task, &points);
+        chunk(
+            task,
+            machine,
+            &mut Default::default(),
+            one,
+            (orientation, false),
+        )
+    })
+}
+
+/// Corrections that are beyond their limits by far.
+fn gross(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> {
+    let mut beyond = of_points(task, points);
     beyond.retain(|b| {
         let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
         of_correction && b.found > GROSS * b.allowed
     });
-    Ok(beyond)
+    beyond
 }

@@ -2,6 +2,7 @@
 //! carries there.
 
 use kinetostat::batch::BatchEquilibrium;
+use kinetostat::chain::FoundBy;
 use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -64,7 +65,8 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
     }
 }
 
-/// Points of a chunk, by vector kernels where there are some, else one after the other.
+/// Points of a chunk, by vector kernels where there are some, else one after the other; up to the first that has no
+/// answer.
 pub(crate) fn chunk(
     task: &Task<'_>,
     machine: &AlongPath,
@@ -111,16 +113,21 @@ pub(crate) fn chunk(
         };
         Ok(point(task, &sites[i], &wanted[i], before, after))
     };
-    (0..sites.len())
-        .map(|i| {
-            solved(i).map_err(|cause| RunError::Point {
-                line: sites[i].line,
-                position_mm: sites[i].desired.into(),
-                message: cause_and_advice(&cause),
-                cause: Box::new(cause),
-            })
-        })
-        .collect()
+    let mut points = Vec::with_capacity(sites.len());
+    for (i, site) in sites.iter().enumerate() {
+        let point = solved(i).map_err(|cause| RunError::Point {
+            line: site.line,
+            position_mm: site.desired.into(),
+            message: cause_and_advice(&cause),
+            cause: Box::new(cause),
+        });
+        let ends = point.is_err();
+        points.push(point);
+        if ends {
+            break;
+        }
+    }
+    points
 }
 
 /// What a result states of an equilibrium.
@@ -134,6 +141,7 @@ struct Loaded {
     stiffness_against_force: f64,
     share_to_buckling: Option<f64>,
     stable: bool,
+    found_by: FoundBy,
 }
 
 impl Loaded {
@@ -148,6 +156,7 @@ impl Loaded {
             stiffness_against_force: equilibrium.stiffness_against_force(),
             share_to_buckling: equilibrium.share_to_buckling(),
             stable: equilibrium.stable(),
+            found_by: equilibrium.found_by,
         }
     }
 
@@ -163,6 +172,7 @@ impl Loaded {
             stiffness_against_force: stability.stiffness_against_force,
             share_to_buckling: stability.share_to_buckling,
             stable: stability.stable,
+            found_by: found.found_by[i],
         })
     }
 }
@@ -221,6 +231,7 @@ fn point(
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
         share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
         stable: after.stable,
+        found_by: after.found_by,
     }
 }
 

@@ -6,6 +6,7 @@ use crate::checks::own_weight::largest_by_own_weight;
 use crate::checks::refused::largest_share_of_rating;
 use crate::load::law::CornerLoad;
 use crate::result::point::{PointKind, PointResult, size};
+use crate::result::solving::{Solving, one_by_one_because};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
 use crate::task::Task;
@@ -81,12 +82,25 @@ pub(crate) fn summarise(
         max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
         converged: true,
         stable: points.iter().all(|p| p.stable),
+        solving: solving(task, points),
         ..Summary::default()
     };
     if let Some(written) = written {
         of_what_was_written(&mut summary, task, points, written, checked);
     }
     summary
+}
+
+fn solving(task: &Task<'_>, points: &[PointResult]) -> Solving {
+    let follows = task.placement.orientation_follows;
+    let mut solving = Solving {
+        one_by_one_because: one_by_one_because(task.mechanism, follows, true),
+        ..Solving::default()
+    };
+    for point in points {
+        solving.note(point.found_by, 1);
+    }
+    solving
 }
 
 /// Blocks, corner steps, feeds, length and time of a written program.

@@ -1,6 +1,6 @@
 //! A map tells at every place what the general engine tells there.
 
-use kinetostat::{Error, Pose, Wrench};
+use kinetostat::{Error, Pose, Wrench, chain::FoundBy};
 use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, RunError, Unwatched, map};
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
@@ -50,6 +50,8 @@ fn same_as_scalar(task: &MapTask<'_>) -> Vec<PlaceState> {
             Some(wrench) => {
                 let e = posture.deflected_by(wrench).expect("an equilibrium");
                 assert_eq!(place.state == PlaceState::Regular, e.stable(), "{place:?}");
+                let direct = place.found_by == FoundBy::Directly;
+                assert!(direct || place.found_by == e.found_by, "{place:?}");
                 let softest = 1e-3 * e.stiffness_against_force();
                 assert!(
                     near(place.smallest_stiffness_n_per_mm, softest, 1e-7),

@@ -7,6 +7,7 @@ use crate::batch::plan::steps::Plan;
 use crate::batch::run::{Answers, Job};
 use crate::batch::status::{Engine, Status};
 use crate::batch::table::{BLOCK, Table};
+use crate::chain::found_by::FoundBy;
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
@@ -35,6 +36,8 @@ pub struct BatchEquilibrium {
     pub stability: Table,
     /// What became of each.
     pub status: Vec<Status>,
+    /// How each was found: kernels find directly, and of [`Details::Rest`] nothing else is told.
+    pub found_by: Vec<FoundBy>,
     /// Which engine postures of this machine are solved by.
     pub engine: Engine,
 }
@@ -85,6 +88,7 @@ struct Scalar {
     forces: Vec<f64>,
     stiffness: Vec<f64>,
     stability: Vec<f64>,
+    found_by: FoundBy,
 }
 
 impl BatchEquilibrium {
@@ -113,6 +117,8 @@ impl BatchEquilibrium {
         self.engine = batch.engine();
         self.status.clear();
         self.status.resize(count, Status::Unsolved);
+        self.found_by.clear();
+        self.found_by.resize(count, FoundBy::Directly);
     }
 
     /// The stability of one posture; `None` if none was wanted or the posture was not found.
@@ -166,6 +172,7 @@ impl BatchEquilibrium {
         self.stiffness.set_row(i, |k| answer.stiffness[k]);
         self.stability.set_row(i, |k| answer.stability[k]);
         self.status[i] = Status::Scalar;
+        self.found_by[i] = answer.found_by;
     }
 }
 
@@ -180,6 +187,7 @@ impl Scalar {
             forces: forces(posture, state),
             stiffness: Vec::new(),
             stability: Vec::new(),
+            found_by: FoundBy::Directly,
         }
     }
 
@@ -197,6 +205,7 @@ impl Scalar {
                 found.stiffness_against_force(),
                 found.share_to_buckling().unwrap_or(f64::NAN),
             ],
+            found_by: found.found_by,
         }
     }
 }

@@ -29,10 +29,27 @@ use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::inertia;
 use crate::number::larger;
 
+/// Which motions of a shape its tangent stiffness has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentMotions {
+    /// All.
+    All,
+    /// Some were condensed out of it.
+    Condensed,
+}
+
+impl TangentMotions {
+    pub(crate) fn all_if(all: bool) -> Self {
+        match all {
+            true => Self::All,
+            false => Self::Condensed,
+        }
+    }
+}
+
 /// Number of motions in which a shape of tangent stiffness `tangent` (n x n, in units in which motions
-/// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none. `whole`: no
-/// motion of the shape was condensed out of it.
-pub fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, whole: bool) -> usize {
+/// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none.
+pub fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, motions: TangentMotions) -> usize {
     let n = tangent.nrows();
     if n == 0 {
         return 0;
@@ -44,7 +61,7 @@ pub fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, whole: bool) -> usiz
         -symmetric[(i, j)] - if i == j { zero } else { 0.0 }
     });
     let unstable = inertia(shifted).positive;
-    if unstable == 0 || !turns || (whole && unstable == n) {
+    if unstable == 0 || !turns || (motions == TangentMotions::All && unstable == n) {
         return unstable;
     }
     let (_, u) = largest_eigenvalues(&-symmetric, unstable);

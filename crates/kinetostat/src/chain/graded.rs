@@ -13,7 +13,7 @@ use crate::chain::scaling::disparate;
 use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{Form, Sweep};
-use crate::chain::system::System;
+use crate::chain::system::{Hessian, System};
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::{Chain, Scale};
@@ -74,7 +74,7 @@ impl Graded {
         let own = SingularValues::of(&turned);
         let r = own.rank(RANK_TOLERANCE);
         let right = own.right.columns(0, r);
-        let bordered = system.bordered(true);
+        let bordered = system.bordered(Hessian::Kept);
         let torques = DMatrix::from_fn(n, n, |i, j| {
             bordered[(6 + i, 6 + j)] * scales[6 + i] * scales[6 + j]
         });

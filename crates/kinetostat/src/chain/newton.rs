@@ -9,8 +9,8 @@ use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::{natural, scales_of, step_limit};
 use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
-use crate::chain::sweep::stages::{ChainMethod, Form, Sweep, turned_rows};
-use crate::chain::system::{System, rounding};
+use crate::chain::sweep::stages::{ChainMethod, Sweep, turned_rows};
+use crate::chain::system::{Hessian, System, rounding};
 use crate::linalg::saddle::Saddle;
 use crate::number::larger;
 use crate::settings::Settings;
@@ -214,17 +214,13 @@ impl<'p, 'a> Attempt<'p, 'a> {
         &mut self,
         held: Option<&'s Sweep>,
         rows: &Vector6<f64>,
-        with_hessian: bool,
+        hessian: Hessian,
         x: &[f64],
         wrench: &Wrench,
         share: f64,
     ) -> (Tangent<'s>, Vec<f64>) {
         if let Some(sweep) = held {
-            let form = if with_hessian {
-                Form::Exact
-            } else {
-                Form::Lagged
-            };
+            let form = hessian.form();
             let ends = self.end_matrices();
             // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
             let found = STEP_SPRINGS.into_iter().find_map(|spring| {
@@ -238,15 +234,15 @@ impl<'p, 'a> Attempt<'p, 'a> {
             self.system.make_dense();
             self.evaluate_system(x, wrench, share);
         }
-        let saddle = self.dense_tangent(with_hessian);
+        let saddle = self.dense_tangent(hessian);
         let step = self.dense_correction(&saddle, rows);
         (Tangent::Dense(saddle), step)
     }
 
-    fn dense_tangent(&self, with_hessian: bool) -> Saddle {
+    fn dense_tangent(&self, hessian: Hessian) -> Saddle {
         let n = self.system.spring_torque.len();
         let end = &self.problem.end;
-        let mut a = self.system.bordered(with_hessian);
+        let mut a = self.system.bordered(hessian);
         let turn = crate::spatial::turn_matrix(&end.axes);
         let turned = match self.closure_rate() {
             Some(rate) => turn.transpose() * (rate * &self.system.jacobian),
@@ -314,8 +310,9 @@ impl<'p, 'a> Attempt<'p, 'a> {
             // Trials are evaluated elsewhere, for the linearisation refers to this state's stages.
             let other = self.spare.take().or_else(|| self.system.sweep.clone());
             let held = std::mem::replace(&mut self.system.sweep, other);
-            let exact = iteration >= picard;
-            let (tangent, step) = self.linearised(held.as_deref(), &rows, exact, x, wrench, share);
+            let hessian = Hessian::at(iteration, picard);
+            let (tangent, step) =
+                self.linearised(held.as_deref(), &rows, hessian, x, wrench, share);
             if step.iter().any(|v| !v.is_finite()) {
                 return Err((iteration, now));
             }

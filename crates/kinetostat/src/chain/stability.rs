@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::chain::divergence::diverging_motions;
+use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::material::{MaterialUnits, material_springs, without_geometric};
 use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::sweep::solve::EndMotions;
@@ -232,7 +232,7 @@ pub fn stability_within(
                 * (scales[6 + i] * scales[6 + j])
         });
         let turning = motions.transpose() * turning * &motions;
-        unstable_modes = diverging_motions(&(b - a - turning), 0.0, true);
+        unstable_modes = diverging_motions(&(b - a - turning), 0.0, TangentMotions::All);
         stable = unstable_modes == 0;
     }
     let mode = mode.map_or_else(Vec::new, |v| {

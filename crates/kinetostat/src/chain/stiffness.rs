@@ -18,7 +18,7 @@ use crate::chain::graded::Graded;
 use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::scaling::scales_of;
 use crate::chain::sweep::stages::Sweep;
-use crate::chain::system::System;
+use crate::chain::system::{Hessian, System};
 use crate::error::Result;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
@@ -334,7 +334,7 @@ fn unit_motions(
     range: &DMatrix<f64>,
 ) -> DMatrix<f64> {
     let (n, r) = (jacobian.ncols(), range.ncols());
-    let bordered = system.bordered(true);
+    let bordered = system.bordered(Hessian::Kept);
     // Rows of unit length and torques of size one: where the joints hardly move the end (a chain
     // pulled straight) its stiffness is large, but nothing of it is lost.
     let mut reduced = range.transpose() * jacobian;

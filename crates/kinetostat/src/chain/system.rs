@@ -5,12 +5,39 @@ use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
 use crate::chain::problem::ChainProblem;
 use crate::chain::scaling::disparate;
-use crate::chain::sweep::stages::{ChainMethod, SWEEP_FROM, Sweep};
+use crate::chain::sweep::stages::{ChainMethod, Form, SWEEP_FROM, Sweep};
 use crate::model::chain::Chain;
 use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::model::loads::load::Load;
 use crate::number::larger;
 use crate::spatial::{Pose, Wrench};
+
+/// Whether a matrix has the Hessian of the loads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hessian {
+    /// Newton's matrix.
+    Kept,
+    /// That of the report's iteration [R 4.15].
+    LeftOut,
+}
+
+impl Hessian {
+    /// Kept from the iteration on that comes after `picard` without it.
+    pub(crate) fn at(iteration: usize, picard: usize) -> Self {
+        match iteration < picard {
+            true => Self::LeftOut,
+            false => Self::Kept,
+        }
+    }
+
+    /// The same of a sweep.
+    pub(crate) fn form(self) -> Form {
+        match self {
+            Self::Kept => Form::Exact,
+            Self::LeftOut => Form::Lagged,
+        }
+    }
+}
 
 /// Matrices and residuals of a chain at one state; buffers are reused between iterations.
 pub struct System {
@@ -226,8 +253,7 @@ impl System {
     }
 
     /// `[0 J; J^T H - K]` over the six wrench components and the `n` coordinates.
-    /// `with_hessian = false` gives the matrix of the report's iteration [R 4.15].
-    pub fn bordered(&self, with_hessian: bool) -> DMatrix<f64> {
+    pub fn bordered(&self, hessian: Hessian) -> DMatrix<f64> {
         let n = self.spring_torque.len();
         let mut a = DMatrix::zeros(6 + n, 6 + n);
         for j in 0..n {
@@ -236,10 +262,9 @@ impl System {
                 a[(6 + j, k)] = self.jacobian[(k, j)];
             }
             for i in 0..n {
-                let h = if with_hessian {
-                    self.hessian[(i, j)]
-                } else {
-                    0.0
+                let h = match hessian {
+                    Hessian::Kept => self.hessian[(i, j)],
+                    Hessian::LeftOut => 0.0,
                 };
                 a[(6 + i, 6 + j)] = h - self.spring_tangent[(i, j)];
             }

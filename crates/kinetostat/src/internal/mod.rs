@@ -17,7 +17,7 @@ use crate::model::springs::law::SpringLaw;
 
 pub use self::chain_curve::{ChainCurve, CurveState, CurveTangent};
 pub use crate::batch::numbers::instruction_set::InstructionSet;
-pub use crate::chain::divergence::diverging_motions;
+pub use crate::chain::divergence::{TangentMotions, diverging_motions};
 pub use crate::chain::passive::scaled_jacobian;
 pub use crate::chain::scaling::scales_of;
 pub use crate::chain::stability::stability_within;
@@ -25,7 +25,7 @@ pub use crate::chain::stiffness::{chain_stiffness, swept_stiffness};
 pub use crate::chain::sweep::end_spring::END_SPRINGS;
 pub use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows, shape};
 pub use crate::chain::sweep::stages::{ChainMethod, Form, SWEEP_FROM};
-pub use crate::chain::system::System;
+pub use crate::chain::system::{Hessian, System};
 pub use crate::equilibrium::chain::solve_along;
 pub use crate::linalg::block_elimination::{BlockFactors, Pivots};
 pub use crate::linalg::complement::complement;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::chain::directions::scaled_twist;
-use crate::chain::divergence::diverging_motions;
+use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 use crate::linalg::block_elimination::Pivots;
 use crate::linalg::complement::complement;
@@ -149,7 +149,7 @@ pub(crate) fn others_hold(
 }
 
 /// Whether no platform goes away under loads without a potential (divergence), whatever the tangent's symmetric
-/// part is; with `held`, while the tool is held. `whole`: the limbs have no motions of their own besides.
+/// part is; with `held`, while the tool is held. `motions`: all, if the limbs have none of their own besides.
 pub(crate) fn none_diverges(
     tangent: &Sparse,
     directions: &[Direction],
@@ -157,7 +157,7 @@ pub(crate) fn none_diverges(
     platform: usize,
     scale: Scale,
     held: bool,
-    whole: bool,
+    motions: TangentMotions,
 ) -> bool {
     let mut scaled = scaled_tangent(tangent, rigid, platform, scale, held);
     // Of the limbs of a single platform the directions say which motions are impossible.
@@ -167,7 +167,7 @@ pub(crate) fn none_diverges(
         scaled = possible.transpose() * scaled * possible;
     }
     let zero = ZERO_STIFFNESS * scaled.amax();
-    diverging_motions(&scaled, zero, whole) == 0
+    diverging_motions(&scaled, zero, motions) == 0
 }
 
 /// Those of some motions (scaled, orthonormal, by a natural length) across all directions of a kind.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind, Share};
+use crate::chain::divergence::TangentMotions;
 use crate::chain::found_by::FoundBy;
 use crate::chain::link_load::{LinkLoad, link_loads};
 use crate::chain::potential::load_energy;
@@ -395,10 +396,11 @@ impl ToolStiffness {
         let stiffnesses = directions.iter().map(|d| d.stiffness_n_per_m);
         let least = stiffnesses.fold(f64::INFINITY, smaller);
         let free = directions.iter().filter(|d| d.kind == DirectionKind::Free);
-        let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
+        let all = limbs.iter().all(LimbEquilibrium::follows_its_end);
+        let motions = TangentMotions::all_if(all);
         let hold = |held| others_hold(tangent, self.graded.as_ref(), rigid, tool, scale, held);
         let stays = |held| {
-            !conservative && none_diverges(tangent, directions, rigid, tool, scale, held, whole)
+            !conservative && none_diverges(tangent, directions, rigid, tool, scale, held, motions)
         };
         let held = solver.unknowns == Unknowns::Displacement;
         let definite = least >= 0.0 && hold(held);

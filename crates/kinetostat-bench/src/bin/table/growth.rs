@@ -9,7 +9,7 @@ use kinetostat_bench::{BenchQuantity, Places, Task, sample};
 use nalgebra::Vector3;
 
 use crate::{BLOCK, at_most, exponent, median};
-use kinetostat_bench::machines::ARM;
+use kinetostat_bench::machines::{ARM, LinkLaw};
 
 /// A clamped steel tube of 1 m in `pieces` segments.
 fn cantilever(pieces: usize) -> Result<Mechanism> {
@@ -155,7 +155,9 @@ pub fn postures() -> Result<()> {
     ];
     let mut rows = [const { Vec::new() }; 2];
     for count in [1, 10, 100, 1000, 10_000, 100_000, 1_000_000] {
-        line(count, &mut rows, |k| ARM.task(quantities[k], count, false))?;
+        line(count, &mut rows, |k| {
+            ARM.task(quantities[k], count, LinkLaw::Plain)
+        })?;
     }
     // The time of all postures grows with their number, so that of one must stay.
     for rows in &mut rows {

@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use kinetostat_bench::BenchQuantity;
 
 use crate::{BLOCK, median};
-use kinetostat_bench::machines::ALL;
+use kinetostat_bench::machines::{ALL, LinkLaw};
 
 const POSTURES: usize = 1024;
 /// A machine whose postures are solved one by one gets fewer of them.
@@ -26,8 +26,11 @@ pub fn table() -> Result<()> {
         "each"
     );
     for machine in &ALL {
-        for bowing in [false, true] {
-            let name = if bowing { "  bowing" } else { machine.what };
+        for links in [LinkLaw::Plain, LinkLaw::Bowing] {
+            let name = match links {
+                LinkLaw::Plain => machine.what,
+                LinkLaw::Bowing => "  bowing",
+            };
             print!("{name:<34}{:>8}", machine.springs);
             let quantities = [
                 machine.unloaded(),
@@ -36,13 +39,10 @@ pub fn table() -> Result<()> {
             ];
             let mut scalar_counts = Vec::new();
             for (quantity, width) in quantities.into_iter().zip([12, 14, 16]) {
-                let mostly_scalar = machine
-                    .task(quantity, FEW, bowing)?
-                    .not_vectorised(BLOCK)?
-                    .0
-                    > FEW / 2;
+                let mostly_scalar =
+                    machine.task(quantity, FEW, links)?.not_vectorised(BLOCK)?.0 > FEW / 2;
                 let count = if mostly_scalar { FEW } else { POSTURES };
-                let task = machine.task(quantity, count, bowing)?;
+                let task = machine.task(quantity, count, links)?;
                 let time = median(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");

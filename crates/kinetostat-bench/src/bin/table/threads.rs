@@ -6,7 +6,7 @@ use anyhow::Result;
 use kinetostat_bench::{BenchQuantity, Results};
 
 use crate::{BLOCK, at_least, at_most, median, pass};
-use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
+use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, LinkLaw, PUU3};
 
 /// What a call for two threads takes about, us: long against waking a thread, short enough that
 /// other programs leave both cores alone now and then.
@@ -26,8 +26,8 @@ pub fn single() -> Result<()> {
     println!("{:<8}{:>10}{:>10}{:>8}", "work", "batch", "single", "ratio");
     let mut figures = Vec::new();
     for (name, machine, quantity) in &CASES {
-        let batch = median(&machine.task(*quantity, 2 * BLOCK, false)?, BLOCK)?;
-        let single = median(&machine.task(*quantity, 64, false)?, 1)?;
+        let batch = median(&machine.task(*quantity, 2 * BLOCK, LinkLaw::Plain)?, BLOCK)?;
+        let single = median(&machine.task(*quantity, 64, LinkLaw::Plain)?, 1)?;
         println!(
             "{name:<8}{batch:>10.3}{single:>10.3}{:>8.2}",
             single / batch
@@ -53,9 +53,9 @@ pub fn two() -> Result<()> {
     let pools = (pool(1)?, pool(2)?);
     let mut figures = Vec::new();
     for (name, machine, quantity) in &CASES {
-        let each = median(&machine.task(*quantity, BLOCK, false)?, BLOCK)?;
+        let each = median(&machine.task(*quantity, BLOCK, LinkLaw::Plain)?, BLOCK)?;
         let many = ((PASS / each / BLOCK as f64) as usize).clamp(4, 32) * BLOCK;
-        let task = machine.task(*quantity, many, false)?;
+        let task = machine.task(*quantity, many, LinkLaw::Plain)?;
         let mut results = Results::default();
         // Interleaved, and the best of each: both cores are seldom free at once.
         let (mut one, mut two) = (f64::INFINITY, f64::INFINITY);

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind};
-use crate::chain::divergence::diverging_motions;
+use crate::chain::divergence::{TangentMotions, diverging_motions};
 use crate::chain::graded::{levels, root_rows};
 use crate::continuation::curve_equilibrium::{CurveEquilibrium, CurveStability};
 use crate::continuation::machine::tool_conditions::ToolConditions;
@@ -162,7 +162,8 @@ impl ToolConditions<'_> {
         let unstable = match below > 0 && !self.conservative(e, motions) {
             true => {
                 let k = possible.transpose() * self.scaled_stiffness(e) * &possible;
-                diverging_motions(&k, 1e-9 * k.amax(), e.moves_with_its_tool())
+                let motions = TangentMotions::all_if(e.moves_with_its_tool());
+                diverging_motions(&k, 1e-9 * k.amax(), motions)
             }
             false => below,
         };

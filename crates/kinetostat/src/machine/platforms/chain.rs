@@ -99,10 +99,10 @@ impl PlatformSolver<'_> {
         tangents: Tangents,
     ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
         let mut new = None;
-        if let Tangents::New { with_hessian } = tangents {
+        if let Tangents::New { hessian } = tangents {
             let (equilibrium, rows) = self.equilibrium_rows();
             self.equilibrium = Some(equilibrium);
-            new = Some((with_hessian, rows));
+            new = Some((hessian, rows));
         }
         let (tool, k) = (self.mechanism.tool(), self.guided());
         let pose = &self.state.platforms[tool];
@@ -120,13 +120,13 @@ impl PlatformSolver<'_> {
             };
             given * equilibrium.sizes[i]
         });
-        if let Some((with_hessian, rows)) = new {
+        if let Some((hessian, rows)) = new {
             let linear = &mut self.linear[0];
-            if !linear.linearise_loaded(with_hessian, rows, &right, &self.scales[0]) {
+            if !linear.linearise_loaded(hessian, rows, &right, &self.scales[0]) {
                 linear.system.make_dense();
                 self.evaluate_limb(0);
                 let linear = &mut self.linear[0];
-                linear.linearise_loaded(with_hessian, rows, &right, &self.scales[0]);
+                linear.linearise_loaded(hessian, rows, &right, &self.scales[0]);
             }
         }
         let equilibrium = self.equilibrium.as_ref()?;

@@ -10,7 +10,8 @@ use crate::chain::equilibrium::System;
 use crate::chain::passive::scaled_jacobian;
 use crate::chain::sweep::end_spring::{END_SPRINGS, STEP_SPRINGS};
 use crate::chain::sweep::solve::{Bordered, EndRows, unit_motions_of};
-use crate::chain::sweep::stages::{Form, Sweep};
+use crate::chain::sweep::stages::Sweep;
+use crate::chain::system::Hessian;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Saddle, column_space, rows_certainly_independent};
 use crate::spatial::Twist;
@@ -81,12 +82,9 @@ impl Linear {
 
     /// Linearises with the loads' Hessian or without; `false` where a sweep lost a pivot: then the
     /// system must be made dense and evaluated again.
-    pub fn linearise(&mut self, with_hessian: bool, scales: &[f64]) -> bool {
+    pub fn linearise(&mut self, hessian: Hessian, scales: &[f64]) -> bool {
         if let Some(sweep) = &self.system.sweep {
-            let form = match with_hessian {
-                true => Form::Exact,
-                false => Form::Lagged,
-            };
+            let form = hessian.form();
             let range = column_space(&scaled_jacobian(&self.system, scales));
             let swept = END_SPRINGS.into_iter().find_map(|spring| {
                 let rows = EndRows::held(&range);
@@ -109,13 +107,13 @@ impl Linear {
             self.solution = solution;
             self.tangent = Some((Tangent::Swept(Box::new(bordered)), Tip::Held(range)));
         } else {
-            self.linearise_densely(with_hessian, scales);
+            self.linearise_densely(hessian, scales);
         }
         self.rigid = rigid_wrenches(&self.system, scales);
         true
     }
 
-    fn linearise_densely(&mut self, with_hessian: bool, scales: &[f64]) {
+    fn linearise_densely(&mut self, hessian: Hessian, scales: &[f64]) {
         let system = &self.system;
         let n = system.spring_torque.len();
         let extra = system.kinematics.velocity_count() - n;
@@ -127,14 +125,14 @@ impl Linear {
                 b[(k, 7 + j)] = -system.jacobian[(k, n + j)];
             }
         }
-        if with_hessian {
+        if hessian == Hessian::Kept {
             for row in 0..n {
                 for j in 0..extra {
                     b[(6 + row, 7 + j)] = -system.hessian[(row, n + j)];
                 }
             }
         }
-        let saddle = Saddle::new(system.bordered(with_hessian), scales, scales);
+        let saddle = Saddle::new(system.bordered(hessian), scales, scales);
         saddle.solve(&mut b);
         // The whole tip is held.
         let all = DMatrix::identity(6, 6);
@@ -147,16 +145,13 @@ impl Linear {
     /// these conditions are off by now.
     pub fn linearise_loaded(
         &mut self,
-        with_hessian: bool,
+        hessian: Hessian,
         rows: EndRows,
         right: &Vector6<f64>,
         scales: &[f64],
     ) -> bool {
         let tangent = if let Some(sweep) = &self.system.sweep {
-            let form = match with_hessian {
-                true => Form::Exact,
-                false => Form::Lagged,
-            };
+            let form = hessian.form();
             let swept = STEP_SPRINGS.into_iter().find_map(|spring| {
                 let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
                 self.swept_residual(&bordered, right, scales)?;
@@ -167,7 +162,7 @@ impl Linear {
             };
             Tangent::Swept(Box::new(bordered))
         } else {
-            let mut a = self.system.bordered(with_hessian);
+            let mut a = self.system.bordered(hessian);
             let jacobian = scaled_jacobian(&self.system, scales);
             let moved = rows.motion * jacobian;
             for k in 0..6 {

@@ -4,6 +4,7 @@ use nalgebra::{DVector, Vector6};
 
 use crate::chain::found_by::FoundBy;
 use crate::chain::scaling::{aside, step_limit};
+use crate::chain::system::Hessian;
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
@@ -55,7 +56,7 @@ impl PlatformSolver<'_> {
                 .flatten();
             let reused = old.is_some();
             let new = Tangents::New {
-                with_hessian: iteration >= picard,
+                hessian: Hessian::at(iteration, picard),
             };
             let Some((step, steps)) = old.or_else(|| self.newton(&unbalanced, &here, new)) else {
                 return Err((iteration, now));

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 
+use crate::chain::system::Hessian;
 use crate::spatial::{Directions, Pose, Twist, Wrench, hat, pose_residual};
 
 /// How the unknowns of the platform equations are divided.
@@ -68,7 +69,7 @@ impl Guide {
 #[derive(Clone, Copy)]
 pub(crate) enum Tangents {
     /// Those at the state evaluated last.
-    New { with_hessian: bool },
+    New { hessian: Hessian },
     /// Those of the step before.
     Old,
 }

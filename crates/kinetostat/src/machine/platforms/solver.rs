@@ -21,6 +21,7 @@ use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::LEAST_LOAD;
 use crate::chain::stability::{ShapeStability, shape_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
+use crate::chain::system::Hessian;
 use crate::linalg::largest::largest;
 use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
@@ -351,7 +352,7 @@ impl<'m> PlatformSolver<'m> {
     pub fn finish(&mut self) -> (Sparse, Vec<Wrench>) {
         self.share = 1.0;
         let (_, unbalanced) = self.evaluate();
-        self.linearise(true);
+        self.linearise(Hessian::Kept);
         for (linear, (limb, scales)) in self
             .linear
             .iter_mut()

@@ -6,6 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
+use crate::chain::system::Hessian;
 use crate::linalg::sparse::Sparse;
 use crate::machine::platform_system::{PlatformSystem, RigidRows};
 use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
@@ -33,12 +34,12 @@ fn is_exchanged(exchanged: Directions, tool: usize, unknown: usize) -> bool {
 
 impl PlatformSolver<'_> {
     /// Solves every limb's bordered system for closure, end, command and base motions.
-    pub fn linearise(&mut self, with_hessian: bool) {
+    pub fn linearise(&mut self, hessian: Hessian) {
         for i in 0..self.linear.len() {
-            if !self.linear[i].linearise(with_hessian, &self.scales[i]) {
+            if !self.linear[i].linearise(hessian, &self.scales[i]) {
                 self.linear[i].system.make_dense();
                 self.evaluate_limb(i);
-                self.linear[i].linearise(with_hessian, &self.scales[i]);
+                self.linear[i].linearise(hessian, &self.scales[i]);
             }
         }
     }
@@ -70,8 +71,8 @@ impl PlatformSolver<'_> {
             return self.step_of_chain(unbalanced, tangents);
         }
         match tangents {
-            Tangents::New { with_hessian } => {
-                self.linearise(with_hessian);
+            Tangents::New { hessian } => {
+                self.linearise(hessian);
                 if matches!(self.unknowns, Unknowns::Target(_)) {
                     self.refresh_rates();
                 }

@@ -1,6 +1,6 @@
 //! Motions that run away under loads that follow: closed forms and random matrices.
 
-use kinetostat::internal::diverging_motions;
+use kinetostat::internal::{TangentMotions, diverging_motions};
 use nalgebra::DMatrix;
 
 /// Ziegler's column: two bars of length one, two springs of one, a force that follows the second
@@ -22,13 +22,13 @@ fn a_follower_force_diverges_where_the_determinant_says() {
         let (first, second) = ((3.0 * b - root) / (2.0 * b), (3.0 * b + root) / (2.0 * b));
         for (force, count) in [(0.0, 0), (first - 1e-6, 0), (first + 1e-6, 1)] {
             assert_eq!(
-                diverging_motions(&column(force, a), 0.0, true),
+                diverging_motions(&column(force, a), 0.0, TangentMotions::All),
                 count,
                 "{a} {force}"
             );
         }
         assert_eq!(
-            diverging_motions(&column(second - 1e-6, a), 0.0, true),
+            diverging_motions(&column(second - 1e-6, a), 0.0, TangentMotions::All),
             1,
             "{a}"
         );
@@ -37,7 +37,7 @@ fn a_follower_force_diverges_where_the_determinant_says() {
     for a in [0.56, 0.8, 1.0] {
         for force in [0.3, 1.0, 1.5, 1.9] {
             assert_eq!(
-                diverging_motions(&column(force, a), 0.0, true),
+                diverging_motions(&column(force, a), 0.0, TangentMotions::All),
                 0,
                 "{a} {force}"
             );
@@ -62,7 +62,7 @@ fn of_two_motions_the_stability_is_that_of_all_masses_in_all_units() {
         let t = DMatrix::from_fn(2, 2, |_, _| random(&mut state));
         let skew = 3.0 * random(&mut state);
         let t = &t + DMatrix::from_row_slice(2, 2, &[-0.5, skew, -skew, -0.5]);
-        let count = diverging_motions(&t, 0.0, true);
+        let count = diverging_motions(&t, 0.0, TangentMotions::All);
         let symmetric = 0.5 * (&t + t.transpose());
         let own = symmetric.symmetric_eigenvalues();
         let awaited = match (t.determinant() < 0.0, own.max() < 0.0) {
@@ -76,7 +76,7 @@ fn of_two_motions_the_stability_is_that_of_all_masses_in_all_units() {
         if other.determinant().abs() > 0.05 {
             let moved = other.transpose() * &t * &other;
             assert_eq!(
-                diverging_motions(&moved, 0.0, true),
+                diverging_motions(&moved, 0.0, TangentMotions::All),
                 awaited,
                 "case {case}: {t}"
             );
@@ -111,7 +111,7 @@ fn its_parity_is_the_sign_of_the_determinant() {
         let t = DMatrix::from_fn(n, n, |_, _| next());
         let shift = DMatrix::identity(n, n) * 0.5;
         let t = 0.5 * (&t + t.transpose()) + skew * 0.5 * (&t - t.transpose()) + shift;
-        let count = diverging_motions(&t, 0.0, true);
+        let count = diverging_motions(&t, 0.0, TangentMotions::All);
         counts[count] += 1;
         assert_eq!(count % 2 == 1, t.determinant() < 0.0, "case {case}: {t}");
         if skew == 0.0 {

@@ -1,0 +1,123 @@
+//! `kinetostat curve` and `kinetostat equilibria` warn of loads and displacements as `deflect` does, and say when they
+//! have no answer.
+
+use serde_json::Value;
+
+use crate::common::{run, workplace};
+
+/// Warnings of a code in the JSON of a command on the model of the workplace; the same are in the text.
+fn warned(command: &[&str], code: &str) -> bool {
+    let here = workplace();
+    let said = run(here.path(), &[command, &["--json"]].concat()).answered();
+    let answer: Value = serde_json::from_str(&said.out).expect("JSON");
+    let list = answer["warnings"].as_array().expect("a list");
+    let found = list.iter().find(|w| w["code"] == code);
+    if let Some(warning) = found {
+        let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let message = flat(warning["message"].as_str().expect("a text"));
+        assert!(flat(&said.err).contains(&message), "{said:?}");
+    }
+    found.is_some()
+}
+
+/// A tangential force on the arm of 0.8 m, whose joint and boom give way by 5 % of it under 3.5 kN.
+#[test]
+fn a_load_beyond_its_limit_is_warned_of_by_every_command() {
+    for (force, large, folds) in [
+        ("2000", false, false),
+        ("4900", false, true),
+        ("6000", true, true),
+    ] {
+        let load = ["--force", "0", force, "0"];
+        for command in [
+            [&["deflect", "model.toml"], &load[..]].concat(),
+            [&["equilibria", "model.toml"], &load[..]].concat(),
+            [&["curve", "model.toml"], &load[..], &["--factor", "0", "1"]].concat(),
+            [
+                &["curve", "model.toml", "--force", "0", "-1", "0"],
+                &["--factor", "0", force][..],
+            ]
+            .concat(),
+        ] {
+            assert_eq!(warned(&command, "over_limit"), large, "{command:?}");
+            assert_eq!(warned(&command, "large_displacement"), folds, "{command:?}");
+        }
+    }
+}
+
+/// What acts all the time counts, beside a motion that grows or a load that does.
+#[test]
+fn a_constant_load_is_warned_of_as_well() {
+    let pushed = [
+        "--direction",
+        "0",
+        "1",
+        "0",
+        "--displacement-mm",
+        "0",
+        "1",
+        "--free",
+        "x",
+    ];
+    for (moment, large) in [("150", false), ("250", true)] {
+        let constant = ["--constant-moment", "0", "0", moment];
+        let grown = ["--moment", "0", "0", "1", "--factor", "0", "10"];
+        let command = [&["curve", "model.toml"], &grown[..], &constant].concat();
+        assert_eq!(warned(&command, "over_limit"), large, "{command:?}");
+        let command = [&["equilibria", "model.toml"], &constant[..]].concat();
+        assert_eq!(warned(&command, "over_limit"), large, "{command:?}");
+    }
+    let command = [
+        &["curve", "model.toml"],
+        &pushed[..],
+        &["--constant-force", "6000", "0", "0"],
+    ]
+    .concat();
+    assert!(warned(&command, "over_limit"), "{command:?}");
+}
+
+/// Nothing found is no answer, and the reasons that are given are those of the question.
+#[test]
+fn a_search_without_an_equilibrium_has_no_answer_and_gives_reasons_that_fit() {
+    let here = workplace();
+    let loaded = ["--moment", "0", "0", "1e40"];
+    let held = ["--displaced-mm", "20000", "0", "0"];
+    for (command, reason, other) in [
+        (
+            [&["equilibria", "two_link"], &loaded[..]].concat(),
+            "more than the chain can carry",
+            "reach",
+        ),
+        (
+            [&["equilibria", "three_link_z"], &held[..]].concat(),
+            "out of the chain's reach",
+            "carry",
+        ),
+        (
+            [&["equilibria", "orthoglide", "--starts", "3"], &loaded[..]].concat(),
+            "more than the machine can carry",
+            "chain",
+        ),
+    ] {
+        let said = run(here.path(), &command);
+        assert_eq!(said.code, 2, "{command:?}: {said:?}");
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, rest) = flat
+            .split_once("No equilibrium was found.")
+            .expect("the result");
+        let (result, _) = rest.split_once("How complete").expect("the coverage");
+        assert!(
+            result.contains(reason) && !result.contains(other),
+            "{result}"
+        );
+        assert!(said.err.contains("no equilibrium of the"), "{said:?}");
+    }
+    let grown = ["--factor", "0", "1"];
+    let said = run(
+        here.path(),
+        &[&["curve", "two_link"], &loaded[..], &grown].concat(),
+    );
+    assert_eq!(said.code, 2, "{said:?}");
+    assert!(said.out.contains("1 point"), "{said:?}");
+    assert!(said.err.contains("could not be followed"), "{said:?}");
+}
