@@ -11,7 +11,7 @@ mod solve;
 mod text;
 mod unanswered;
 
-use kinetostat_machining::{MapTask, Solving, Warning, large_load, straight_tool};
+use kinetostat_machining::{MapTask, Warning, large_load, straight_tool};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
@@ -76,6 +76,8 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     if follows {
         warnings.push(orientation::follows(turned, requested.is_some(), true));
     }
+    let mut solving = figures.solving.clone();
+    solving.one_by_one_because = task.one_by_one_because();
     let answer = MapAnswer {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -97,10 +99,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         deviations: deviation_descriptions(&model),
         places: figures.places,
         figures: figures.answer(load.is_some()),
-        solving: Solving {
-            one_by_one_because: task.one_by_one_because(),
-            ..figures.solving
-        },
+        solving,
         warnings,
     };
     if let Some(index) = plot {

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// How many places were found in one way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct FoundCount {
     /// Not [`FoundBy::Directly`].
     pub found_by: FoundBy,
@@ -17,6 +18,7 @@ pub struct FoundCount {
 /// How the equilibria of many places were found, where it was not the usual way: directly, and by kernels that take many
 /// places at once.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Solving {
     /// Places that were not found directly.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
