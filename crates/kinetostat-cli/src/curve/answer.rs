@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
-use crate::machine::displacement_warnings::{folds, stretches};
+use crate::machine::displacement_warnings::{folds, large_reaction, stretches};
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Failure;
 
@@ -55,9 +55,9 @@ pub(crate) struct CurveAnswer {
 }
 
 impl CurveAnswer {
-    /// With a warning where the tool goes further than a machine of this size (m) can, or where a growing load that it
-    /// bears folds it over.
-    pub(crate) fn with_displacement_warning(mut self, size: f64) -> Self {
+    /// With warnings where the tool goes further than a machine of this size (m) can, where a growing load that it
+    /// bears folds it over, and where a motion takes more force than any cut has.
+    pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
         let Some(own) = self.branches.first() else {
             return self;
         };
@@ -71,7 +71,12 @@ impl CurveAnswer {
         let by_load = (self.grows == "load").then(|| borne.map(away).fold(0.0, larger));
         let warning =
             stretches(farthest, size).or_else(|| by_load.and_then(|far| folds(far, size)));
+        let reactions = own.points.iter().map(|p| Vector3::from(p.force_n).norm());
+        let largest = (self.grows != "load").then(|| reactions.fold(0.0, larger));
         self.warnings.extend(warning);
+        self.warnings
+            .extend(largest.into_iter().flat_map(large_reaction));
+        self.warnings.dedup();
         self
     }
 

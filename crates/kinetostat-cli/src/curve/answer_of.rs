@@ -1,8 +1,10 @@
 //! The answer of `curve` from what was followed of a chain or a machine.
 
-use kinetostat::continuation::CurveEquilibrium;
+use kinetostat::Parameter;
+use kinetostat::continuation::{Branch, CurveEquilibrium};
 use kinetostat_analysis::rotation::ContinuousRotation;
 use kinetostat_machining::large_load;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::curve::answer::{CurveAnswer, Units, grows, reached};
 use crate::curve::followed::Followed;
@@ -10,6 +12,40 @@ use crate::curve::points::View;
 use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::subject::Subject;
 use crate::place::query::PlaceAnswer;
+
+/// Displacement along the growing load where the curve starts, from the commanded place, m or rad. The conjugate of a
+/// machine counts from there, that of a chain from the curve's start; so does that of forces on nodes, which have no
+/// commanded place.
+fn displacement_at_start<E: CurveEquilibrium>(
+    q: &CurveQuery,
+    branches: &[Branch<E>],
+    place: &PlaceAnswer,
+) -> f64 {
+    let Parameter::Load(pattern) = &q.parameter else {
+        return 0.0;
+    };
+    let own = branches.first().and_then(|b| b.points.get(b.start));
+    let Some(start) = own.filter(|_| q.holding.subject == "chain") else {
+        return 0.0;
+    };
+    let tool = start.equilibrium.tool();
+    let along = |direction: Vector3<f64>, displacement: Vector3<f64>| {
+        let direction = direction.try_normalize(0.0);
+        direction.map_or(0.0, |direction| direction.dot(&displacement))
+    };
+    match q.measure {
+        Measure::Force(_) => {
+            let commanded = Vector3::from(place.position_mm) * 1e-3;
+            along(pattern.end.force(), tool.translation.vector - commanded)
+        }
+        Measure::Moment(_) => {
+            let commanded = Vector3::from(place.rotation_vector_deg).map(f64::to_radians);
+            let turned = tool.rotation * UnitQuaternion::from_scaled_axis(commanded).inverse();
+            along(pattern.end.moment(), turned.scaled_axis())
+        }
+        Measure::Work => 0.0,
+    }
+}
 
 pub(crate) fn answer_of<S: Subject>(
     subject: &S,
@@ -32,6 +68,7 @@ pub(crate) fn answer_of<S: Subject>(
             Measure::Moment(_) if q.by_load() => ContinuousRotation::of(branches, specials),
             _ => ContinuousRotation::none(),
         },
+        at_start: displacement_at_start(q, &followed.branches, &place),
     };
     let (named_points, jumps) = view.named();
     let own = branches.first().map_or(&[][..], |b| &b.points);

@@ -80,18 +80,29 @@ pub(crate) fn add_shapes_off_the_curve<E>(
     Ok(warnings)
 }
 
+/// A branch shorter than this, in natural units, is its start.
+const AWAY: f64 = 1e-9;
+
 impl<E: CurveEquilibrium> Followed<E> {
-    /// The curve ends where it starts, because the load there is none of those that were asked for.
+    /// The load where the curve starts is none of those that were asked for; a curve that leads away from them ends there.
     fn starts_outside(&self, q: &CurveQuery) -> Option<Warning> {
         let (low, high) = q.force_limits?;
-        let start = self.branches.first()?.points.first()?;
-        let load = start.conjugate;
+        let own = self.branches.first()?;
+        let load = own.points.get(own.start)?.conjugate;
+        let goes_on = own.points.iter().any(|p| p.arc > AWAY);
+        let (ends, until) = match goes_on {
+            false => ("ends where it starts", ""),
+            true => (
+                "starts outside its limits",
+                ", and is shown until it leaves them",
+            ),
+        };
         let unit = Units::of(q).load_unit;
         (load < low || load > high).then(|| {
             Warning::new(
                 WarningCode::CurveEnds,
                 format!(
-                    "the curve ends where it starts: the load there is {} {unit}, outside --force-limits {low} {high}. Give limits that hold it",
+                    "the curve {ends}: the load there is {} {unit}, outside --force-limits {low} {high}{until}. Give limits that hold it",
                     short(load)
                 ),
             )

@@ -47,14 +47,17 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
             let q = curve_query(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 let followed = chain::follow(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, followed, place, names).with_displacement_warning(size))
+                Ok(answer_of(&chain, &q, followed, place, names).with_plausibility_warnings(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = curve_query(&machine.moves, None, args)?;
             Ok(Box::new(move |place, names, stage| {
                 let followed = machine::follow(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, followed, place, names).with_displacement_warning(size))
+                Ok(
+                    answer_of(&machine, &q, followed, place, names)
+                        .with_plausibility_warnings(size),
+                )
             }))
         }
     };

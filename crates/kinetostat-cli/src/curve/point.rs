@@ -5,19 +5,19 @@ use kinetostat::continuation::{CurveEquilibrium, CurvePoint, CurveStability};
 use crate::curve::answer::PointAnswer;
 use crate::curve::query::{CurveQuery, Measure};
 
-/// In the units of the query. `turned`: whole turns of the tool about the growing moment, rad; `coordinates`: in their
-/// units.
+/// In the units of the query. `more`: what the displacement along the growing load has more than its conjugate, m or rad;
+/// `coordinates`: in their units.
 pub(crate) fn point_answer<E: CurveEquilibrium>(
     p: &CurvePoint<E>,
     q: &CurveQuery,
-    turned: f64,
+    more: f64,
     coordinates: Vec<f64>,
 ) -> PointAnswer {
     let by_load = q.by_load();
     let [displacement, load, slope] = match (q.measure, by_load) {
         (Measure::Force(_), false) => [1e3 * p.parameter, p.conjugate, 1e-3 * p.slope],
         (Measure::Force(f), true) => [
-            1e3 * p.conjugate / f,
+            1e3 * (p.conjugate / f + more),
             f * p.parameter,
             1e-3 * f * f * p.slope,
         ],
@@ -25,7 +25,7 @@ pub(crate) fn point_answer<E: CurveEquilibrium>(
             [p.parameter.to_degrees(), p.conjugate, p.slope.to_radians()]
         }
         (Measure::Moment(m), true) => [
-            (p.conjugate / m + turned).to_degrees(),
+            (p.conjugate / m + more).to_degrees(),
             m * p.parameter,
             (m * m * p.slope).to_radians(),
         ],

@@ -22,6 +22,8 @@ pub(crate) struct View<'v, S: Subject> {
     pub(crate) q: &'v CurveQuery,
     pub(crate) curves: &'v Followed<S::Equilibrium>,
     pub(crate) rotation: ContinuousRotation,
+    /// See [`displacement_at_start`].
+    pub(crate) at_start: f64,
 }
 
 impl<S: Subject> View<'_, S> {
@@ -29,7 +31,7 @@ impl<S: Subject> View<'_, S> {
     /// that grows, rad.
     fn point(&self, p: &CurvePoint<S::Equilibrium>, more: &Vector3<f64>) -> PointAnswer {
         let coordinates = self.subject.values(&p.equilibrium);
-        point_answer(p, self.q, self.about(more), coordinates)
+        point_answer(p, self.q, self.about(more) + self.at_start, coordinates)
     }
 
     /// The part of a rotation vector about the growing moment.

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
-use crate::machine::displacement_warnings::{folds, stretches};
+use crate::machine::displacement_warnings::{folds, large_reaction, stretches};
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Failure;
 use crate::ui::numbers::number;
@@ -87,9 +87,10 @@ pub(crate) struct Coverage {
 const NO_ENERGY: f64 = 1e-20;
 
 impl EquilibriaAnswer {
-    /// With a warning where even the equilibrium nearest to the commanded place is so far from it that a load folds a
-    /// machine of this size (m) over, or that its springs are stretched.
-    pub(crate) fn with_displacement_warning(mut self, size: f64) -> Self {
+    /// With warnings where even the equilibrium nearest to the commanded place is so far from it that a load folds a
+    /// machine of this size (m) over, or that its springs are stretched; and where to hold the tool takes more force in
+    /// every equilibrium than any cut has.
+    pub(crate) fn with_plausibility_warnings(mut self, size: f64) -> Self {
         let commanded = Vector3::from(self.place.position_mm);
         let away = |e: &ShapeAnswer| 1e-3 * (Vector3::from(e.position_mm) - commanded).norm();
         let nearest = self.equilibria.iter().map(away).reduce(smaller);
@@ -97,6 +98,14 @@ impl EquilibriaAnswer {
             let by_load = || folds(far, size).filter(|_| self.tool_held.held.is_empty());
             stretches(far, size).or_else(by_load)
         }));
+        let reactions = self.equilibria.iter();
+        let least = reactions
+            .map(|e| Vector3::from(e.force_n).norm())
+            .reduce(smaller);
+        let held = !self.tool_held.held.is_empty();
+        let least = least.filter(|_| held).into_iter();
+        self.warnings.extend(least.flat_map(large_reaction));
+        self.warnings.dedup();
         self
     }
 

@@ -39,14 +39,14 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
             let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 let all = found::of_chain(&chain, &q, stage)?;
-                Ok(answer_of(&chain, &q, all, place, names).with_displacement_warning(size))
+                Ok(answer_of(&chain, &q, all, place, names).with_plausibility_warnings(size))
             }))
         } else {
             let machine = CommandedMachine::of(query, &args.end)?;
             let q = equilibria_query(&machine.moves, args)?;
             Ok(Box::new(move |place, names, stage| {
                 let all = found::of_machine(&machine, &q, stage)?;
-                Ok(answer_of(&machine, &q, all, place, names).with_displacement_warning(size))
+                Ok(answer_of(&machine, &q, all, place, names).with_plausibility_warnings(size))
             }))
         }
     };

@@ -1,7 +1,9 @@
 //! Warnings of displacements that are no deflections any more: the machine folds over, or snaps.
 
+use kinetostat::Wrench;
 use kinetostat::error::LoadLimit;
-use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_machining::{Warning, WarningCode, large_load};
+use nalgebra::Vector3;
 
 use crate::ui::numbers::{fixed, number, triple};
 
@@ -29,6 +31,18 @@ pub(crate) fn stretches(far: f64, size: f64) -> Option<Warning> {
             number(far / size, 2)
         ))
     })
+}
+
+/// A motion that is prescribed may take more force than a cut has: only so many times as much is warned of.
+const REACTION: f64 = 10.0;
+
+/// To hold or to push the tool takes this force, N, which no machine bears.
+pub(crate) fn large_reaction(force: f64) -> Vec<Warning> {
+    let as_load = |force: f64| Wrench::new(Vector3::x() * force, Vector3::zeros());
+    match large_load(&as_load(force / REACTION)).is_empty() {
+        true => Vec::new(),
+        false => large_load(&as_load(force)),
+    }
 }
 
 /// The answer lies beyond a limit point of the load.

@@ -121,3 +121,101 @@ fn a_search_without_an_equilibrium_has_no_answer_and_gives_reasons_that_fit() {
     assert!(said.out.contains("1 point"), "{said:?}");
     assert!(said.err.contains("could not be followed"), "{said:?}");
 }
+
+fn answer(command: &[&str]) -> Value {
+    let here = workplace();
+    let said = run(here.path(), &[command, &["--json"]].concat()).answered();
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+/// A motion that is prescribed may take more force than any machine bears.
+#[test]
+fn a_motion_that_takes_an_absurd_force_is_warned_of() {
+    let by = |mm: &str| {
+        let push = ["--direction", "1", "0", "0", "--displacement-mm", "0", mm];
+        warned(&[&["curve", "heavy_6r"], &push[..]].concat(), "over_limit")
+    };
+    assert!(!by("5"));
+    assert!(by("500"));
+    let held = |mm: &str| {
+        let words = ["equilibria", "heavy_6r", "--displaced-mm", mm, "0", "0"];
+        warned(&words, "over_limit")
+    };
+    assert!(!held("5"));
+    assert!(held("500"));
+}
+
+/// The displacement under a growing load counts from the commanded place, for a chain as for a machine, and wherever the
+/// curve starts.
+#[test]
+fn displacements_count_from_the_commanded_place() {
+    for machine in ["heavy_6r", "delta"] {
+        let ends = |low: &str, high: &str| {
+            let load = ["--force", "0", "0", "-1", "--factor", low, high];
+            let answer = answer(&[&["curve", machine], &load[..]].concat());
+            let commanded = answer["place"]["position_mm"][2]
+                .as_f64()
+                .expect("a height");
+            let points = answer["branches"][0]["points"]
+                .as_array()
+                .expect("points")
+                .clone();
+            let of = |point: &Value| {
+                let shown = point["displacement_mm"].as_f64().expect("a displacement");
+                let height = point["position_mm"][2].as_f64().expect("a height");
+                assert!(
+                    (shown - (commanded - height)).abs() < 1e-9,
+                    "{machine}: {point}"
+                );
+                shown
+            };
+            (of(&points[0]), of(&points[points.len() - 1]))
+        };
+        let (whole, half) = (ends("0", "10"), ends("5", "10"));
+        assert!(whole.0 > 0.01, "its own weight: {whole:?}");
+        assert!(
+            (whole.1 - half.1).abs() < 1e-9,
+            "{machine}: {whole:?} {half:?}"
+        );
+    }
+}
+
+/// Slides commanded to zero, within rounding, are not turned inside out by a deflection.
+#[test]
+fn a_slide_at_zero_keeps_its_equilibrium() {
+    for (machine, load) in [
+        ("prs3", &["--force", "100", "0", "0"][..]),
+        ("hexaglide", &["--displaced-mm", "0", "0", "0"]),
+    ] {
+        let answer = answer(&[&["equilibria", machine], load].concat());
+        let list = answer["equilibria"].as_array().expect("a list");
+        let commanded = answer["place"]["position_mm"].as_array().expect("a place");
+        let near = list.iter().any(|shape| {
+            let at = shape["position_mm"].as_array().expect("a place");
+            let away = |k: usize| at[k].as_f64().unwrap() - commanded[k].as_f64().unwrap();
+            shape["stable"] == true && (0..3).all(|k| away(k).abs() < 1.0)
+        });
+        assert!(near, "{machine}: {list:?}");
+    }
+}
+
+/// A curve that starts outside its limits and does not lead away from them goes on.
+#[test]
+fn a_curve_from_outside_its_limits_says_where_it_goes_on() {
+    let push = ["--direction", "1", "0", "0", "--displacement-mm", "0", "10"];
+    let limits = ["--force-limits", "5", "6"];
+    let answer = answer(&[&["curve", "three_link_z"], &push[..], &limits[..]].concat());
+    let points = answer["branches"][0]["points"].as_array().expect("points");
+    assert!(points.len() > 5);
+    let list = answer["warnings"].as_array().expect("a list");
+    let said = list.iter().map(|w| w["message"].as_str().expect("a text"));
+    let said: Vec<_> = said
+        .filter(|text| text.contains("--force-limits"))
+        .collect();
+    assert!(!said.is_empty());
+    assert!(
+        said.iter()
+            .all(|text| !text.contains("ends where it starts")),
+        "{said:?}"
+    );
+}

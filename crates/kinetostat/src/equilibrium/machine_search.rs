@@ -30,6 +30,9 @@ const FOLLOWED: usize = 24;
 /// How far curves are followed from the target, in sizes of the machine.
 const FOLLOWED_SIZES: f64 = 2.0;
 
+/// A slide that turns inside out goes further than this share of the machine's size.
+const INSIDE_OUT: f64 = 0.25;
+
 /// An equilibrium that is known.
 pub(crate) struct Known {
     pub equilibrium: MechanismEquilibrium,
@@ -145,17 +148,22 @@ impl<'p> MachineSearch<'p> {
     }
 
     /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
+    ///
+    /// A leg is as long as its command, which no spring turns negative. Other slides count from a zero that anybody may
+    /// set: there a deflection passes it, but by nothing like the size of the machine.
     fn counts(&self, found: &Known) -> bool {
         let posture = self.conditions.posture;
         let (mechanism, e) = (&posture.mechanism, &found.equilibrium);
         let joints = mechanism.limbs().iter().zip(&e.state.coordinates);
         let drives = joints.clone().zip(&posture.limbs);
-        let mut slides = drives.flat_map(|((limb, x), own)| {
+        let far = INSIDE_OUT * mechanism.size();
+        let mut inside_out = drives.flat_map(|((limb, x), own)| {
             let drives = limb.actual.actuators().iter().zip(&own.commands);
-            drives.filter_map(move |(drive, command)| {
-                let slides = drive.kind == MotionKind::Prismatic;
-                let spring = drive.coordinate.filter(|_| slides && *command != 0.0)?;
-                Some((command + x[spring]) / command)
+            drives.map(move |(drive, command)| {
+                let spring = drive
+                    .coordinate
+                    .filter(|_| drive.kind == MotionKind::Prismatic);
+                spring.is_some_and(|own| x[own].abs() > far && (command + x[own]) * command < 0.0)
             })
         });
         let off = pose_residual(&e.tool, &posture.target).linear();
@@ -166,7 +174,7 @@ impl<'p> MachineSearch<'p> {
                     .zip(&self.bounds)
                     .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
         };
-        slides.all(|share| share > 0.0) && (found.stable || near())
+        !inside_out.any(|slide| slide) && (found.stable || near())
     }
 
     /// Drives the tool along each of its free motions that was not followed yet, in both directions, from an equilibrium or
