@@ -69,3 +69,31 @@ pub fn is_degenerate(
     let here = sizes(DMatrix::from_fn(6, here.ncols(), |i, j| here[(i, j)]));
     rank > 0 && here.get(rank - 1).is_none_or(|s| *s < 1e-4 * here[0])
 }
+
+/// Rotations (rad) and displacements of springs (m) that differ by less are the same.
+const SAME: f64 = 1e-6;
+
+/// Of degenerate equilibria with the same coordinates only the one with the least wrench is kept, with the starts that
+/// ended at the others: a chain that is stretched out and locked is one shape under every force along itself.
+pub fn keep_one_of_each_shape(found: &mut Vec<FoundEquilibrium>) {
+    let mut kept: Vec<FoundEquilibrium> = Vec::with_capacity(found.len());
+    for next in found.drain(..) {
+        let same = |own: &&mut FoundEquilibrium| {
+            let pairs = own.equilibrium.coordinates.iter();
+            let mut pairs = pairs.zip(&next.equilibrium.coordinates);
+            own.singular && next.singular && pairs.all(|(a, b)| (a - b).abs() < SAME)
+        };
+        match kept.iter_mut().find(same) {
+            Some(own) => {
+                let size = |f: &FoundEquilibrium| f.equilibrium.wrench.0.norm();
+                let hits = own.hits + next.hits;
+                if size(&next) < size(own) {
+                    *own = next;
+                }
+                own.hits = hits;
+            }
+            None => kept.push(next),
+        }
+    }
+    *found = kept;
+}

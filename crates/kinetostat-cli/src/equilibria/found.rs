@@ -4,7 +4,7 @@ use kinetostat::{
     Equilibrium, MechanismEquilibrium, equilibria,
     equilibrium::{Bounds, Equilibria, SearchSettings, SpreadSettings},
 };
-use kinetostat_analysis::degenerate::is_degenerate;
+use kinetostat_analysis::degenerate::{is_degenerate, keep_one_of_each_shape};
 use kinetostat_analysis::serial_chain::SerialChain;
 use kinetostat_machining::Warning;
 
@@ -24,6 +24,7 @@ pub(crate) fn of_chain(
     for found in &mut all.found {
         found.singular = is_degenerate(chain, &problem, found);
     }
+    keep_one_of_each_shape(&mut all.found);
     Ok((all, Vec::new()))
 }
 

@@ -219,3 +219,27 @@ fn a_curve_from_outside_its_limits_says_where_it_goes_on() {
         "{said:?}"
     );
 }
+
+/// A chain that is stretched out and locked is one shape, whatever force acts along it.
+#[test]
+fn a_locked_chain_is_one_shape() {
+    let held = [
+        "equilibria",
+        "three_link_s",
+        "--displaced-mm",
+        "0",
+        "0",
+        "0",
+    ];
+    let answer = answer(&held);
+    let list = answer["equilibria"].as_array().expect("a list");
+    assert_eq!(list.len(), 1, "{list:?}");
+    assert_eq!(list[0]["singular"], true);
+    let force = list[0]["force_n"].as_array().expect("a force");
+    assert!(
+        force
+            .iter()
+            .all(|f| f.as_f64().is_some_and(|f| f.abs() < 1e-6)),
+        "{force:?}"
+    );
+}

@@ -44,6 +44,9 @@ pub(super) fn not_converged(
         None if !(closure.is_finite() && torque.is_finite()) => format!(
             "{place}: no equilibrium found in {iterations} iterations: with these numbers the deflections grow beyond all limits; the largest share of the load with an equilibrium is {share:.3}. Look for a load, a length or a stiffness in the wrong unit"
         ),
+        None if share > 0.999 => format!(
+            "{place}: equilibria were found up to the whole load, and still the iteration did not converge in {iterations} steps: a limit of the load is near, or the correction is too large"
+        ),
         None => format!(
             "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a closure of {} m, and torques of {} times the largest out of equilibrium)",
             // A smaller residual is the rounding of its arithmetic.
