@@ -50,5 +50,5 @@ pub use result::tolerance::{
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use table::{TableCorrection, correct_by_table, wide_table};
-pub use task::{RunError, Task, Unwatched, Watch};
+pub use task::{NoMotion, RunError, Task, Unwatched, Watch};
 pub use warning::{Warning, WarningCode};

@@ -39,4 +39,5 @@ mod smallest_stiffness;
 mod stability;
 mod tables;
 mod tolerances;
+mod without_motion;
 mod words;

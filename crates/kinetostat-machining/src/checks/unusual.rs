@@ -6,6 +6,7 @@ use kinetostat_program::WriteOptions;
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
 use crate::checks::load::{loads, never_acts, odd_load};
+use crate::checks::motion::no_motion;
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
@@ -60,6 +61,8 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
 pub fn of_question(task: &Task<'_>) -> Vec<Warning> {
     let refused = of_task(task).into_iter();
     let mut list: Vec<Warning> = refused.map(|beyond| as_warning(&beyond)).collect();
+    let motion = no_motion(task.path);
+    list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
     list.extend(odd_loads(task));
     list.extend(odd_tools(task));
     list.extend(odd_tolerances(&task.writing));
