@@ -23,7 +23,7 @@ mod warning;
 
 pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
-pub use checks::load::large_load;
+pub use checks::load::{large_load, unusual_load};
 pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;

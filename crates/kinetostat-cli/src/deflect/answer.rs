@@ -7,7 +7,7 @@ use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
 
-use crate::machine::displacement_warnings::folds;
+use crate::machine::displacement_warnings::{folds, not_stable};
 use crate::machine::instability;
 use crate::machine::principal_directions::motion_description;
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
@@ -137,10 +137,7 @@ pub(crate) fn answer(
     }
     let shares = InstabilityShares::of(posture, loaded);
     if !loaded.stable() {
-        warnings.push(Warning::new(
-            WarningCode::NotStable,
-            "the machine does NOT stay in its shape under this load",
-        ));
+        warnings.push(not_stable(""));
     } else if shares.is_near_buckling() {
         let said = instability::description(&shares, true);
         warnings.push(Warning::new(WarningCode::NearBuckling, said));
