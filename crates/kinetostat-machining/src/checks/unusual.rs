@@ -55,14 +55,21 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
         .collect()
 }
 
+/// What a compensation refuses a question for before anything is solved.
+#[must_use]
+pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
+    let beyond = of_task(task).into_iter();
+    let mut list: Vec<Warning> = beyond.map(|beyond| as_warning(&beyond)).collect();
+    let motion = no_motion(task.path);
+    list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
+    list
+}
+
 /// What is to be said of a question before anything is solved: what a compensation refuses it for, and what of it is
 /// allowed and unusual.
 #[must_use]
 pub fn of_question(task: &Task<'_>) -> Vec<Warning> {
-    let refused = of_task(task).into_iter();
-    let mut list: Vec<Warning> = refused.map(|beyond| as_warning(&beyond)).collect();
-    let motion = no_motion(task.path);
-    list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
+    let mut list = refused_question(task);
     list.extend(odd_loads(task));
     list.extend(odd_tools(task));
     list.extend(odd_tolerances(&task.writing));
