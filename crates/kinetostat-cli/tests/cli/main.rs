@@ -23,6 +23,7 @@ mod identical;
 mod implausible;
 mod import;
 mod import_link;
+mod jobs;
 mod large_files;
 mod library;
 mod loads_that_swing;
