@@ -41,7 +41,10 @@ fn check_says_what_is_to_be_mended_before_a_compensation() {
     );
     let (code, advice) = next(JOB.replace("radial_n = 215", "radial_n = 5200"));
     assert_eq!(code, 0);
-    assert!(advice.contains("mend first what `kinetostat compensate` refuses"), "{advice}");
+    assert!(
+        advice.contains("mend first what `kinetostat compensate` refuses"),
+        "{advice}"
+    );
     let (code, advice) = next(JOB.replace("[0, 0, 100]", "[0, 0, 5000]"));
     assert_eq!(code, 2);
     assert!(advice.contains("does not reach"), "{advice}");

@@ -39,7 +39,7 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
     let wide = wide.into_iter().filter(|(_, mm)| *mm > WIDE_MM);
     let wide = wide.map(|(name, mm)| {
         format!(
-            "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
+            "the {name} tolerance is {} mm: machine tools hold hundredths of a millimetre; {name}_um is in micrometres",
             short(mm)
         )
     });
