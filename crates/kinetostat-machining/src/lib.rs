@@ -23,11 +23,11 @@ mod warning;
 
 pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
-pub use checks::load::large_load;
+pub use checks::load::{large_load, unusual_load};
 pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;
-pub use checks::unusual::{odd_tolerances, of_question};
+pub use checks::unusual::{odd_tolerances, of_question, refused_question};
 pub use field::ModelField;
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
@@ -50,5 +50,5 @@ pub use result::tolerance::{
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use table::{TableCorrection, correct_by_table, wide_table};
-pub use task::{RunError, Task, Unwatched, Watch};
+pub use task::{NoMotion, RunError, Task, Unwatched, Watch};
 pub use warning::{Warning, WarningCode};

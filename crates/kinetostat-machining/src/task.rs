@@ -70,6 +70,26 @@ impl Watch for Unwatched {
     }
 }
 
+/// Why a program has no motion on which a correction could be needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoMotion {
+    /// No block moves.
+    #[error("the program has no motion")]
+    NoMoves,
+    /// Axes are never stated, and no feed motion states the others.
+    #[error(
+        "the program has no motion whose place is known: state X, Y and Z before the first cut, or give the start position"
+    )]
+    UnknownPlace,
+    /// The tool is positioned, and nothing is cut.
+    #[error("the program has no feed motion, and no rapid motion between two different places")]
+    NoFeed,
+    /// All feed motion ends where it begins.
+    #[error("the feed motion of the program has no length")]
+    NoLength,
+}
+
 /// Why a run has no answer.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -123,11 +143,9 @@ pub enum RunError {
         /// Line of the program, from 1.
         line: usize,
     },
-    /// The program has no move whose place is known.
-    #[error(
-        "the program has no motion whose place is known: state X, Y and Z before the first cut, or give the start position"
-    )]
-    NoMotion,
+    /// The program has no motion on which a correction could be needed.
+    #[error("{0}")]
+    NoMotion(NoMotion),
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,

@@ -62,7 +62,7 @@ pub enum ComparisonError {
     #[error("the loops of the first machine close at too few postures around home")]
     TooFewPostures,
     /// With no signs of its joints does the second machine stand where the first one stands.
-    #[error("the second machine cannot stand where the first stands, with no sign of its joints")]
+    #[error("the second machine cannot take the posture of the first, with no sign of its joints")]
     NoMapping,
 }
 

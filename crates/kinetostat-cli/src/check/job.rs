@@ -5,7 +5,9 @@ use std::path::Path;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
-use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_description, of_question};
+use kinetostat_machining::{
+    LoadAlongPath, Placement, Task, Warning, load_description, of_question, refused_question,
+};
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -43,6 +45,9 @@ struct JobFindings {
     ends: Vec<EndFinding>,
     outputs: Vec<OutputFinding>,
     warnings: Vec<Warning>,
+    /// A compensation would refuse the question for one of its warnings.
+    #[serde(skip)]
+    refused: bool,
 }
 
 #[derive(Serialize)]
@@ -112,13 +117,9 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &motion,
     ));
     let read = (&program, &motion);
-    warnings.extend(with_task(
-        Aim::Compensate,
-        &machine,
-        &setting,
-        read,
-        of_question,
-    )?);
+    let judge = |task: &Task<'_>| (of_question(task), !refused_question(task).is_empty());
+    let (of_question, refused) = with_task(Aim::Compensate, &machine, &setting, read, judge)?;
+    warnings.extend(of_question);
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);
@@ -152,6 +153,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         ends: ends(&machine.mechanism, &machine.placement, &motion),
         outputs: outputs(&setting.targets),
         warnings,
+        refused,
     })
 }
 
@@ -263,7 +265,7 @@ fn answer_text(f: &JobFindings) -> String {
     if !missed.is_empty() {
         out.push_str("\nNot reached\n");
     }
-    for end in missed {
+    for end in &missed {
         out.push_str(&item(&format!(
             "{} (line {}), {} mm: {}",
             end.end,
@@ -285,9 +287,20 @@ fn answer_text(f: &JobFindings) -> String {
         .collect();
     out.push_str(&format!("\nOutputs\n{}", listed(&rows, 2)));
     out.push_str(&warnings::warnings(&f.warnings));
-    out.push_str(&format!(
-        "\nNext\n  kinetostat compensate {}\n",
-        crate::ui::safe_text::safe(&f.job)
-    ));
+    out.push_str("\nNext\n");
+    let mut mended = Vec::new();
+    if !missed.is_empty() {
+        mended.push("what the machine does not reach: part_origin_mm, the tool or its orientation");
+    }
+    if f.refused {
+        mended.push("what `kinetostat compensate` refuses: see the warnings above");
+    }
+    out.push_str(&match mended.is_empty() {
+        true => format!(
+            "  kinetostat compensate {}\n",
+            crate::ui::safe_text::safe(&f.job)
+        ),
+        false => item(&format!("mend first {}", mended.join("; and "))),
+    });
     out
 }

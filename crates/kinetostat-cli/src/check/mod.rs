@@ -28,7 +28,7 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     if is_job {
         if args.pose.is_some() || args.force.is_some() {
             return Err(Failure::input(
-                "--pose and --force judge a model, and this is a job file: name its model instead",
+                "--pose and --force check a model, and this is a job file: name its model instead",
             ));
         }
         return job::run(file, args.json);

@@ -7,7 +7,7 @@ use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
 
-use crate::machine::displacement_warnings::folds;
+use crate::machine::displacement_warnings::{folds, not_stable};
 use crate::machine::instability;
 use crate::machine::principal_directions::motion_description;
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
@@ -39,9 +39,9 @@ pub(crate) struct Deflection {
     pub(crate) free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
     pub(crate) negative_directions: Vec<String>,
-    /// The tool stays where it is, or does not go away at least (see `platform_may_flutter`).
+    /// The tool stays where it is, or does not diverge at least (see `platform_may_flutter`).
     pub(crate) platform_stable: bool,
-    /// Under loads without a potential the tool does not go away, but may swing with growing amplitude.
+    /// Under loads without a potential the tool does not diverge, but may swing with growing amplitude.
     pub(crate) platform_may_flutter: bool,
     /// How near the load brings the machine with its tool free to instability, 1 is there: never less
     /// than the largest share of its limbs. At least 1 or none where it is not stable; behind a snap
@@ -137,10 +137,7 @@ pub(crate) fn answer(
     }
     let shares = InstabilityShares::of(posture, loaded);
     if !loaded.stable() {
-        warnings.push(Warning::new(
-            WarningCode::NotStable,
-            "the machine does NOT stay in its shape under this load",
-        ));
+        warnings.push(not_stable(""));
     } else if shares.is_near_buckling() {
         let said = instability::description(&shares, true);
         warnings.push(Warning::new(WarningCode::NearBuckling, said));

@@ -119,7 +119,7 @@ fn stability(a: &Deflection) -> String {
     }
     if !a.conservative {
         out.push_str(&layout::item(&format!(
-            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away, whatever the masses are; beyond, something goes away for all masses where the determinant is negative or that part is negative in every motion; flutter depends on masses and damping",
+            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing diverges, whatever the masses are; beyond, something diverges for all masses where the determinant is negative or that part is negative in every motion; flutter depends on masses and damping",
             a.not_conservative_because.join(", ")
         )));
     }
@@ -137,7 +137,7 @@ fn platform(a: &Deflection) -> String {
             ),
         };
         format!(
-            "the platform does not go away, but may swing with growing amplitude (flutter), which depends on its masses{directions}"
+            "the platform does not diverge, but may swing with growing amplitude (flutter), which depends on its masses{directions}"
         )
     } else if !a.platform_stable {
         match a.negative_directions.as_slice() {
@@ -176,7 +176,7 @@ fn limb_text(limb: &LimbAnswer) -> String {
     let stability = match limb.stable {
         // Only loads without a potential are stable beyond one.
         true if limb.share_to_buckling.is_some_and(|mu| mu > 1.0) => {
-            "does not go away, but may swing with growing amplitude (flutter), which depends on its masses"
+            "does not diverge, but may swing with growing amplitude (flutter), which depends on its masses"
         }
         true => "keeps its shape",
         false => "does NOT keep its shape: it snaps to another one",

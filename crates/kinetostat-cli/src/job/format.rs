@@ -51,7 +51,7 @@ pub(crate) struct Job {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlacementTable {
     /// Where the program's zero point lies, base axes, mm.
-    pub part_origin_mm: Option<[f64; 3]>,
+    pub part_origin_mm: Option<Spanned<[f64; 3]>>,
     /// Orientation of the program's axes in the base.
     pub part_orientation: Option<Spanned<PoseTable>>,
     /// Orientation of the tool in the base; without it, the one that the tool has at home.

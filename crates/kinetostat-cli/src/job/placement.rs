@@ -11,7 +11,8 @@ use crate::job::job_file::JobFile;
 use crate::job::values::{chosen, scale_of_program};
 use crate::options::vector;
 use crate::place::orientation;
-use crate::ui::failure::Answer;
+use crate::place::query::FARTHEST;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{short, triple};
 
 pub(crate) fn placement(
@@ -20,11 +21,7 @@ pub(crate) fn placement(
     mechanism: &Mechanism,
 ) -> Answer<Placement> {
     let table = job.map(|j| j.job.placement.clone()).unwrap_or_default();
-    let origin = match (&flags.part_origin_mm, table.part_origin_mm) {
-        (Some(v), _) => vector("--part-origin-mm", v)?,
-        (None, Some(v)) => v.into(),
-        _ => Vector3::zeros(),
-    };
+    let origin = origin_mm(job, flags, table.part_origin_mm.as_ref())?;
     let written = |at: &Option<Spanned<kinetostat_model::schema::Placement>>| {
         let (Some(j), Some(table)) = (job, at) else {
             return Ok(None);
@@ -72,6 +69,35 @@ pub(crate) fn placement(
         orientation_follows: follows,
         scale,
     })
+}
+
+/// Where the program's zero lies, mm.
+fn origin_mm(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    written: Option<&Spanned<[f64; 3]>>,
+) -> Answer<Vector3<f64>> {
+    let too_far = |mm: &[f64]| mm.iter().copied().find(|x| 1e-3 * x.abs() > FARTHEST);
+    let far = |x: f64| format!("{x:?} mm leads more than 10 km away; coordinates are in mm");
+    if let Some(given) = &flags.part_origin_mm {
+        return match too_far(given) {
+            Some(x) if x.is_finite() => {
+                Err(Failure::input(format!("--part-origin-mm: {}", far(x))))
+            }
+            _ => vector("--part-origin-mm", given),
+        };
+    }
+    let Some(written) = written else {
+        return Ok(Vector3::zeros());
+    };
+    match (job, too_far(written.get_ref())) {
+        (Some(j), Some(x)) => Err(j.error(
+            written,
+            &far(x),
+            "write where the program's zero lies in the base, as in part_origin_mm = [20, 20, 120]",
+        )),
+        _ => Ok((*written.get_ref()).into()),
+    }
 }
 
 pub(crate) fn placement_description(placement: &Placement) -> String {

@@ -179,7 +179,7 @@ fn words_known(found: &str, known: &[String]) -> String {
     let known = known.join(", ");
     match CONVENTIONS.contains(&found) {
         true => format!(
-            "write one of: {known}; an orientation itself stands in  part_orientation = {{ {found} = [...] }}  or  tool_orientation = {{ {found} = [...] }}"
+            "write one of: {known}; an orientation itself is written as  part_orientation = {{ {found} = [...] }}  or  tool_orientation = {{ {found} = [...] }}"
         ),
         false => format!("write one of: {known}"),
     }

@@ -15,12 +15,30 @@ const STRETCHED: f64 = 2.5;
 
 /// The tool moves by `far`, which is no deflection any more of a machine of this size, m.
 pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
-    (far > LARGE * size).then(|| {
+    folds_at(far, size, "")
+}
+
+/// The same, `places` of a grid in words; empty for one place.
+pub(crate) fn folds_at(far: f64, size: f64, places: &str) -> Option<Warning> {
+    is_large(far, size).then(|| {
         Warning::new(WarningCode::LargeDisplacement, format!(
-            "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
+            "the tool moves by {} % of the machine's size{places}: the machine folds over under this load; check the force and the stiffnesses",
             number(100.0 * far / size, 2)
         ))
     })
+}
+
+/// Whether a displacement is no deflection any more of a machine of this size, m.
+pub(crate) fn is_large(far: f64, size: f64) -> bool {
+    far > LARGE * size
+}
+
+/// The machine is not stable under its load, `places` of a grid in words; empty for one place.
+pub(crate) fn not_stable(places: &str) -> Warning {
+    Warning::new(
+        WarningCode::NotStable,
+        format!("the machine does NOT stay in its shape under this load{places}"),
+    )
 }
 
 /// The tool goes by `far`, further than a machine of this size can, m.

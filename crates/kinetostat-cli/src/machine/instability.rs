@@ -65,7 +65,7 @@ pub(crate) fn description(shares: &InstabilityShares<'_>, under_load: bool) -> S
         false => ": NOT STABLE",
         true if shares.is_near_buckling() => ": NEAR BUCKLING",
         true if state.may_flutter() => {
-            ": it does not go away, but may swing with growing amplitude (flutter), which depends on its masses"
+            ": it does not diverge, but may swing with growing amplitude (flutter), which depends on its masses"
         }
         true if most > NOTICEABLE => ": stiffness changes noticeably with the load",
         true if reported > NOTHING => ": far from buckling",

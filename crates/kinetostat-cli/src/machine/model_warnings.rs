@@ -48,7 +48,7 @@ pub(crate) fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
         Warning::new(
             WarningCode::NoPotential,
             format!(
-                "loads on limb {} follow the machine and have no potential: 'stable' means that nothing goes away; whether it swings with growing amplitude (flutter) depends on the masses, which are not asked for here",
+                "loads on limb {} follow the machine and have no potential: 'stable' means that nothing diverges; whether it swings with growing amplitude (flutter) depends on the masses, which are not asked for here",
                 names.join(", ")
             ),
         )

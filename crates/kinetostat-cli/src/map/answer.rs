@@ -1,10 +1,11 @@
 //! The figures of a map, gathered block by block.
 
 use kinetostat::number::larger;
-use kinetostat_machining::{Grid, MapPlace, PlaceState, Solving, Warning};
+use kinetostat_machining::{Grid, MapPlace, PlaceState, Solving, Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use crate::machine::displacement_warnings::{folds_at, is_large, not_stable};
 use crate::map::arguments::Quantity;
 
 /// The answer, stable names with units.
@@ -211,15 +212,20 @@ pub(crate) struct Figures {
     /// How far the tool turns where the orientation follows.
     pub(crate) largest_turn_deg: f64,
     pub(crate) solving: Solving,
+    /// Places where the displacement is no deflection any more.
+    folded: usize,
     figures: [Gathered; Quantity::LOADED.len()],
 }
 
 impl Figures {
-    pub(crate) fn of(places: &[MapPlace]) -> Self {
+    /// Of some places of a machine of this size, m.
+    pub(crate) fn of(places: &[MapPlace], size: f64) -> Self {
         let mut own = Self::default();
         for place in places {
             own.places.count(place.state);
             own.solving.note(place.found_by, 1);
+            let far = 1e-3 * Quantity::Displacement.of(place);
+            own.folded += usize::from(is_large(far, size));
             // Places without figures have none.
             own.largest_turn_deg = larger(own.largest_turn_deg, place.tool_turn_deg);
             for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
@@ -232,10 +238,46 @@ impl Figures {
     pub(crate) fn add(&mut self, other: &Self) {
         self.places.add(&other.places);
         self.solving.add(&other.solving);
+        self.folded += other.folded;
         self.largest_turn_deg = larger(self.largest_turn_deg, other.largest_turn_deg);
         for (own, other) in self.figures.iter_mut().zip(&other.figures) {
             own.add(other);
         }
+    }
+
+    /// What `deflect` warns of at a place, once for the whole grid, of a machine of this size, m.
+    pub(crate) fn warnings(&self, size: f64) -> Vec<Warning> {
+        let all = self.places.requested;
+        let at = |n: usize| match (n, all) {
+            (_, 1) => String::new(),
+            (n, all) => format!(" at {n} of the {all} places"),
+        };
+        let mut list = Vec::new();
+        if self.places.singular > 0 {
+            list.push(Warning::new(
+                WarningCode::FreeDirection,
+                format!(
+                    "the machine has a direction without any stiffness{}: see `kinetostat stiffness`",
+                    at(self.places.singular)
+                ),
+            ));
+        }
+        if self.places.unstable > 0 {
+            list.push(not_stable(&at(self.places.unstable)));
+        }
+        let most = Quantity::LOADED
+            .iter()
+            .zip(&self.figures)
+            .find(|(quantity, _)| **quantity == Quantity::Displacement)
+            .and_then(|(_, gathered)| gathered.most);
+        if let Some(most) = most {
+            let places = match all {
+                1 => String::new(),
+                _ => format!(" at worst, and by too much{}", at(self.folded)),
+            };
+            list.extend(folds_at(1e-3 * most.value, size, &places));
+        }
+        list
     }
 
     pub(crate) fn answer(&self, loaded: bool) -> Vec<FigureAnswer> {

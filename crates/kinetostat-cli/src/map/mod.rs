@@ -11,7 +11,7 @@ mod solve;
 mod text;
 mod unanswered;
 
-use kinetostat_machining::{MapTask, Warning, large_load, straight_tool};
+use kinetostat_machining::{MapTask, Warning, straight_tool, unusual_load};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
@@ -71,7 +71,8 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     }
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
-    warnings.extend(load.iter().flat_map(large_load));
+    warnings.extend(load.iter().flat_map(unusual_load));
+    warnings.extend(figures.warnings(task.mechanism.size()));
     let turned = figures.largest_turn_deg;
     if follows {
         warnings.push(orientation::follows(turned, requested.is_some(), true));

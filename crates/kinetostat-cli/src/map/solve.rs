@@ -30,7 +30,7 @@ pub(crate) fn solve(
     let block = |places: &[MapPlace]| {
         let lines = csv.map(|_| text::lines(places, columns));
         let cells: Vec<(usize, Cell)> = places.iter().filter_map(|p| shown.cell(p)).collect();
-        (Figures::of(places), lines, cells)
+        (Figures::of(places, task.mechanism.size()), lines, cells)
     };
     map(task, &progress, block, |(own, lines, cells)| {
         figures.add(&own);

@@ -143,7 +143,7 @@ fn cannot_be_compared(error: &ComparisonError, a: &str, b: &str) -> Failure {
             "{a}: its loops close at too few postures around home to compare them"
         )),
         ComparisonError::NoMapping => Failure::unanswered(format!(
-            "{b} cannot stand where {a} stands, with no sign of its joints"
+            "{b} cannot take the posture of {a}, with no sign of its joints"
         )),
         other => Failure::unanswered(other),
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_machining::{
-    NearSingular, Warning, large_load, near_singular, odd_tool_length, straight_tool,
+    NearSingular, Warning, near_singular, odd_tool_length, straight_tool, unusual_load,
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
@@ -118,7 +118,7 @@ pub(crate) fn place_query_of(
         values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
     };
     let wrench = Wrench::new(load("--force", force)?, load("--moment", moment)?);
-    warnings.extend(large_load(&wrench));
+    warnings.extend(unusual_load(&wrench));
     Ok(PlaceQuery {
         name: read.name().to_owned(),
         source: match &path {

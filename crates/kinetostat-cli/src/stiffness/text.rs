@@ -25,7 +25,7 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
         let with = match a.left_out.is_empty() {
             true => String::new(),
             false => format!(
-                " Left out are {}; the stiffness with them stands below.",
+                " Left out are {}; the stiffness with them is below.",
                 a.left_out.join(", ")
             ),
         };

@@ -1,15 +1,69 @@
 //! Results as JSON, and with it on the screen.
 
+use std::io::{self, Write};
+
+use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
+
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::screen::{self, Stream};
 
 /// A result as JSON with a final newline.
 pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|error| {
+    let mut bytes = Vec::new();
+    let mut serializer = Serializer::with_formatter(&mut bytes, UnsignedZero::default());
+    value.serialize(&mut serializer).map_err(|error| {
         Failure::input(format!("the result cannot be written as JSON: {error}"))
     })?;
-    text.push('\n');
-    Ok(text)
+    bytes.push(b'\n');
+    String::from_utf8(bytes)
+        .map_err(|error| Failure::input(format!("the result cannot be written as JSON: {error}")))
+}
+
+/// Indented as usual; zero has no sign.
+#[derive(Default)]
+struct UnsignedZero(PrettyFormatter<'static>);
+
+impl Formatter for UnsignedZero {
+    fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        // -0 + 0 is +0; every other number stays as it is.
+        self.0.write_f64(writer, value + 0.0)
+    }
+
+    fn begin_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.begin_array(writer)
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.end_array(writer)
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, w: &mut W, first: bool) -> io::Result<()> {
+        self.0.begin_array_value(w, first)
+    }
+
+    fn end_array_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.end_array_value(writer)
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.begin_object(writer)
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.end_object(writer)
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, w: &mut W, first: bool) -> io::Result<()> {
+        self.0.begin_object_key(w, first)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.begin_object_value(writer)
+    }
+
+    fn end_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.0.end_object_value(writer)
+    }
 }
 
 /// The text of an answer; with `as_json` the answer itself on the standard output, and the text beside it.
@@ -23,4 +77,20 @@ pub(crate) fn print_answer<T: serde::Serialize>(
         return screen::print_bytes(json(answer)?.as_bytes());
     }
     screen::print(Stream::Out, text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::json;
+
+    #[test]
+    fn zero_has_no_sign_and_the_form_is_the_usual_one() {
+        let value = serde_json::json!({
+            "a": [-0.0, 0.0, -1.5, 5e-324, f64::MAX], "b": {}, "c": [], "d": [{"e": -0.0, "f": null}], "g": -1
+        });
+        let text = json(&value).expect("JSON");
+        assert!(!text.contains("-0.0"), "{text}");
+        let usual = serde_json::to_string_pretty(&value).expect("JSON");
+        assert_eq!(text, format!("{}\n", usual.replace("-0.0", "0.0")));
+    }
 }

@@ -205,7 +205,7 @@ fn what_makes_no_map_is_refused_and_leaves_nothing() {
 /// A place that was found with a growing load is counted by the map, and named by `deflect` and `assemble`; a machine that
 /// no kernel knows says why.
 #[test]
-fn what_was_found_otherwise_or_one_by_one_is_told() {
+fn the_answer_says_what_was_found_otherwise_or_one_by_one() {
     let here = workplace();
     run(here.path(), &["demo", "--out", "d"]).answered();
     let common = "--tool-length-mm 100 --json --force 5000 0 0";
@@ -241,4 +241,59 @@ fn what_was_found_otherwise_or_one_by_one_is_told() {
     let line = "deflect delta --program part.ngc --part-origin-mm 0 0 -850 --json";
     let said = run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
     assert_eq!(json(&said)["summary"]["one_by_one_because"], why);
+}
+
+/// Codes of the warnings of a command with `--json`.
+fn codes(here: &Path, line: &str) -> Vec<String> {
+    let words: Vec<&str> = line.split(' ').collect();
+    let answer = json(&run(here, &words).answered());
+    let list = answer["warnings"].as_array().expect("a list").clone();
+    let code = |w: &Value| w["code"].as_str().expect("a code").to_owned();
+    list.iter().map(code).collect()
+}
+
+#[test]
+fn a_map_warns_of_what_deflect_warns_of() {
+    let here = workplace();
+    for force in ["1e6 0 0", "3000 0 0", "2700 0 0", "100 0 0"] {
+        let map = codes(
+            here.path(),
+            &format!("map orthoglide --x 50 --y 0 --z 0 --force {force} --json"),
+        );
+        let place = codes(
+            here.path(),
+            &format!("deflect orthoglide --at 50 0 0 --force {force} --json"),
+        );
+        for code in [
+            "over_limit",
+            "large_load",
+            "not_stable",
+            "large_displacement",
+        ] {
+            let in_map = map.iter().any(|c| c == code);
+            assert_eq!(
+                in_map,
+                place.iter().any(|c| c == code),
+                "{force}: {code}: {map:?} {place:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn one_warning_counts_the_places_that_are_not_stable() {
+    let here = workplace();
+    let line = "orthoglide --x -50 50 4 --y -50 50 4 --z 0 --force 1e6 0 0 --json";
+    let answer = json(&map(here.path(), line).answered());
+    let unstable = answer["places"]["unstable"].as_u64().expect("a number");
+    assert!(unstable > 0, "{}", answer["places"]);
+    let list = answer["warnings"].as_array().expect("a list");
+    let of = |code: &str| {
+        let all = list.iter().filter(|w| w["code"] == code);
+        let all: Vec<&str> = all.filter_map(|w| w["message"].as_str()).collect();
+        assert_eq!(all.len(), 1, "{list:?}");
+        all[0].to_owned()
+    };
+    assert!(of("not_stable").contains(&format!("at {unstable} of the 16 places")));
+    assert!(of("large_displacement").contains("of the 16 places"));
 }

@@ -125,7 +125,7 @@ pub(crate) fn graph(
                 "nothing moves between the base '{}' and the tip '{}'",
                 robot.links[base].name, robot.links[tip].name
             ),
-            "name the link that stands and the one that carries the tool: --base LINK --tip LINK",
+            "name the link that does not move and the one that carries the tool: --base LINK --tip LINK",
         );
         return None;
     }
@@ -226,7 +226,7 @@ fn several_freedoms(
         } else {
             log.notice(
                 &joint.at,
-                format!("the {word} joint stands still: it is not between the base and the tip"),
+                format!("the {word} joint does not move: it is not between the base and the tip"),
                 "nothing has to be done",
             );
         }

@@ -105,7 +105,7 @@ pub(crate) fn standing(
             log.notice(
                 &joint.at,
                 format!(
-                    "the joint is not between the base and the tip: it stands at {}",
+                    "the joint is not between the base and the tip: it is at rest at {}",
                     with_unit(home[i], variables[i].kind)
                 ),
                 "masses behind it are carried along in that position; choose another tip, or say how it is held by a loop file (--loops)",
@@ -192,6 +192,6 @@ pub(crate) fn moving_base(robot: &Robot, base: usize, log: &mut Log) {
             "the base '{}' is above a moving joint in the URDF: it is taken as the ground, with gravity as it is when the robot is at home",
             link.name
         ),
-        "choose a base that stands, or correct gravity_m_per_s2",
+        "choose a base that does not move, or correct gravity_m_per_s2",
     );
 }

@@ -257,7 +257,7 @@ pub(crate) fn homes(
                     log.notice(
                         &v.at,
                         format!(
-                            "zero lies outside the limits: at home the joint stands in their middle, {}",
+                            "zero lies outside the limits: at home the joint is in their middle, {}",
                             with_unit(middle, v.kind)
                         ),
                         "choose another home with --home if you like",

@@ -387,7 +387,7 @@ fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Opti
         if let (Some(mimic), Some(Follow { ratio: 0.0, .. })) = (&joint.mimic, follow) {
             log.notice(
                 &mimic.at,
-                "the joint stands still: what it follows does not move, or its multiplier is 0",
+                "the joint does not move: what it follows does not move, or its multiplier is 0",
                 "nothing has to be done if that is meant",
             );
         }
@@ -412,7 +412,7 @@ fn own(robot: &Robot, index: usize, ratio: f64, offset: f64, log: &mut Log) -> O
             if let (Some(at), true) = (&joint.limit_at, ratio == 1.0 && offset == 0.0) {
                 log.notice(
                     at,
-                    format!("both limits are {low}: the joint stands still"),
+                    format!("both limits are {low}: the joint does not move"),
                     "nothing has to be done if that is meant",
                 );
             }

@@ -146,7 +146,7 @@ pub(crate) fn parse<'a>(
                 "name a URDF file",
             ),
             E::UnexpectedCloseTag(wanted, found, _) => (
-                format!("</{found}> stands where </{wanted}> is needed"),
+                format!("</{found}> appears where </{wanted}> is needed"),
                 "close every element in the reverse order of opening",
             ),
             E::UnclosedRootNode | E::UnexpectedEndOfStream => (

@@ -70,6 +70,33 @@ pub fn large_load(wrench: &Wrench) -> Vec<Warning> {
         .collect()
 }
 
+/// A load of one place or of a map that is beyond the usual limits, or near them.
+#[must_use]
+pub fn unusual_load(wrench: &Wrench) -> Vec<Warning> {
+    let (force, moment) = (wrench.force().norm(), wrench.moment().norm());
+    let near = near_limits(&Limits::default(), force, moment);
+    let near = near.map(|text| Warning::new(WarningCode::LargeLoad, text));
+    large_load(wrench).into_iter().chain(near).collect()
+}
+
+/// A force (N) and a moment (N m) that are allowed and larger than cutting has them, in words.
+fn near_limits(limits: &Limits, force: f64, moment: f64) -> impl Iterator<Item = String> + use<> {
+    let near = |found: f64, limit: f64| found > ODD * limit && found <= limit;
+    let of_force = near(force, limits.force_n).then(|| {
+        format!(
+            "the force on the tool is {} N: robots mill with 50 to 1000 N; check the unit",
+            short(force)
+        )
+    });
+    let of_moment = near(moment, limits.moment_n_m).then(|| {
+        format!(
+            "the moment on the tool is {} N m: cutting torques are 0.1 to 100 N m; check the unit (N m, not N mm)",
+            short(moment)
+        )
+    });
+    of_force.into_iter().chain(of_moment)
+}
+
 pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
     let mut list = Vec::new();
     let limits = &task.bounds.limits;
@@ -96,23 +123,8 @@ pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<
             ),
         );
     }
-    if force > ODD * limits.force_n && force <= limits.force_n {
-        warn(
-            WarningCode::LargeLoad,
-            format!(
-                "the force on the tool is {} N: robots mill with 50 to 1000 N; check the unit",
-                short(force)
-            ),
-        );
-    }
-    if moment > ODD * limits.moment_n_m && moment <= limits.moment_n_m {
-        warn(
-            WarningCode::LargeLoad,
-            format!(
-                "the moment on the tool is {} N m: cutting torques are 0.1 to 100 N m; check the unit (N m, not N mm)",
-                short(moment)
-            ),
-        );
+    for text in near_limits(limits, force, moment) {
+        warn(WarningCode::LargeLoad, text);
     }
     if force > 0.0 && moment > LEVER * force {
         warn(

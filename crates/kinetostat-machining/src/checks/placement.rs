@@ -47,7 +47,7 @@ pub fn origin_in_metres(
         Warning::new(
             WarningCode::OddPlacement,
             format!(
-                "the program's zero lies at ({x}, {y}, {z}) mm, so that the machine's base stands in the part: check the unit of part_origin_mm (millimetres, not metres)"
+                "the program's zero lies at ({x}, {y}, {z}) mm, so that the machine's base is inside the part: check the unit of part_origin_mm (millimetres, not metres)"
             ),
         )
     })

@@ -6,6 +6,7 @@ use kinetostat_program::WriteOptions;
 use crate::checks::correction::{besides, odd_correction};
 use crate::checks::exceeded::ODD;
 use crate::checks::load::{loads, never_acts, odd_load};
+use crate::checks::motion::no_motion;
 use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
@@ -38,7 +39,7 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
     let wide = wide.into_iter().filter(|(_, mm)| *mm > WIDE_MM);
     let wide = wide.map(|(name, mm)| {
         format!(
-            "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
+            "the {name} tolerance is {} mm: machine tools hold hundredths of a millimetre; {name}_um is in micrometres",
             short(mm)
         )
     });
@@ -54,12 +55,21 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
         .collect()
 }
 
+/// What a compensation refuses a question for before anything is solved.
+#[must_use]
+pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
+    let beyond = of_task(task).into_iter();
+    let mut list: Vec<Warning> = beyond.map(|beyond| as_warning(&beyond)).collect();
+    let motion = no_motion(task.path);
+    list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
+    list
+}
+
 /// What is to be said of a question before anything is solved: what a compensation refuses it for, and what of it is
 /// allowed and unusual.
 #[must_use]
 pub fn of_question(task: &Task<'_>) -> Vec<Warning> {
-    let refused = of_task(task).into_iter();
-    let mut list: Vec<Warning> = refused.map(|beyond| as_warning(&beyond)).collect();
+    let mut list = refused_question(task);
     list.extend(odd_loads(task));
     list.extend(odd_tools(task));
     list.extend(odd_tolerances(&task.writing));

@@ -6,6 +6,7 @@ use kinetostat_program::{
     write_corrected,
 };
 
+use crate::checks::motion::no_motion;
 use crate::checks::refused::{of_accounting, of_points, of_task};
 use crate::field::ModelField;
 use crate::limits::Beyond;
@@ -33,11 +34,19 @@ fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
     }
 }
 
+fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
+    match no_motion(task.path) {
+        Some(reason) => Err(RunError::NoMotion(reason)),
+        None => Ok(()),
+    }
+}
+
 /// Deflections along the program as it is.
 ///
 /// # Errors
 /// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     refuse(folding_load(task, &load, watch)?)?;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
@@ -51,6 +60,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     refuse(of_task(task))?;
+    has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     refuse(first_look(task, &load, watch)?)?;
     let field = ModelField::new(task.mechanism, task.placement, &load);

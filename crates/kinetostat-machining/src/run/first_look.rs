@@ -1,6 +1,8 @@
 //! The first look at a program: a few places, solved before anything is divided, show a wrong unit in
 //! milliseconds where the whole program would take minutes.
 
+use kinetostat::Error;
+
 use crate::checks::refused::{of_points, of_task};
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
@@ -17,7 +19,7 @@ const FIRST_LOOKS: usize = 8;
 /// solved everywhere.
 const GROSS: f64 = 10.0;
 
-/// A load beyond its limits under which a place has no answer, or that puts the tool off by far more than any correction:
+/// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
 /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns.
 ///
 /// # Errors
@@ -37,7 +39,11 @@ pub(crate) fn folding_load(
         match found {
             Ok(point) => points.push(point),
             Err(RunError::Cancelled) => return Err(RunError::Cancelled),
-            Err(_) => return Ok(beyond),
+            Err(RunError::Point { cause, .. }) if matches!(*cause, Error::NotConverged { .. }) => {
+                return Ok(beyond);
+            }
+            // Of the place or the machine: reported where the program is solved.
+            Err(_) => {}
         }
     }
     let folds = (gross(task, &points).iter()).any(|b| b.limit.name == "correction_mm");

@@ -13,7 +13,7 @@ use crate::result::point::{PointResult, size};
 use crate::run::following::turn_deg;
 use crate::run::machines::Machines;
 use crate::run::sites::Site;
-use crate::task::{RunError, Task, Watch, kinds};
+use crate::task::{NoMotion, RunError, Task, Watch, kinds};
 use kinetostat::batch::AlongPath;
 
 /// Points between two questions to the watch whether to stop.
@@ -29,7 +29,7 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
 ) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
     let total = sites().count();
     if total == 0 {
-        return Err(RunError::NoMotion);
+        return Err(RunError::NoMotion(NoMotion::NoLength));
     }
     let name = if written {
         "deflections of the written program"

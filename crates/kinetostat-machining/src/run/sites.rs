@@ -140,7 +140,7 @@ pub(crate) fn of_path<'a>(
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => Vec::new(),
             (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
-            (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) if !motion.has_length() => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let start = jumps(path, load, placement, i).then_some((0.0, false));
                 let shares = start.into_iter().chain(programmed.shares(motion));
@@ -173,7 +173,8 @@ pub(crate) fn of_written<'a>(
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
-        if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
+        let stays = motion.known == Knowledge::Whole && !motion.has_length();
+        if !piece.corrected || motion.known == Knowledge::Nothing || stays {
             return sites;
         }
         let width = piece.share_to - piece.share_from;

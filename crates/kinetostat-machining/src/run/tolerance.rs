@@ -26,7 +26,7 @@ pub(crate) fn tolerance(
         let reason = if a.left_out_mm > 0.5 * error(p) {
             left_out(a)
         } else if p.kind == PointKind::Corner {
-            "the tool stands at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
+            "the tool is at rest at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
         } else if size(&p.correction_mm) == 0.0 {
             "this block is carried over as it was: it comes before all axes are stated, or is of a kind that is not corrected".to_owned()
         } else if a.largest_jump_taken_up_mm > 0.5 * error(p) {

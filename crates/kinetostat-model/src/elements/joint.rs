@@ -178,7 +178,7 @@ fn limits_around(
             return Err(Finding::new(
                 &place.key(key),
                 format!("{home} is outside '{key}'"),
-                "correct one of them; the machine must be able to stand at home",
+                "correct one of them; the machine must be able to take its home posture",
             ));
         }
     }

@@ -38,7 +38,7 @@ impl<'t> Source<'t> {
         let help = if reason.contains("duplicate key") {
             "each key is written once in a table; keep one of them (a list of tables begins with [[name]])"
         } else if reason.contains("expected newline") {
-            "one key and its value stand on a line of their own; decimals are written with a point"
+            "one key and its value are on a line of their own; decimals are written with a point"
         } else {
             "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]"
         };

@@ -118,7 +118,7 @@ impl CorrectionMap {
                 faults.push(MapError {
                     line: *line,
                     found: format!("position {} {} {}", row[0], row[1], row[2]),
-                    reason: "the position stands there twice".to_owned(),
+                    reason: "the position appears twice".to_owned(),
                     remedy: "keep one row for each position".to_owned(),
                 });
                 if faults.len() == most {
@@ -329,7 +329,7 @@ fn columns_of(
         if headers.iter().take(index).any(|before| before == name) {
             faults.push(fault(
                 format!("column `{}`", shown(name)),
-                "the column stands there twice",
+                "the column appears twice",
                 "keep one of the two".to_owned(),
             ));
         } else if !COLUMNS.contains(&name) {

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::path::curve::Curve;
+use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::position_offset::OffsetChange;
 use crate::path::tool_change::ToolChange;
 
@@ -125,6 +125,11 @@ impl Move {
     /// Length of the move, in mm.
     pub fn length_mm(&self) -> f64 {
         self.length_between_mm(0.0, 1.0)
+    }
+
+    /// Whether it is longer than what is left of two equal places after the arithmetic of increments and inches.
+    pub fn has_length(&self) -> bool {
+        self.length_mm() > NO_LENGTH_MM
     }
 
     /// Length of the move between two shares, in mm.

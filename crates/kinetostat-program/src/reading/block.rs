@@ -64,7 +64,7 @@ impl<'p> Block<'p> {
                             ProgramErrorKind::Malformed,
                             Some(&word),
                             &format!(
-                                "the letter {} stands twice in one block",
+                                "the letter {} appears twice in one block",
                                 char::from(letter)
                             ),
                             "keep one of the two words",

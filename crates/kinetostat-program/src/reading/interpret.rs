@@ -200,7 +200,7 @@ impl<'o> Interpreter<'o> {
         let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
         let comment = text.starts_with(b"(") || text.starts_with(b";");
         if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
-            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried as it stands, and is taken to be for people");
+            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
         }
     }
 
@@ -280,7 +280,7 @@ impl<'o> Interpreter<'o> {
             return Err(block.refuse(
                 ProgramErrorKind::Ambiguous,
                 None,
-                "G92 and a motion word stand in one block",
+                "G92 and a motion word are in one block",
                 "write them in two blocks",
             ));
         }
@@ -299,7 +299,7 @@ impl<'o> Interpreter<'o> {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous,
                     None,
-                    "an axis word stands in a block that clears, suspends or resumes G92",
+                    "an axis word appears in a block that clears, suspends or resumes G92",
                     "write the motion as a block of its own",
                 ));
             }
@@ -362,7 +362,7 @@ impl<'o> Interpreter<'o> {
                     return Err(block.refuse(
                         ProgramErrorKind::Ambiguous, Some(word),
                         &format!(
-                            "{} stands in a straight move: some controllers stop, some round a corner",
+                            "{} appears in a straight move: some controllers stop, some round a corner",
                             char::from(letter)
                         ),
                         "remove the word, or write the arc with G2 or G3",
@@ -385,7 +385,7 @@ impl<'o> Interpreter<'o> {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
-                        "M{} stands beside a motion, and whether it acts before or after it is not known here",
+                        "M{} appears beside a motion, and whether it acts before or after it is not known here",
                         word.value
                     ),
                     "write it in a block of its own, before or after the motion",
@@ -405,7 +405,7 @@ impl<'o> Interpreter<'o> {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
-                        "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it",
+                        "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it",
                         moment.code, moment.meaning
                     ),
                     "write it in a block of its own, before or after the motion",
@@ -413,7 +413,7 @@ impl<'o> Interpreter<'o> {
             }
             if moment.is_disputed() {
                 self.repeated.note(block.line_number, &format!(
-                    "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
+                    "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
                     moment.code, moment.meaning
                 ));
             }
@@ -565,7 +565,7 @@ impl<'o> Interpreter<'o> {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous, Some(word),
                     &format!(
-                        "axis {} changes where the tool stands in the part and in the machine, and there is no model of it",
+                        "axis {} changes where the tool is in the part and in the machine, and there is no model of it",
                         char::from(letter)
                     ),
                     "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
@@ -594,7 +594,7 @@ impl<'o> Interpreter<'o> {
                     (ExtraMode::Absolute, Some(start)) => format!("from {start} to {}", extra.word),
                     _ => format!("by {}", extra.word),
                 };
-                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool stands in the part"));
+                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool is in the part"));
             } else if let Some((line, _)) = words().next() {
                 self.warn(
                     line,
@@ -668,7 +668,7 @@ fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
         return Err(block.refuse(
             ProgramErrorKind::Ambiguous,
             None,
-            "a dwell and a motion stand in one block: the axis words may belong to either",
+            "a dwell and a motion are in one block: the axis words may belong to either",
             "write them in two blocks",
         ));
     }

@@ -345,7 +345,7 @@ impl Reader {
             if significant.len() > 1 || block_delete {
                 return Err(refuse(
                     tape.span.clone(),
-                    "a tape mark % stands among words",
+                    "a tape mark % appears among words",
                     "put % on a line of its own",
                 ));
             }

@@ -54,7 +54,7 @@ pub(crate) fn check(
             Token::Quoted => {
                 return Err(Refused {
                     span: spanned.span.clone(),
-                    reason: "a quoted text stands in a block that is no vendor's M command"
+                    reason: "a quoted text appears in a block that is no vendor's M command"
                         .to_owned(),
                     remedy: "remove the text or make it a comment",
                 });
@@ -268,7 +268,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
             "write one fixed-point number after each letter",
         ),
         b',' => (
-            "a comma stands where a word should".to_owned(),
+            "a comma appears where a word should be".to_owned(),
             "write a point in decimal numbers; write ,R and ,C corners as blocks of their own",
         ),
         b'*' => (
@@ -276,7 +276,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
             "write the program without checksums; the sender adds them",
         ),
         b'/' => (
-            "a / stands inside the block".to_owned(),
+            "a / appears inside the block".to_owned(),
             "mark a block with / only at its beginning",
         ),
         b')' => (
@@ -285,7 +285,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
         ),
         b'"' => ("a quoted text is not closed".to_owned(), "close it with \""),
         b':' => (
-            "a : stands where a word should".to_owned(),
+            "a : appears where a word should be".to_owned(),
             "write a program number as O and a number",
         ),
         b'+' | b'-' => (
@@ -297,7 +297,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
             "write a letter and a number for each word",
         ),
         0x80.. => (
-            "a character outside ASCII stands outside a comment".to_owned(),
+            "a character outside ASCII appears outside a comment".to_owned(),
             "remove it or put it into a comment",
         ),
         _ => (

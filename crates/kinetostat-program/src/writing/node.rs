@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 
-use crate::path::curve::NO_LENGTH_MM;
 use crate::path::moves::{Knowledge, Move, MoveKind};
 use crate::writing::options::WriteOptions;
 
@@ -38,9 +37,7 @@ impl Node {
 
 /// Whether a move is divided at all: feed moves with a length and a known start.
 pub(crate) fn is_divided(motion: &Move) -> bool {
-    motion.kind == MoveKind::Feed
-        && motion.known == Knowledge::Whole
-        && motion.length_mm() > NO_LENGTH_MM
+    motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && motion.has_length()
 }
 
 /// Whether only the end of a move is corrected: rapids, and moves from an unknown place.

@@ -105,13 +105,13 @@ const BAD: &[(&str, usize, &str, &str)] = &[
     (
         "G21\nG1 X1 % Y2",
         2,
-        "a tape mark % stands among words",
+        "a tape mark % appears among words",
         "line of its own",
     ),
     (
         "G21\nG1 X1 /Y2",
         2,
-        "a / stands inside the block",
+        "a / appears inside the block",
         "at its beginning",
     ),
     ("N1 G21*33", 1, "a checksum", "without checksums"),
@@ -323,13 +323,13 @@ const BAD: &[(&str, usize, &str, &str)] = &[
     (
         "G21\nG1 X5 R2 F10",
         2,
-        "R stands in a straight move",
+        "R appears in a straight move",
         "remove the word",
     ),
     (
         "G21\nG1 X5 I2 F10",
         2,
-        "I stands in a straight move",
+        "I appears in a straight move",
         "remove the word",
     ),
     ("G21\nG4 P1 G1 X5", 2, "a dwell and a motion", "two blocks"),
@@ -349,7 +349,7 @@ const BAD: &[(&str, usize, &str, &str)] = &[
     (
         "G21\nG0 X0\nG92.1 X5",
         3,
-        "an axis word stands in a block that clears",
+        "an axis word appears in a block that clears",
         "a block of its own",
     ),
     (

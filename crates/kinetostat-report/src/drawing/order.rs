@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 pub(super) enum Thing {
     Line([Vector3<f64>; 2]),
     /// A joint of a radius; those of a higher rank lie on top of others at the same place.
-    Spot(Vector3<f64>, f64, u8),
+    Joint(Vector3<f64>, f64, u8),
     /// Corners of a flat or nearly flat convex thing, in order.
     Plate(Vec<Vector3<f64>>),
 }
@@ -16,7 +16,7 @@ impl Thing {
     fn depth(&self) -> f64 {
         match self {
             Self::Line([a, b]) => 0.5 * (a.z + b.z),
-            Self::Spot(p, radius, _) => p.z + radius,
+            Self::Joint(p, radius, _) => p.z + radius,
             Self::Plate(points) => {
                 points.iter().map(|p| p.z).sum::<f64>() / points.len().max(1) as f64
             }
@@ -62,14 +62,14 @@ fn nearer(a: &Thing, b: &Thing) -> Option<f64> {
             let (s, t) = crossing(a, b)?;
             Some(at(a, s).z - at(b, t).z)
         }
-        (Thing::Spot(p, radius, _), Thing::Line(line)) => {
+        (Thing::Joint(p, radius, _), Thing::Line(line)) => {
             let t = nearest(p, line);
             let there = at(line, t);
             let close = (there - p).xy().norm() < radius + 3.0;
             close.then(|| p.z + 1.5 * radius - there.z)
         }
         (Thing::Line(_), _) => nearer(b, a).map(|d| -d),
-        (Thing::Spot(p, r, rank), Thing::Spot(q, s, other)) => {
+        (Thing::Joint(p, r, rank), Thing::Joint(q, s, other)) => {
             let close = (p - q).xy().norm() < r + s;
             let same = (p.z - q.z).abs() < r.max(*s);
             close.then(|| {
@@ -90,11 +90,11 @@ fn nearer(a: &Thing, b: &Thing) -> Option<f64> {
             let sum: f64 = gaps.iter().sum();
             (!gaps.is_empty()).then_some(sum)
         }
-        (Thing::Plate(corners), Thing::Spot(p, radius, _)) => {
+        (Thing::Plate(corners), Thing::Joint(p, radius, _)) => {
             let plane = plane(corners)?;
             contains(corners, p).then(|| plane(p) - p.z - radius)
         }
-        (Thing::Spot(..), Thing::Plate(_)) => nearer(b, a).map(|d| -d),
+        (Thing::Joint(..), Thing::Plate(_)) => nearer(b, a).map(|d| -d),
         (Thing::Plate(a), Thing::Plate(b)) => {
             let middle =
                 |c: &[Vector3<f64>]| c.iter().sum::<Vector3<f64>>() / c.len().max(1) as f64;
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn a_joint_lies_on_the_bar_that_it_ends() {
         let bar = Thing::Line([vector![0.0, 0.0, 0.0], vector![100.0, 0.0, 80.0]]);
-        let joint = Thing::Spot(vector![0.0, 0.0, 0.0], 5.0, 0);
+        let joint = Thing::Joint(vector![0.0, 0.0, 0.0], 5.0, 0);
         assert_eq!(painting_order(&[joint, bar]), [1, 0]);
     }
 

@@ -288,8 +288,8 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
                 let along = paper.direction(&blob.axis) * half;
                 Thing::Line([at - along, at + along])
             }
-            BlobKind::Motor | BlobKind::Sleeve | BlobKind::Slide => Thing::Spot(*at, 11.0, 0),
-            _ => Thing::Spot(*at, symbol::JOINT, 1),
+            BlobKind::Motor | BlobKind::Sleeve | BlobKind::Slide => Thing::Joint(*at, 11.0, 0),
+            _ => Thing::Joint(*at, symbol::JOINT, 1),
         });
     }
     things.extend(plates.iter().map(|p| Thing::Plate(p.clone())));

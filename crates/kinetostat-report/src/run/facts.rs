@@ -470,7 +470,7 @@ pub(crate) fn caption(result: &Shown<'_>) -> Option<String> {
     if missing > 0 {
         let missing = number::count(missing);
         sentences.push(format!(
-            "Points that lack a number, which plots and their titles leave out: {missing}."
+            "Points without a number, which plots and their titles leave out: {missing}."
         ));
     }
     (!sentences.is_empty()).then(|| sentences.join(" "))

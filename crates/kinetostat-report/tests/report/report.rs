@@ -204,11 +204,11 @@ fn worst_points_carry_line_numbers() {
 fn missing_numbers_are_words() {
     let page = html(&hostile_numbers()).unwrap();
     assert!(page.contains("not available"));
-    assert!(page.contains("Points that lack a number"));
+    assert!(page.contains("Points without a number"));
     assert!(
         !html(&circle_groove())
             .unwrap()
-            .contains("Points that lack a number")
+            .contains("Points without a number")
     );
 }
 

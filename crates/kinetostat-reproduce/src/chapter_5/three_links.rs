@@ -511,7 +511,7 @@ pub(crate) fn text_5_5_1() -> Result<Contents, Cause> {
             computed: Some(mirrored.stiffness),
             unit: "K/l^2".into(),
             status: Status::Erratum,
-            note: "erratum 5.5.1 text: \"For the unstable configurations K_C is positive\" does not hold for this one. The conclusion stands: the unstable S shape and the symmetric Z past its pitchfork do have K_C > 0, so K_C > 0 does not make a shape stable.".into(),
+            note: "erratum 5.5.1 text: \"For the unstable configurations K_C is positive\" does not hold for this one. The conclusion holds: the unstable S shape and the symmetric Z past its pitchfork do have K_C > 0, so K_C > 0 does not make a shape stable.".into(),
         },
     ];
     // 5.2.1: minima and maxima of the energy at a held end.

@@ -330,7 +330,7 @@ impl Configuration {
                     if place.share_to_buckling > 0.999 {
                         "Then a bar is bent out of shape by the frames at its ends"
                     } else {
-                        "Beyond it the solver found no equilibrium with the tool held, which is no verdict on the machine"
+                        "Beyond it the solver found no equilibrium with the tool held, which does not tell whether the machine is stable"
                     }
                 ),
             ),

@@ -133,7 +133,7 @@ impl AssumptionsFinding {
             )
         } else {
             format!(
-                "weights, preloads, loads on limbs and deviations move the tool by {percent} % of its natural length: NOT small against the links; the unloaded stiffness is not that of the machine as it stands"
+                "weights, preloads, loads on limbs and deviations move the tool by {percent} % of its natural length: NOT small against the links; the unloaded stiffness is not that of the machine at rest"
             )
         };
         if share > 0.05 {

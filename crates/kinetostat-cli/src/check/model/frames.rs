@@ -241,7 +241,7 @@ pub(crate) fn frames_text(f: &Frames) -> String {
         ),
         (Some(_), Some(_), _) => "home is where every actuator is at 0".to_owned(),
         (_, _, reason) => format!(
-            "the machine cannot stand with every actuator at 0 ({}); directions are those at home",
+            "the machine cannot be assembled with every actuator at 0 ({}); directions are those at home",
             reason.as_deref().unwrap_or("out of reach")
         ),
     }));

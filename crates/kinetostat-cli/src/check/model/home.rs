@@ -37,7 +37,7 @@ pub(crate) struct HomeFinding {
     pub(crate) platform_stable: bool,
     /// Both.
     pub(crate) stable: bool,
-    /// Under loads without a potential it does not go away, but may swing with growing amplitude.
+    /// Under loads without a potential it does not diverge, but may swing with growing amplitude.
     pub(crate) may_flutter: bool,
     /// Joints whose springs the loads beat; empty where it is stable.
     pub(crate) overcome_joints: Vec<UnstableJoint>,

@@ -148,7 +148,7 @@ fn causes(f: &Findings) -> String {
 fn stability(h: &HomeFinding) -> String {
     match (h.stable, h.largest_share_to_buckling) {
         (true, _) if h.may_flutter => {
-            "it does not go away, but may swing with growing amplitude (flutter), which depends on its masses".to_owned()
+            "it does not diverge, but may swing with growing amplitude (flutter), which depends on its masses".to_owned()
         }
         (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
             format!(

@@ -129,7 +129,7 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
 
 /// Every joint and every coordinate once, one orientation at most.
 fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
-    let twice = |what: &str| Failure::input(format!("{what} stands in two columns"));
+    let twice = |what: &str| Failure::input(format!("{what} appears in two columns"));
     for (i, (name, ..)) in names.iter().enumerate() {
         match columns
             .iter()
