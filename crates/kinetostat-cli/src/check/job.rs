@@ -117,8 +117,8 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &motion,
     ));
     let read = (&program, &motion);
-    let judge = |task: &Task<'_>| (of_question(task), !refused_question(task).is_empty());
-    let (of_question, refused) = with_task(Aim::Compensate, &machine, &setting, read, judge)?;
+    let check = |task: &Task<'_>| (of_question(task), !refused_question(task).is_empty());
+    let (of_question, refused) = with_task(Aim::Compensate, &machine, &setting, read, check)?;
     warnings.extend(of_question);
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
