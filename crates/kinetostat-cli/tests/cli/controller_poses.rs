@@ -239,7 +239,7 @@ fn orientations_without_a_convention_are_refused() {
             good.replace("a_b_c_kuka_deg", "a_deg"),
             "whose convention is not named",
         ),
-        (good.replace("joint_6", "joint_5"), "stands in two columns"),
+        (good.replace("joint_6", "joint_5"), "appears in two columns"),
         (
             good.replace("joint_6,", ""),
             "no column for the joint 'joint_6'",

@@ -96,7 +96,7 @@ fn implausible_units() {
         (
             "lower='-1' upper='1'",
             "lower='0' upper='0'",
-            "the joint stands still",
+            "the joint does not move",
         ),
     ] {
         let wrong = none.replacen(from, to, 1);

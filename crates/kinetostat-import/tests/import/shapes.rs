@@ -97,7 +97,7 @@ fn joints_beside_the_way_stand_still() {
         );
     }
     // 'slide' cannot stand at zero: the middle of 0.1 and 0.9.
-    assert!(said.contains("it stands at 500 mm"), "{said}");
+    assert!(said.contains("it is at rest at 500 mm"), "{said}");
 }
 
 #[test]

@@ -74,7 +74,7 @@ const BAD: &[(&str, usize, &str, &str)] = &[
     (
         "G21\nG1 X1 Y2 X3",
         2,
-        "the letter X stands twice",
+        "the letter X appears twice",
         "keep one",
     ),
     (

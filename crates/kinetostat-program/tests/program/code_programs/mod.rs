@@ -263,7 +263,7 @@ pub fn check(seed: u64) -> Result<CaseOutcome, String> {
             let places: Vec<usize> = (0..own.len()).filter(|&index| has(&own[index])).collect();
             if places != [if *last { own.len() - 1 } else { 0 }] {
                 return fail(&format!(
-                    "{code} of line {} stands in the pieces {places:?} of {}",
+                    "{code} of line {} appears in the pieces {places:?} of {}",
                     motion.line,
                     own.len()
                 ));

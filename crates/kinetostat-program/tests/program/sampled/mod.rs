@@ -376,7 +376,7 @@ pub fn check(seed: u64) -> Result<SampledOutcome, String> {
     for (motion, piece) in reached.iter().zip(&written.pieces) {
         if motion.line != piece.output_line {
             return Err(said(&format!(
-                "a motion of line {} stands in line {}",
+                "a motion of line {} appears in line {}",
                 piece.output_line, motion.line
             )));
         }
