@@ -9,7 +9,7 @@ pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
     if path.moves.is_empty() {
         return Some(NoMotion::NoMoves);
     }
-    if path.moves.iter().any(counts) {
+    if path.moves.iter().any(|m| counts(m, path.stated)) {
         return None;
     }
     Some(if path.stated.contains(&false) {
@@ -21,11 +21,11 @@ pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
     })
 }
 
-/// A rapid from an unknown place only positions the tool; of a feed from there the end is cut.
-fn counts(motion: &Move) -> bool {
+/// Where a move from an unknown place ends counts, of a rapid only where every axis is stated.
+fn counts(motion: &Move, stated: [bool; 3]) -> bool {
     match motion.known {
         Knowledge::Whole => motion.has_length(),
-        Knowledge::End => motion.kind == MoveKind::Feed,
+        Knowledge::End => motion.kind == MoveKind::Feed || stated == [true; 3],
         Knowledge::Nothing => false,
     }
 }
