@@ -22,7 +22,7 @@ pub(crate) struct View<'v, S: Subject> {
     pub(crate) q: &'v CurveQuery,
     pub(crate) curves: &'v Followed<S::Equilibrium>,
     pub(crate) rotation: ContinuousRotation,
-    /// See [`displacement_at_start`].
+    /// Displacement along the growing load where the curve of a chain starts, m or rad.
     pub(crate) at_start: f64,
 }
 
