@@ -27,7 +27,7 @@ pub use checks::load::{large_load, unusual_load};
 pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;
-pub use checks::unusual::{odd_tolerances, of_question, refused_question};
+pub use checks::unusual::{odd_tolerances, refused_question, unusual_question};
 pub use field::ModelField;
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};

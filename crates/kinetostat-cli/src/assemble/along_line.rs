@@ -111,7 +111,7 @@ fn point(solved: &AssembledMachine, place: Vector3<f64>, distance_mm: f64) -> Po
         largest_internal_force_n: inside(|w| w.force().norm()),
         largest_internal_moment_n_m: inside(|w| w.moment().norm()),
         stable: end.stable(),
-        found_by: Some(end.found_by).filter(|by| *by != FoundBy::Directly),
+        found_by: end.found_by.unless_directly(),
     }
 }
 

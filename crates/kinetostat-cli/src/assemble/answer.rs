@@ -155,7 +155,7 @@ pub(crate) fn answer(assembly: &AssemblyQuery) -> Answer<Assembly> {
         length_m: length,
         something_else_acts: acts,
         stable: ends.stable(),
-        found_by: Some(ends.found_by).filter(|by| *by != FoundBy::Directly),
+        found_by: ends.found_by.unless_directly(),
         warnings,
         limbs,
     })

@@ -6,7 +6,7 @@ use std::path::Path;
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
-    LoadAlongPath, Placement, Task, Warning, load_description, of_question, refused_question,
+    LoadAlongPath, Placement, Task, Warning, load_description, refused_question, unusual_question,
 };
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
@@ -117,9 +117,11 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         &motion,
     ));
     let read = (&program, &motion);
-    let check = |task: &Task<'_>| (of_question(task), !refused_question(task).is_empty());
-    let (of_question, refused) = with_task(Aim::Compensate, &machine, &setting, read, check)?;
-    warnings.extend(of_question);
+    let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
+    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, check)?;
+    let is_refused = !refused.is_empty();
+    warnings.extend(refused);
+    warnings.extend(unusual);
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);
@@ -153,7 +155,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         ends: ends(&machine.mechanism, &machine.placement, &motion),
         outputs: outputs(&setting.targets),
         warnings,
-        refused,
+        refused: is_refused,
     })
 }
 

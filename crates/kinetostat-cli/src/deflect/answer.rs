@@ -204,7 +204,7 @@ pub(crate) fn answer(
         energy_j: loaded.energy,
         converged: true,
         iterations: loaded.residual.iterations,
-        found_by: Some(loaded.found_by).filter(|by| *by != FoundBy::Directly),
+        found_by: loaded.found_by.unless_directly(),
         rate_observed: loaded.residual.rate,
         closure_mm: 1e3 * loaded.residual.closure_m,
         near_singularity,

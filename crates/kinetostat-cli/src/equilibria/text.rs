@@ -51,6 +51,7 @@ fn found(a: &EquilibriaAnswer) -> String {
     let stable = a.equilibria.iter().filter(|e| e.stable).count();
     match a.equilibria.len() {
         0 => none_found(&a.tool_held),
+        1 if a.equilibria[0].singular => "One equilibrium, and it is degenerate: at a limit or bifurcation point, or one of a family that moves for nothing.".into(),
         1 if stable == 1 => "One equilibrium, and it is stable.".into(),
         1 => "One equilibrium, and it is NOT stable.".into(),
         n => {

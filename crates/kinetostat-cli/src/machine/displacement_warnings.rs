@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat::error::LoadLimit;
-use kinetostat_machining::{Warning, WarningCode, large_load};
+use kinetostat_machining::{Limits, Warning, WarningCode, large_load};
 use nalgebra::Vector3;
 
 use crate::ui::numbers::{fixed, number, triple};
@@ -56,10 +56,9 @@ const REACTION: f64 = 10.0;
 
 /// To hold or to push the tool takes this force, N, which no machine bears.
 pub(crate) fn large_reaction(force: f64) -> Vec<Warning> {
-    let as_load = |force: f64| Wrench::new(Vector3::x() * force, Vector3::zeros());
-    match large_load(&as_load(force / REACTION)).is_empty() {
+    match force <= REACTION * Limits::default().force_n {
         true => Vec::new(),
-        false => large_load(&as_load(force)),
+        false => large_load(&Wrench::new(Vector3::x() * force, Vector3::zeros())),
     }
 }
 

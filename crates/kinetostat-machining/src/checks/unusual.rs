@@ -65,12 +65,10 @@ pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
     list
 }
 
-/// What is to be said of a question before anything is solved: what a compensation refuses it for, and what of it is
-/// allowed and unusual.
+/// What of a question is allowed and unusual, before anything is solved.
 #[must_use]
-pub fn of_question(task: &Task<'_>) -> Vec<Warning> {
-    let mut list = refused_question(task);
-    list.extend(odd_loads(task));
+pub fn unusual_question(task: &Task<'_>) -> Vec<Warning> {
+    let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(odd_tools(task));
     list.extend(odd_tolerances(&task.writing));
     list

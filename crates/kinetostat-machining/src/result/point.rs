@@ -78,7 +78,7 @@ pub struct PointResult {
 }
 
 fn is_direct(found_by: &FoundBy) -> bool {
-    *found_by == FoundBy::Directly
+    found_by.unless_directly().is_none()
 }
 
 pub(crate) fn size(v: &[f64; 3]) -> f64 {

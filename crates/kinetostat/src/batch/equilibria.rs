@@ -36,7 +36,8 @@ pub struct BatchEquilibrium {
     pub stability: Table,
     /// What became of each.
     pub status: Vec<Status>,
-    /// How each was found: kernels find directly, and of [`Details::Rest`] nothing else is told.
+    /// How each was found. Kernels find directly; with [`Details::Rest`] the scalar fallback does not record it, and it is
+    /// [`FoundBy::Directly`] there too.
     pub found_by: Vec<FoundBy>,
     /// Which engine postures of this machine are solved by.
     pub engine: Engine,

@@ -23,6 +23,19 @@ pub enum FoundBy {
 }
 
 impl FoundBy {
+    /// What is worth saying of it: nothing where it was found directly.
+    ///
+    /// ```
+    /// use kinetostat::chain::FoundBy;
+    ///
+    /// assert_eq!(FoundBy::Directly.unless_directly(), None);
+    /// assert_eq!(FoundBy::OtherStart.unless_directly(), Some(FoundBy::OtherStart));
+    /// ```
+    #[must_use]
+    pub fn unless_directly(self) -> Option<Self> {
+        (self != Self::Directly).then_some(self)
+    }
+
     /// The equilibrium may lie on another branch than the one to which a load leads that grows from rest.
     #[must_use]
     pub fn may_be_another_branch(self) -> bool {

@@ -50,7 +50,7 @@ pub struct CurvePoint<E: CurveEquilibrium = Equilibrium> {
     /// Displacement (m, rad) or load factor.
     pub parameter: f64,
     /// Force (N, N m) along the displacement, or displacement along the load pattern (J per unit
-    /// factor, since the curve's start).
+    /// factor; of a chain since the curve's start, of a machine from its commanded place).
     pub conjugate: f64,
     /// Coordinates, wrench, energy, stiffness and shape (the whole end held).
     pub equilibrium: E,
