@@ -1,0 +1,104 @@
+//! What is wrong with a tool, a material, a cut or a stock: which quantity, what was found, what was expected.
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, CutError>;
+
+/// What an error is about.
+///
+/// ```
+/// use kinetostat_cutting::{CutErrorKind, Shape, Tool};
+///
+/// let error = Tool::new(Shape::Flat, -6.0, 2).unwrap_err();
+/// assert_eq!(error.kind, CutErrorKind::Tool);
+/// assert_eq!(error.quantity, "diameter");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CutErrorKind {
+    /// A tool that nobody could make or hold.
+    Tool,
+    /// A material or law with coefficients that no material has, or that is not known.
+    Material,
+    /// A cut that cannot be made with this tool.
+    Cut,
+    /// A stock that has no volume or needs more memory than is given.
+    Stock,
+    /// A file that cannot be read, or a line of it that says nothing that belongs there.
+    File,
+    /// Measurements that do not determine what is asked.
+    Measurement,
+}
+
+/// A quantity, what was found and what was expected, with the place in a file where there is one.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{quantity}: {found}; expected {expected}", place(.file, .line))]
+#[non_exhaustive]
+pub struct CutError {
+    /// What it is about.
+    pub kind: CutErrorKind,
+    /// File, where the quantity stands in one.
+    pub file: Option<String>,
+    /// Line of the file, from 1.
+    pub line: Option<usize>,
+    /// Which quantity.
+    pub quantity: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected, or what to do.
+    pub expected: String,
+}
+
+impl CutError {
+    /// An error of a quantity that stands in no file.
+    #[must_use]
+    pub fn new(
+        kind: CutErrorKind,
+        quantity: impl Into<String>,
+        found: impl ToString,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self {
+            kind,
+            file: None,
+            line: None,
+            quantity: quantity.into(),
+            found: found.to_string(),
+            expected: expected.into(),
+        }
+    }
+
+    /// The same, of a line of a file (from 1).
+    #[must_use]
+    pub fn at(mut self, file: impl Into<String>, line: Option<usize>) -> Self {
+        self.file = Some(file.into());
+        self.line = line;
+        self
+    }
+}
+
+fn place(file: &Option<String>, line: &Option<usize>) -> String {
+    match (file, line) {
+        (Some(file), Some(line)) => format!("{file}:{line}: "),
+        (Some(file), None) => format!("{file}: "),
+        _ => String::new(),
+    }
+}
+
+/// A number within bounds that hold for any machine shop, or the error that names it.
+pub(crate) fn within(
+    kind: CutErrorKind,
+    quantity: &str,
+    value: f64,
+    bounds: std::ops::RangeInclusive<f64>,
+    unit: &str,
+) -> Result<f64> {
+    match bounds.contains(&value) {
+        true => Ok(value),
+        false => Err(CutError::new(
+            kind,
+            quantity,
+            format!("{value} {unit}").trim_end(),
+            format!("{} to {} {unit}", bounds.start(), bounds.end()).trim_end(),
+        )),
+    }
+}

@@ -1,0 +1,62 @@
+//! Any of the laws of this crate, as a material's file names it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Result;
+use crate::law::exponential::Exponential;
+use crate::law::force_law::{EdgeForce, ForceLaw};
+use crate::law::kienzle::Kienzle;
+use crate::law::linear::Linear;
+use crate::law::rational::Rational;
+
+/// A law with its coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// `f = K_c h + K_e`.
+    Linear(Linear),
+    /// `f = k_11 h^(1 - m)` [R 2.2].
+    Kienzle(Kienzle),
+    /// `f = K_c h + K_e (1 - exp(-h/h_e))`.
+    Exponential(Exponential),
+    /// `f = (a_1 h + a_2 h^2)/(1 + a_3 h)` [R 2.3].
+    Rational(Rational),
+}
+
+impl Law {
+    /// The same, if its coefficients are such as a material can have.
+    ///
+    /// # Errors
+    /// The coefficient that is not.
+    pub fn checked(self) -> Result<Self> {
+        match self {
+            Self::Linear(law) => law.checked().map(Self::Linear),
+            Self::Kienzle(law) => law.checked().map(Self::Kienzle),
+            Self::Exponential(law) => law.checked().map(Self::Exponential),
+            Self::Rational(law) => law.checked().map(Self::Rational),
+        }
+    }
+
+    /// Its name and formula.
+    #[must_use]
+    pub fn description(&self) -> &'static str {
+        match self {
+            Self::Linear(_) => "linear law with edge force, f = K_c h + K_e",
+            Self::Kienzle(_) => "Kienzle's law, f = k_11 h^(1 - m)",
+            Self::Exponential(_) => "exponential law, f = K_c h + K_e (1 - exp(-h/h_e))",
+            Self::Rational(_) => "rational law, f = (a_1 h + a_2 h^2)/(1 + a_3 h)",
+        }
+    }
+}
+
+impl ForceLaw for Law {
+    #[inline]
+    fn edge_force(&self, chip_mm: f64) -> EdgeForce {
+        match self {
+            Self::Linear(law) => law.edge_force(chip_mm),
+            Self::Kienzle(law) => law.edge_force(chip_mm),
+            Self::Exponential(law) => law.edge_force(chip_mm),
+            Self::Rational(law) => law.edge_force(chip_mm),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The linear law with a force of the edge: `f = K_c h + K_e`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{CutErrorKind, Result, within};
+use crate::law::force_law::{EdgeForce, ForceLaw};
+
+/// `f = K_c h + K_e`: the chip costs its thickness, and the edge rubs with any chip.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Linear {
+    /// `K_c`: tangential, radial, axial, N/mm^2.
+    pub cutting_n_per_mm2: [f64; 3],
+    /// `K_e`: tangential, radial, axial, N/mm.
+    pub edge_n_per_mm: [f64; 3],
+}
+
+impl Linear {
+    /// Coefficients `K_c` (N/mm^2) and `K_e` (N/mm), each tangential, radial and axial.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{ForceLaw, Linear};
+    ///
+    /// let aluminium = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4])?;
+    /// assert!((aluminium.edge_force(0.1).tangential - 107.3).abs() < 1e-9); // N/mm
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A tangential coefficient that is negative; any that no material has.
+    pub fn new(cutting: [f64; 3], edge: [f64; 3]) -> Result<Self> {
+        let law = Self {
+            cutting_n_per_mm2: cutting,
+            edge_n_per_mm: edge,
+        };
+        law.checked()
+    }
+
+    pub(crate) fn checked(self) -> Result<Self> {
+        let material = CutErrorKind::Material;
+        let of = self.cutting_n_per_mm2;
+        within(
+            material,
+            "tangential cutting coefficient",
+            of[0],
+            1.0..=1e5,
+            "N/mm2",
+        )?;
+        within(
+            material,
+            "radial cutting coefficient",
+            of[1],
+            -1e5..=1e5,
+            "N/mm2",
+        )?;
+        within(
+            material,
+            "axial cutting coefficient",
+            of[2],
+            -1e5..=1e5,
+            "N/mm2",
+        )?;
+        let of = self.edge_n_per_mm;
+        within(
+            material,
+            "tangential edge coefficient",
+            of[0],
+            0.0..=1e4,
+            "N/mm",
+        )?;
+        within(
+            material,
+            "radial edge coefficient",
+            of[1],
+            -1e4..=1e4,
+            "N/mm",
+        )?;
+        within(
+            material,
+            "axial edge coefficient",
+            of[2],
+            -1e4..=1e4,
+            "N/mm",
+        )?;
+        Ok(self)
+    }
+}
+
+impl ForceLaw for Linear {
+    #[inline]
+    fn edge_force(&self, chip_mm: f64) -> EdgeForce {
+        EdgeForce::from(self.cutting_n_per_mm2) * chip_mm + EdgeForce::from(self.edge_n_per_mm)
+    }
+}

@@ -1,0 +1,262 @@
+//! A milling cutter.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{CutErrorKind, Result, within};
+
+/// Envelope of the cutting edges.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A cylinder with a flat end.
+    Flat,
+    /// A cylinder that ends in a half sphere.
+    Ball,
+    /// A cylinder with a corner radius (bull nose, torus).
+    Bull {
+        /// Radius of the corner, mm, below the tool's radius.
+        corner_radius_mm: f64,
+    },
+    /// A face mill with straight inserts; its diameter is that at the tip.
+    Face {
+        /// Angle between the edge and the plane of the feed, rad: 90 degrees is a cylinder.
+        lead_angle: f64,
+    },
+}
+
+/// The axis of the teeth lies beside the axis of rotation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunOut {
+    /// Distance of the two axes, mm.
+    pub offset_mm: f64,
+    /// Where the offset points, seen from tooth 0, rad: tooth `j` of `N` stands out by
+    /// `offset cos(angle - 2 pi j/N)`.
+    pub angle: f64,
+}
+
+/// A milling cutter with evenly spaced teeth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tool {
+    shape: Shape,
+    diameter_mm: f64,
+    teeth: usize,
+    helix: f64,
+    run_out: RunOut,
+}
+
+impl Tool {
+    /// A cutter with straight teeth and without run-out.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Shape, Tool};
+    ///
+    /// let cutter = Tool::new(Shape::Flat, 12.0, 4)?.with_helix(38_f64.to_radians())?;
+    /// assert_eq!(cutter.radius_mm(), 6.0);
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A diameter outside 0.01 to 1000 mm, no tooth or more than 200, a corner radius that does not fit, a lead angle outside
+    /// 5 to 90 degrees.
+    pub fn new(shape: Shape, diameter_mm: f64, teeth: usize) -> Result<Self> {
+        let tool = CutErrorKind::Tool;
+        within(tool, "diameter", diameter_mm, 0.01..=1000.0, "mm")?;
+        within(tool, "teeth", teeth as f64, 1.0..=200.0, "")?;
+        match shape {
+            Shape::Flat | Shape::Ball => {}
+            Shape::Bull { corner_radius_mm } => {
+                within(
+                    tool,
+                    "corner radius",
+                    corner_radius_mm,
+                    0.0..=0.5 * diameter_mm,
+                    "mm",
+                )?;
+            }
+            Shape::Face { lead_angle } => {
+                within(
+                    tool,
+                    "lead angle",
+                    lead_angle.to_degrees(),
+                    5.0..=90.0,
+                    "deg",
+                )?;
+            }
+        }
+        Ok(Self {
+            shape,
+            diameter_mm,
+            teeth,
+            helix: 0.0,
+            run_out: RunOut::default(),
+        })
+    }
+
+    /// The same with a helix angle, rad. Positive lifts the chip: the edge lags behind the tip as it rises.
+    ///
+    /// # Errors
+    /// An angle beyond 70 degrees.
+    pub fn with_helix(mut self, helix: f64) -> Result<Self> {
+        within(
+            CutErrorKind::Tool,
+            "helix",
+            helix.to_degrees(),
+            -70.0..=70.0,
+            "deg",
+        )?;
+        self.helix = helix;
+        Ok(self)
+    }
+
+    /// The same with run-out.
+    ///
+    /// # Errors
+    /// An offset that is negative or more than a tenth of the diameter, an angle that is no number.
+    pub fn with_run_out(mut self, run_out: RunOut) -> Result<Self> {
+        let most = 0.1 * self.diameter_mm;
+        within(
+            CutErrorKind::Tool,
+            "run-out",
+            run_out.offset_mm,
+            0.0..=most,
+            "mm",
+        )?;
+        within(
+            CutErrorKind::Tool,
+            "angle of the run-out",
+            run_out.angle,
+            -1e3..=1e3,
+            "rad",
+        )?;
+        self.run_out = run_out;
+        Ok(self)
+    }
+
+    /// Envelope of its edges.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// Diameter, mm.
+    #[must_use]
+    pub fn diameter_mm(&self) -> f64 {
+        self.diameter_mm
+    }
+
+    /// Radius, mm.
+    #[must_use]
+    pub fn radius_mm(&self) -> f64 {
+        0.5 * self.diameter_mm
+    }
+
+    /// Number of teeth.
+    #[must_use]
+    pub fn teeth(&self) -> usize {
+        self.teeth
+    }
+
+    /// Helix angle at the shank, rad.
+    #[must_use]
+    pub fn helix(&self) -> f64 {
+        self.helix
+    }
+
+    /// Run-out of the teeth.
+    #[must_use]
+    pub fn run_out(&self) -> RunOut {
+        self.run_out
+    }
+
+    /// Angle by which the edge lags behind the tip per height above it, rad/mm: the lead is constant.
+    #[must_use]
+    pub fn lag_per_mm(&self) -> f64 {
+        self.helix.tan() / self.radius_mm()
+    }
+
+    /// Angle from tooth to tooth, rad.
+    #[must_use]
+    pub fn pitch(&self) -> f64 {
+        TAU / self.teeth as f64
+    }
+
+    /// By how much a tooth stands out from the mean, mm.
+    #[must_use]
+    pub fn stands_out_mm(&self, tooth: usize) -> f64 {
+        self.run_out.offset_mm * (self.run_out.angle - self.pitch() * tooth as f64).cos()
+    }
+
+    /// Radius of the flat end, mm: 0 on a ball.
+    #[must_use]
+    pub fn end_radius_mm(&self) -> f64 {
+        match self.shape {
+            Shape::Flat | Shape::Face { .. } => self.radius_mm(),
+            Shape::Ball => 0.0,
+            Shape::Bull { corner_radius_mm } => self.radius_mm() - corner_radius_mm,
+        }
+    }
+
+    /// Radius of the corner between the end and the side, mm.
+    #[must_use]
+    pub fn corner_radius_mm(&self) -> f64 {
+        match self.shape {
+            Shape::Flat | Shape::Face { .. } => 0.0,
+            Shape::Ball => self.radius_mm(),
+            Shape::Bull { corner_radius_mm } => corner_radius_mm,
+        }
+    }
+
+    /// Angle between the axis and the outward normal of the envelope above the corner, rad.
+    #[must_use]
+    pub fn side_angle(&self) -> f64 {
+        match self.shape {
+            Shape::Face { lead_angle } => lead_angle,
+            _ => FRAC_PI_2,
+        }
+    }
+
+    /// Radius of the envelope at a height above the tip, mm.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Shape, Tool};
+    ///
+    /// let ball = Tool::new(Shape::Ball, 10.0, 2)?;
+    /// assert!((ball.radius_at_mm(1.0) - 3.0).abs() < 1e-12);
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn radius_at_mm(&self, height_mm: f64) -> f64 {
+        let corner = self.corner_radius_mm();
+        match height_mm < corner {
+            true => {
+                let rest = corner - height_mm;
+                self.end_radius_mm() + (corner * corner - rest * rest).sqrt()
+            }
+            false => match self.shape {
+                Shape::Face { lead_angle } => self.radius_mm() + height_mm / lead_angle.tan(),
+                _ => self.radius_mm(),
+            },
+        }
+    }
+
+    /// Height of the envelope above the tip at a radius, mm; `None` outside the tool.
+    #[must_use]
+    pub fn height_at_mm(&self, radius_mm: f64) -> Option<f64> {
+        let beyond = radius_mm - self.end_radius_mm();
+        if beyond <= 0.0 {
+            return Some(0.0);
+        }
+        match self.shape {
+            Shape::Face { lead_angle } => match lead_angle < FRAC_PI_2 {
+                true => Some(beyond * lead_angle.tan()),
+                false => None,
+            },
+            _ => {
+                let corner = self.corner_radius_mm();
+                (beyond <= corner).then(|| corner - (corner * corner - beyond * beyond).sqrt())
+            }
+        }
+    }
+}
