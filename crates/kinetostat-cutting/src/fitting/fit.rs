@@ -1,8 +1,8 @@
 //! Coefficients of the linear law that fit mean forces best.
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::fitting::least_squares::{Solution, solve};
-use crate::fitting::series::Series;
+use crate::fitting::least_squares::solve;
+use crate::fitting::series::{MeanForce, Series};
 use crate::fitting::student::student_95;
 use crate::law::Linear;
 use crate::number::larger;
@@ -120,13 +120,13 @@ pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
     let (plane, axial) = match (solve(&plane, &in_plane), solve(&axial, &along)) {
         (Ok(plane), Ok(axial)) => (plane, axial),
         (plane, axial) => {
-            let missing = |found: Result<Solution, Vec<usize>>, of: &[usize]| {
-                let indices = found.err().unwrap_or_default();
+            let missing = |found: Option<Vec<usize>>, of: &[usize]| {
+                let indices = found.unwrap_or_default();
                 indices.into_iter().map(|i| of[i]).collect::<Vec<_>>()
             };
             return Err(undetermined(
-                &missing(plane, &PLANE),
-                &missing(axial, &AXIAL),
+                &missing(plane.err(), &PLANE),
+                &missing(axial.err(), &AXIAL),
             ));
         }
     };
@@ -171,7 +171,7 @@ pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
 }
 
 fn residuals(series: &Series, law: &Linear) -> Vec<[Option<f64>; 3]> {
-    let of_row = |row: &crate::fitting::series::MeanForce| {
+    let of_row = |row: &MeanForce| {
         let fitted = series.cut.mean_force_n(law, row.feed_mm_per_tooth);
         [0, 1, 2].map(|axis| row.force_n[axis].map(|force| force - fitted[axis]))
     };

@@ -1,0 +1,4 @@
+//! Tests of cutting forces, a module for each room.
+
+mod fitting;
+mod material;
