@@ -117,7 +117,10 @@ pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
             along.push(force);
         }
     }
-    let (plane, axial) = match (solve(&plane, &in_plane), solve(&axial, &along)) {
+    let (plane, axial) = match (
+        solve(&plane, &in_plane, [0, 0, 1, 1]),
+        solve(&axial, &along, [0, 1]),
+    ) {
         (Ok(plane), Ok(axial)) => (plane, axial),
         (plane, axial) => {
             let missing = |found: Option<Vec<usize>>, of: &[usize]| {

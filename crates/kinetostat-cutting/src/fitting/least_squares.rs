@@ -2,8 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-/// Singular values below this share of the largest are no information, with columns of length 1.
-const RANK: f64 = 1e-9;
+use crate::number::larger;
+
+/// Singular values below this share of the largest are no information: any noise is larger.
+const RANK: f64 = 1e-7;
 
 /// Unknowns that fit best, and how well they are known.
 pub(crate) struct Solution {
@@ -15,31 +17,36 @@ pub(crate) struct Solution {
     pub(crate) freedom: usize,
 }
 
-/// Solves `rows x unknowns = seen`, all rows of one accuracy.
+/// Solves `rows x unknowns = seen`, all rows of one accuracy. Unknowns with the same number in `units` have the same unit.
 ///
 /// # Errors
 /// The unknowns, by index, that the rows do not determine.
 pub(crate) fn solve<const N: usize>(
     rows: &[[f64; N]],
     seen: &[f64],
+    units: [usize; N],
 ) -> Result<Solution, Vec<usize>> {
     // Rows of zeros change nothing, and give directions without information a place among the singular ones.
     let count = rows.len().max(N);
     let cell = |i: usize, j: usize| rows.get(i).map_or(0.0, |row| row[j]);
     let mut design = DMatrix::from_fn(count, N, cell);
     let seen = DVector::from_fn(count, |i, _| seen.get(i).copied().unwrap_or(0.0));
-    // Columns differ by their units: with length 1 each, singular values can be compared.
-    let lengths: Vec<f64> = design.column_iter().map(|column| column.norm()).collect();
+    // Columns differ by their units: with the longest of each unit at length 1, singular values can be compared. Each at
+    // length 1 would make information of rounding, such as the sine of half a turn.
+    let own: Vec<f64> = design.column_iter().map(|column| column.norm()).collect();
+    let alike = |j: usize| (0..N).filter(move |k| units[*k] == units[j]);
+    let lengths: Vec<f64> = (0..N)
+        .map(|j| alike(j).map(|k| own[k]).fold(0.0, larger))
+        .map(|length| if length > 0.0 { length } else { 1.0 })
+        .collect();
     for (j, length) in lengths.iter().enumerate() {
-        if *length > 0.0 {
-            design.column_mut(j).unscale_mut(*length);
-        }
+        design.column_mut(j).unscale_mut(*length);
     }
     let singular = SVD::new(design.clone(), true, true);
     let (Some(left), Some(right)) = (&singular.u, &singular.v_t) else {
         return Err((0..N).collect());
     };
-    let most = singular.singular_values.max();
+    let most = singular.singular_values.iter().copied().fold(0.0, larger);
     let told = |k: usize| singular.singular_values[k] > RANK * most;
     // An unknown with a share in a direction without information is not determined.
     let unknown = |j: &usize| (0..N).any(|k| !told(k) && right[(k, *j)].abs() > 1e-6);
