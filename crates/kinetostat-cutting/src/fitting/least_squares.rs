@@ -1,10 +1,10 @@
 //! Linear least squares that says what it cannot determine.
 
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{ColPivQR, DMatrix, DVector, RowDVector};
 
 use crate::number::larger;
 
-/// Singular values below this share of the largest are no information: any noise is larger.
+/// Elements of the triangle's diagonal below this share of the largest are no information: any noise is larger.
 const RANK: f64 = 1e-7;
 
 /// Unknowns that fit best, and how well they are known.
@@ -26,12 +26,12 @@ pub(crate) fn solve<const N: usize>(
     seen: &[f64],
     units: [usize; N],
 ) -> Result<Solution, Vec<usize>> {
-    // Rows of zeros change nothing, and give directions without information a place among the singular ones.
+    // Rows of zeros change nothing, and make room for all columns of the triangle.
     let count = rows.len().max(N);
     let cell = |i: usize, j: usize| rows.get(i).map_or(0.0, |row| row[j]);
     let mut design = DMatrix::from_fn(count, N, cell);
     let seen = DVector::from_fn(count, |i, _| seen.get(i).copied().unwrap_or(0.0));
-    // Columns differ by their units: with the longest of each unit at length 1, singular values can be compared. Each at
+    // Columns differ by their units: with the longest of each unit at length 1, directions can be compared. Each at
     // length 1 would make information of rounding, such as the sine of half a turn.
     let own: Vec<f64> = design.column_iter().map(|column| column.norm()).collect();
     let alike = |j: usize| (0..N).filter(move |k| units[*k] == units[j]);
@@ -42,21 +42,26 @@ pub(crate) fn solve<const N: usize>(
     for (j, length) in lengths.iter().enumerate() {
         design.column_mut(j).unscale_mut(*length);
     }
-    let singular = SVD::new(design.clone(), true, true);
-    let (Some(left), Some(right)) = (&singular.u, &singular.v_t) else {
-        return Err((0..N).collect());
-    };
-    let most = singular.singular_values.iter().copied().fold(0.0, larger);
-    let told = |k: usize| singular.singular_values[k] > RANK * most;
-    // An unknown with a share in a direction without information is not determined.
-    let unknown = |j: &usize| (0..N).any(|k| !told(k) && right[(k, *j)].abs() > 1e-6);
-    let missing: Vec<usize> = (0..N).filter(unknown).collect();
+    // Householder's reflections with the longest column first; nalgebra's singular values are wrong where several are
+    // equal, as those of a slot are.
+    let factors = ColPivQR::new(design.clone());
+    let (left, upper) = (factors.q(), factors.r());
+    let mut order = RowDVector::from_fn(N, |_, j| j);
+    factors.p().permute_columns(&mut order);
+    let missing = undetermined(&upper, &order);
     if !missing.is_empty() {
         return Err(missing);
     }
+    let Some(inverse) = upper.solve_upper_triangular(&DMatrix::identity(N, N)) else {
+        return Err((0..N).collect());
+    };
     let solve = |seen: &DVector<f64>| {
-        let along = left.tr_mul(seen).component_div(&singular.singular_values);
-        right.tr_mul(&along)
+        let ordered = &inverse * left.tr_mul(seen);
+        let mut unknowns = DVector::zeros(N);
+        for (k, j) in order.iter().enumerate() {
+            unknowns[*j] = ordered[k];
+        }
+        unknowns
     };
     let mut scaled = solve(&seen);
     // A second round takes the rounding of the first out.
@@ -65,17 +70,37 @@ pub(crate) fn solve<const N: usize>(
     let freedom = rows.len().saturating_sub(N);
     let standard_errors = (freedom > 0).then(|| {
         let variance = residuals.norm_squared() / freedom as f64;
-        let spread = |j: usize| {
-            let shares = (0..N).map(|k| right[(k, j)] / singular.singular_values[k]);
-            shares.map(|share| share * share).sum::<f64>()
-        };
-        (0..N)
-            .map(|j| (variance * spread(j)).sqrt() / lengths[j])
-            .collect()
+        let mut errors = vec![0.0; N];
+        for (k, j) in order.iter().enumerate() {
+            errors[*j] = variance.sqrt() * inverse.row(k).norm() / lengths[*j];
+        }
+        errors
     });
     Ok(Solution {
         values: (0..N).map(|j| scaled[j] / lengths[j]).collect(),
         standard_errors,
         freedom,
     })
+}
+
+/// Unknowns with a share in a direction of which the triangle `upper`, its columns in this order, tells nothing.
+fn undetermined(upper: &DMatrix<f64>, order: &RowDVector<usize>) -> Vec<usize> {
+    let count = order.len();
+    let most = upper[(0, 0)].abs();
+    // Diagonal elements only fall.
+    let told = (0..count)
+        .take_while(|k| upper[(*k, *k)].abs() > RANK * most)
+        .count();
+    let known = upper.view((0, 0), (told, told)).into_owned();
+    let rest = upper.view((0, told), (told, count - told)).into_owned();
+    let mut missing: Vec<usize> = order.iter().skip(told).copied().collect();
+    match known.solve_upper_triangular(&rest) {
+        Some(shares) => {
+            let mixed = |k: &usize| shares.row(*k).iter().any(|share| share.abs() > 1e-6);
+            missing.extend((0..told).filter(mixed).map(|k| order[k]));
+        }
+        None => missing = (0..count).collect(),
+    }
+    missing.sort_unstable();
+    missing
 }

@@ -156,6 +156,45 @@ fn exact_forces_give_the_coefficients() {
     }
 }
 
+/// A slot 25 mm wide and 3 mm deep, two teeth, 6000 rev/min: means of one second of a dynamometer's records
+/// (github.com/leekunhwee/ForceCalculation, General/Flat end milling, five CSV files of 10 001 samples; its own axes turned
+/// into ours). The coefficients that its author found from them are printed in blog.csdn.net/2401_82386822/article/details/141181694.
+#[test]
+fn a_published_slot_test_gives_its_published_coefficients() {
+    let text = "\
+feed_mm_per_tooth,fx_n,fy_n,fz_n
+0.025,-39.7970,63.0178,55.7214
+0.050,-60.0528,107.1381,70.9095
+0.075,-71.6049,137.6731,82.5741
+0.100,-76.7469,171.2679,85.2269
+0.125,-78.4868,210.7392,83.5039
+";
+    let tool = Tool::new(Shape::Flat, 25.0, 2).unwrap();
+    let slot = Engagement::straight(12.5, 25.0, 3.0, Side::Left).unwrap();
+    let cut = MeasuredCut::new(&tool, &slot).unwrap();
+    let series = Series::read("slot.csv", text, cut).unwrap();
+    let fit = fit_coefficients(&[series]).unwrap();
+    let published = [958.8599, 250.8633, 146.3614, 15.7580, 19.4337, 18.2075];
+    for (coefficient, printed) in fit.coefficients.iter().zip(published) {
+        let error = (coefficient.value / printed - 1.0).abs();
+        assert!(
+            error < 1e-5,
+            "{}: {}",
+            coefficient.symbol,
+            coefficient.value
+        );
+    }
+    // The tangential force follows the line, the others bend: their intervals say so.
+    let share = |i: usize| fit.coefficients[i].half_width_95.unwrap() / published[i];
+    assert!(
+        share(0) < 0.2 && share(2) > 0.5,
+        "{} {}",
+        share(0),
+        share(2)
+    );
+    assert!(fit.r_squared[1].unwrap() > 0.99 && fit.r_squared[0].unwrap() < 0.95);
+}
+
 /// Values of `shared/theory/cutting.md`, Reference values, first row: a plain summation over angles and slices.
 #[test]
 fn the_closed_form_agrees_with_the_reference_values() {
