@@ -12,6 +12,7 @@ mod error;
 mod fitting;
 mod law;
 mod material;
+mod milling;
 mod number;
 mod tool;
 
@@ -23,4 +24,5 @@ pub use law::{
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
 pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
+pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
 pub use tool::{RunOut, Shape, Tool};

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use kinetostat_cutting::{
-    CoefficientFit, Contact, CutErrorKind, Engagement, Linear, MeanForce, MeasuredCut, Series,
-    Shape, Side, Tool, fit_coefficients,
+    CoefficientFit, Contact, Correction, CutErrorKind, Engagement, Feed, Linear, Materials,
+    MeanForce, MeasuredCut, Milling, RunOut, Series, Shape, Side, Tool, fit_coefficients,
 };
 use proptest::prelude::*;
 
@@ -193,6 +193,48 @@ feed_mm_per_tooth,fx_n,fy_n,fz_n
         share(2)
     );
     assert!(fit.r_squared[1].unwrap() > 0.99 && fit.r_squared[0].unwrap() < 0.95);
+}
+
+/// Forces of the integration along the edges: helix changes nothing, nor does run-out that lets no tooth miss its chip. At
+/// the ends of a half turn chips are thin, and any run-out lets teeth miss them: the fit is off by percents then.
+#[test]
+fn forces_of_a_helical_cutter_with_run_out_give_their_law() {
+    let materials = Materials::library();
+    let law = materials.find("linear steel").unwrap();
+    let law = law.for_milling(&Correction::default()).unwrap().law;
+    let cases = [
+        // Run-out, arc, largest error of a coefficient.
+        (0.0, 0.0, 1.2, 1e-7),
+        (0.0, 0.0, PI, 1e-7),
+        (0.004, 0.6, 1.4, 1e-7),
+        (0.004, 0.0, 1.2, 0.06),
+    ];
+    for (offset_mm, entry, exit, most) in cases {
+        let run_out = RunOut {
+            offset_mm,
+            angle: 1.0,
+        };
+        let tool = Tool::new(Shape::Flat, 12.0, 3)
+            .unwrap()
+            .with_helix(0.6)
+            .unwrap();
+        let tool = tool.with_run_out(run_out).unwrap();
+        let engagement = Engagement {
+            contacts: vec![Contact::side(0.0, 2.0, entry, exit)],
+        };
+        let row = |feed: f64| {
+            let feeds = Feed::level(feed).unwrap();
+            let force = Milling::new(&tool, &law, &engagement, feeds).mean().force_n;
+            MeanForce {
+                feed_mm_per_tooth: feed,
+                force_n: [force.x, force.y, force.z].map(Some),
+            }
+        };
+        let rows = [0.05, 0.1, 0.15].map(row).to_vec();
+        let series = Series::new(MeasuredCut::new(&tool, &engagement).unwrap(), rows).unwrap();
+        let error = worst(&fit_coefficients(&[series]).unwrap(), STEEL);
+        assert!(error < most, "{offset_mm} mm, {entry} to {exit}: {error:e}");
+    }
 }
 
 /// Values of `shared/theory/cutting.md`, Reference values, first row: a plain summation over angles and slices.
