@@ -9,16 +9,20 @@
 
 mod engagement;
 mod error;
+mod fitting;
 mod law;
+mod material;
 mod milling;
 mod number;
 mod tool;
 
 pub use engagement::{Contact, Edge, Engagement, Side};
 pub use error::{CutError, CutErrorKind, Result};
+pub use fitting::{Coefficient, CoefficientFit, MeanForce, MeasuredCut, Series, fit_coefficients};
 pub use law::{
     Coolant, Corrected, Correction, CuttingMaterial, EdgeForce, Exponential, ForceLaw, Kienzle,
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
+pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
 pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
 pub use tool::{RunOut, Shape, Tool};

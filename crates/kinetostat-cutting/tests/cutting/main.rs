@@ -1,8 +1,10 @@
 //! Tests of the cutting forces: closed forms, reference values, plain summation written apart.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 mod corrections;
+mod fitting;
+mod material;
 mod milling_invariants;
 mod milling_plain;
 mod milling_reference;
