@@ -10,6 +10,7 @@
 mod engagement;
 mod error;
 mod law;
+mod milling;
 mod number;
 mod tool;
 
@@ -19,4 +20,5 @@ pub use law::{
     Coolant, Corrected, Correction, CuttingMaterial, EdgeForce, Exponential, ForceLaw, Kienzle,
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
+pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
 pub use tool::{RunOut, Shape, Tool};

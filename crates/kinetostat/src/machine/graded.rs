@@ -21,6 +21,10 @@ use crate::model::chain::Scale;
 /// Stiffnesses of limbs that differ by more are kept apart when limbs are added.
 const UNEVEN: f64 = 1e6;
 
+/// More limbs in series do not count as softer: rows of all limbs cost the cube of the number of platforms, and a sparse
+/// sum still holds six digits of the softest of some hundred platforms in series.
+const SERIES: usize = 40;
+
 /// Stiffness of all moving platforms, scaled.
 pub(crate) struct GradedPlatforms {
     scale: Scale,
@@ -44,7 +48,7 @@ impl GradedPlatforms {
         limbs: impl Iterator<Item = (&'a ChainStiffness, Scale, &'a Ends)> + Clone,
     ) -> Option<Self> {
         // Limbs in series become softer with the cube of their number, and no less stiff along their axes.
-        let series = (moving * moving * moving) as f64;
+        let series = moving.min(SERIES).pow(3) as f64;
         if !limbs
             .clone()
             .any(|(limb, ..)| series * spread(&limb.directions) > UNEVEN)
