@@ -7,13 +7,18 @@
 //! Axes of the cut: x along the feed of the tool over the part, z along the tool axis towards the spindle, y to the left of
 //! the feed. Source: `shared/theory/cutting.md`, and chapter 2 of the report with its errata.
 
+mod drilling;
 mod engagement;
 mod error;
 mod law;
 mod milling;
 mod number;
+mod spindle;
 mod tool;
+mod tool_table;
+mod turning;
 
+pub use drilling::{Drill, DrillForce};
 pub use engagement::{Contact, Edge, Engagement, Side};
 pub use error::{CutError, CutErrorKind, Result};
 pub use law::{
@@ -21,4 +26,7 @@ pub use law::{
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
 pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
+pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
 pub use tool::{RunOut, Shape, Tool};
+pub use tool_table::{LinuxCncTable, LinuxCncTool, MachineUnit, ToolEntry, ToolTable};
+pub use turning::{Turning, TurningForce};

@@ -77,13 +77,25 @@ pub enum SpindleFinding {
 impl fmt::Display for SpindleFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Speed { speed_rpm, most_rpm } => {
-                write!(f, "the cut needs {speed_rpm} rpm, the spindle turns from 0 to {most_rpm} rpm")
+            Self::Speed {
+                speed_rpm,
+                most_rpm,
+            } => {
+                write!(
+                    f,
+                    "the cut needs {speed_rpm} rpm, the spindle turns from 0 to {most_rpm} rpm"
+                )
             }
-            Self::Torque { speed_rpm, torque_n_m, limit } => write!(
+            Self::Torque {
+                speed_rpm,
+                torque_n_m,
+                limit,
+            } => write!(
                 f,
                 "the cut needs {torque_n_m:.3} N m ({:.0} W) at {speed_rpm} rpm, the spindle gives {:.3} N m ({:.0} W)",
-                torque_n_m * turn_rate(*speed_rpm), limit.torque_n_m, limit.power_w,
+                torque_n_m * turn_rate(*speed_rpm),
+                limit.torque_n_m,
+                limit.power_w,
             ),
         }
     }
@@ -118,7 +130,13 @@ impl SpindleCurve {
     /// outside 0 to 1e6 N m; each names the point, counted from 1.
     pub fn new(points: &[SpindlePoint]) -> Result<Self> {
         let machine = CutErrorKind::Machine;
-        within(machine, "points of the spindle's curve", points.len() as f64, 1.0..=MOST_POINTS as f64, "")?;
+        within(
+            machine,
+            "points of the spindle's curve",
+            points.len() as f64,
+            1.0..=MOST_POINTS as f64,
+            "",
+        )?;
         let mut before: Option<f64> = None;
         for (index, point) in points.iter().enumerate() {
             let number = index + 1;
@@ -128,13 +146,23 @@ impl SpindleCurve {
             within(machine, &torque, point.torque_n_m, 0.0..=1e6, "N m")?;
             if let Some(before) = before.filter(|before| *before >= point.speed_rpm) {
                 let expected = format!("more than the {before} rpm of the point before it");
-                return Err(CutError::new(machine, speed, format!("{} rpm", point.speed_rpm), expected));
+                return Err(CutError::new(
+                    machine,
+                    speed,
+                    format!("{} rpm", point.speed_rpm),
+                    expected,
+                ));
             }
             before = Some(point.speed_rpm);
         }
         if before == Some(0.0) {
             let expected = "a largest speed above zero";
-            return Err(CutError::new(machine, "speed of the last point", "0 rpm", expected));
+            return Err(CutError::new(
+                machine,
+                "speed of the last point",
+                "0 rpm",
+                expected,
+            ));
         }
         Ok(Self {
             points: points.to_vec(),
@@ -183,7 +211,9 @@ impl SpindleCurve {
         if !(0.0..=self.most_rpm()).contains(&speed_rpm) {
             return None;
         }
-        let above = self.points.partition_point(|point| point.speed_rpm < speed_rpm);
+        let above = self
+            .points
+            .partition_point(|point| point.speed_rpm < speed_rpm);
         let upper = self.points.get(above)?;
         let torque_n_m = match above.checked_sub(1).map(|below| self.points[below]) {
             None => upper.torque_n_m,
@@ -192,7 +222,8 @@ impl SpindleCurve {
             }
             Some(lower) => {
                 let share = (speed_rpm - lower.speed_rpm) / (upper.speed_rpm - lower.speed_rpm);
-                lower.torque_n_m + share * (upper.torque_n_m - lower.torque_n_m)
+                // In this form it is exact at both points.
+                (1.0 - share) * lower.torque_n_m + share * upper.torque_n_m
             }
         };
         Some(SpindleLimit {
@@ -217,7 +248,10 @@ impl SpindleCurve {
     pub fn exceeded_by(&self, speed_rpm: f64, torque_n_mm: f64) -> Option<SpindleFinding> {
         let Some(limit) = self.limit_at(speed_rpm) else {
             let most_rpm = self.most_rpm();
-            return Some(SpindleFinding::Speed { speed_rpm, most_rpm });
+            return Some(SpindleFinding::Speed {
+                speed_rpm,
+                most_rpm,
+            });
         };
         let torque_n_m = 1e-3 * torque_n_mm;
         // A torque that is no number is not one that the spindle gives.

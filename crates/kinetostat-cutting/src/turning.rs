@@ -51,7 +51,13 @@ impl Turning {
         within(cut, "depth of cut", depth_mm, 1e-4..=1e3, "mm")?;
         within(cut, "feed", feed_mm_per_turn, 1e-6..=100.0, "mm per turn")?;
         let degrees = approach_angle.to_degrees();
-        within(CutErrorKind::Tool, "approach angle", degrees, 5.0..=150.0, "deg")?;
+        within(
+            CutErrorKind::Tool,
+            "approach angle",
+            degrees,
+            5.0..=150.0,
+            "deg",
+        )?;
         Ok(Self {
             depth_mm,
             feed_mm_per_turn,
@@ -79,13 +85,18 @@ impl Turning {
         let (chip_mm, width_mm) = (self.chip_mm(), self.width_mm());
         let force = law.edge_force(chip_mm) * width_mm;
         let (sin, cos) = self.approach_angle.sin_cos();
-        let checked = |name: &str, value: f64| {
-            within(CutErrorKind::Cut, name, value, -1e12..=1e12, "N")
-        };
+        let checked =
+            |name: &str, value: f64| within(CutErrorKind::Cut, name, value, -1e12..=1e12, "N");
         Ok(TurningForce {
             cutting_n: checked("cutting force of the law", force.tangential)?,
-            feed_n: checked("feed force of the law", force.radial * sin - force.axial * cos)?,
-            passive_n: checked("passive force of the law", force.radial * cos + force.axial * sin)?,
+            feed_n: checked(
+                "feed force of the law",
+                force.radial * sin - force.axial * cos,
+            )?,
+            passive_n: checked(
+                "passive force of the law",
+                force.radial * cos + force.axial * sin,
+            )?,
             chip_mm,
             width_mm,
         })

@@ -3,7 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod corrections;
+mod drilling;
 mod milling_invariants;
 mod milling_plain;
 mod milling_reference;
 mod plain;
+mod spindle;
+mod tool_tables;
+mod turning;
