@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{CutError, CutErrorKind, Result, within};
-use crate::tool_table::{MOST_BYTES, MOST_TOOLS};
+use crate::tool_table::bounds::{MOST_BYTES, MOST_TOOLS};
 
 /// Units of the machine, in which `tool.tbl` counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

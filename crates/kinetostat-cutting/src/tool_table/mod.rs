@@ -4,17 +4,14 @@
 //! `tool.tbl` has no teeth and no shape: an entry of ours with the same number completes it, and a tool that lacks one is
 //! named when it is asked for. Source of the format: LinuxCNC, `docs/src/gcode/tool-compensation.adoc`, "Tool Table Format".
 
+mod bounds;
 mod entry;
 mod linuxcnc;
 mod source;
 mod table;
 mod toml_file;
+mod written;
 
 pub use entry::ToolEntry;
 pub use linuxcnc::{LinuxCncTable, LinuxCncTool, MachineUnit};
 pub use table::ToolTable;
-
-/// Most bytes of a file.
-const MOST_BYTES: usize = 10_000_000;
-/// Most tools of a file.
-const MOST_TOOLS: usize = 10_000;

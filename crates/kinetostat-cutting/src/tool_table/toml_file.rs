@@ -2,57 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
 use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::tool::{RunOut, Shape, Tool};
+use crate::tool_table::bounds::{MOST_BYTES, MOST_TOOLS};
 use crate::tool_table::entry::ToolEntry;
 use crate::tool_table::linuxcnc::{LinuxCncTable, LinuxCncTool};
 use crate::tool_table::source::Source;
-use crate::tool_table::{MOST_BYTES, MOST_TOOLS};
+use crate::tool_table::written::{Entry, File, ShapeName};
 
 /// Shares of the diameter: a D of `tool.tbl` up to this far from it is the measured diameter, one up to this far from zero
 /// the wear (LinuxCNC allows both).
 const SAME_DIAMETER: f64 = 0.1;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    #[serde(default)]
-    tool: Vec<Spanned<Entry>>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum ShapeName {
-    Flat,
-    Ball,
-    Bull,
-    Face,
-}
-
-/// A tool as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    number: Spanned<u32>,
-    #[serde(default)]
-    name: String,
-    shape: Spanned<ShapeName>,
-    diameter_mm: Option<Spanned<f64>>,
-    teeth: Spanned<u32>,
-    helix_deg: Option<Spanned<f64>>,
-    corner_radius_mm: Option<Spanned<f64>>,
-    lead_angle_deg: Option<Spanned<f64>>,
-    stick_out_mm: Option<Spanned<f64>>,
-    flute_length_mm: Option<Spanned<f64>>,
-    run_out_um: Option<Spanned<f64>>,
-    run_out_angle_deg: Option<Spanned<f64>>,
-    rake_deg: Option<Spanned<f64>>,
-    max_chip_mm: Option<Spanned<f64>>,
-    length_mm: Option<Spanned<f64>>,
-}
 
 impl Source<'_> {
     fn shape(&self, entry: &Entry) -> Result<Shape> {

@@ -111,9 +111,10 @@ pub struct SpindleChange {
 impl Path {
     /// How the spindle turns while the block on a line is made.
     ///
-    /// Words are taken in the order in which LinuxCNC executes those of one block: speed (S), speed mode (G96, G97), change
-    /// of tools (M6, which stops the spindle), M3 M4 M5 M19, motion, end of program (M2 and M30, which stop it). A pause (M0,
-    /// M1) changes nothing. Before the first word it stands still.
+    /// Words are taken in the order in which LinuxCNC executes those of one block: speed (S, in the mode that G96 or G97 of
+    /// the same block sets), change of tools (M6, which stops the spindle), M3 M4 M5 M19, motion, end of program (M2 and M30,
+    /// which stop it). A pause (M0, M1) changes nothing. Before the first word it stands still. An M5 beside a feed motion
+    /// acts after it on some controllers ([`crate::MOMENTS`]); a warning names the line, and here it acts before.
     ///
     /// ```
     /// use kinetostat_program::*;
