@@ -50,8 +50,8 @@ impl ToolTable {
         })
     }
 
-    /// The same beside a `tool.tbl`, which gives each tool of the same number its length offset, and its diameter and name
-    /// where this table leaves them out.
+    /// The same beside a `tool.tbl`, which gives each tool of the same number its length offset, diameter and name where
+    /// this table leaves them out.
     ///
     /// A D of `tool.tbl` near zero is the wear and is not added to the diameter.
     ///

@@ -303,6 +303,9 @@ fn our_table_completes_that_of_the_machine() {
         [1, 3, 20].map(|n| of(n).name.as_str()),
         ["bull nose", "6 mm two-flute", ""]
     );
+    let stated = OURS.replace("rake_deg = 12", "length_mm = -49");
+    let table_stated = ToolTable::completing("tools.toml", &stated, machine()).unwrap();
+    assert_eq!(table_stated.tool(3).unwrap().length_mm, Some(-49.0));
     // What both lack is asked for by name, with the line of the machine's table.
     let text = table.tool(4).unwrap_err().to_string();
     assert_eq!(
