@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::material::entry::Material;
-use crate::material::names::{bare, nearest};
 use crate::material::text;
+use crate::names::{bare, nearest};
 
 const LIBRARY: &str = include_str!("library.toml");
 

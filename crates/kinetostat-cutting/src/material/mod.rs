@@ -7,7 +7,6 @@
 mod corrected;
 mod entry;
 mod library;
-mod names;
 mod text;
 
 pub use corrected::{Applied, AppliedFactor};

@@ -9,7 +9,7 @@ use serde_spanned::Spanned;
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::law::Law;
 use crate::material::entry::{Group, Material, MeasuredIn};
-use crate::material::names::{bare, nearest};
+use crate::names::{bare, nearest};
 
 const MOST_BYTES: usize = 10_000_000;
 const MOST_MATERIALS: usize = 10_000;

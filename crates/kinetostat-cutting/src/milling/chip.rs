@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::milling::cut::Feed;
+use crate::milling::feed::Feed;
 use crate::tool::{Meridian, Tool};
 
 /// One line of the least thickness: so many feeds, and by how much this tooth stands out from that one, mm.

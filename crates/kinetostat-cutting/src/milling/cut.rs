@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::engagement::Engagement;
-use crate::error::{CutErrorKind, Result, within};
 use crate::law::ForceLaw;
 use crate::milling::chip::Chips;
+use crate::milling::feed::Feed;
 use crate::tool::Tool;
 
 /// Which way the spindle turns, seen from it down to the tool.
@@ -19,42 +19,6 @@ pub enum Rotation {
     Clockwise,
     /// M4.
     CounterClockwise,
-}
-
-/// How far the tool goes from tooth to tooth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Feed {
-    /// Across the tool axis, mm per tooth.
-    pub level_mm: f64,
-    /// Down along the tool axis, mm per tooth; negative where the tool rises.
-    pub down_mm: f64,
-}
-
-impl Feed {
-    /// Across the tool axis, mm per tooth.
-    ///
-    /// # Errors
-    /// Negative, or more than 10 mm.
-    pub fn level(per_tooth_mm: f64) -> Result<Self> {
-        Self::ramp(per_tooth_mm, 0.0)
-    }
-
-    /// Across the tool axis and down along it, mm per tooth.
-    ///
-    /// # Errors
-    /// Negative across, or more than 10 mm either way.
-    pub fn ramp(level_mm: f64, down_mm: f64) -> Result<Self> {
-        let cut = CutErrorKind::Cut;
-        within(cut, "feed per tooth", level_mm, 0.0..=10.0, "mm")?;
-        within(
-            cut,
-            "feed per tooth down the axis",
-            down_mm,
-            -10.0..=10.0,
-            "mm",
-        )?;
-        Ok(Self { level_mm, down_mm })
-    }
 }
 
 /// A cut of a milling tool with a law of force.

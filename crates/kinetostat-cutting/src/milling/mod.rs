@@ -9,14 +9,16 @@
 mod chip;
 mod cut;
 mod cut_force;
+mod feed;
 mod instant;
 mod mean;
 mod revolution;
 mod table;
 mod wall;
 
-pub use cut::{Feed, Milling, Rotation};
+pub use cut::{Milling, Rotation};
 pub use cut_force::CutForce;
+pub use feed::Feed;
 pub use revolution::{Harmonic, Revolution};
 pub use table::MeanTable;
 pub use wall::Wall;

@@ -9,17 +9,27 @@ use crate::engagement::{Contact, Edge, Engagement};
 use crate::error::Result;
 use crate::law::ForceLaw;
 use crate::milling::chip::Chips;
-use crate::milling::cut::{Feed, Rotation};
+use crate::milling::cut::Rotation;
 use crate::milling::cut_force::CutForce;
+use crate::milling::feed::Feed;
 use crate::tool::{Meridian, Piece, Tool};
 
-/// Angles of the table over one turn, and angles of the normal from the pole to the cylinder: an error of linear interpolation
-/// of some 1e-5 of the force of a slot.
-const ANGLES: usize = 512;
-const NORMALS: usize = 128;
+/// Angles of the table over one turn, taken linearly: an error of some 1e-5 of the force of a slot, and of 5e-4 where the
+/// force of the edge begins at once inside a step (run-out, linear law).
+const ANGLES: usize = 1024;
+
+/// Angles of the normal from the pole to the cylinder, taken by cubics.
+const NORMALS: usize = 32;
 
 /// Integrals over the angle of the force per width of edge: `[F_x, F_y, F_z, cos phi F_z, sin phi F_z, F_t]`.
 type Sums = [f64; 6];
+
+/// A row of the corner: force and moment up to each angle, and their growth per step of the normal.
+#[derive(Clone, Debug)]
+struct Row {
+    value: Vec<[f64; 6]>,
+    growth: Vec<[f64; 6]>,
+}
 
 /// Mean forces of one tool with one law and one feed across the axis.
 ///
@@ -40,8 +50,9 @@ pub struct MeanTable {
     rotation: Rotation,
     /// Above the corner: up to each angle.
     straight: Vec<Sums>,
-    /// On the corner: up to each angle of the normal and each angle, with its width, radius and height.
-    corner: Vec<[f64; 6]>,
+    /// On the corner, up to each angle of the normal and each angle: integrals with width, radius and height, and how they
+    /// grow from one angle of the normal to the next.
+    corner: Vec<Row>,
 }
 
 impl MeanTable {
@@ -113,10 +124,15 @@ impl MeanTable {
     fn up_to(&self, share: f64, contact: &Contact) -> [f64; 6] {
         let at = share.clamp(0.0, 1.0) * NORMALS as f64;
         let row = (at as usize).min(NORMALS - 1);
-        let part = at - row as f64;
-        let of = |row: usize| over_arc(&self.corner[row * (ANGLES + 1)..][..=ANGLES], contact);
-        let (a, b) = (of(row), of(row + 1));
-        std::array::from_fn(|i| a[i] + part * (b[i] - a[i]))
+        let u = at - row as f64;
+        let (a, b) = (&self.corner[row], &self.corner[row + 1]);
+        let [value_a, growth_a, value_b, growth_b] =
+            [&a.value, &a.growth, &b.value, &b.growth].map(|table| over_arc(table, contact));
+        std::array::from_fn(|i| {
+            let step = value_b[i] - value_a[i];
+            let (first, last) = (growth_a[i] - step, step - growth_b[i]);
+            value_a[i] + u * (step + (1.0 - u) * (first * (1.0 - u) + last * u))
+        })
     }
 }
 
@@ -163,22 +179,39 @@ fn up_to_each_angle<L: ForceLaw + ?Sized>(
     table
 }
 
-/// Integrals over the corner up to each angle of the normal, by the middles between them.
-fn corner_table(tool: &Tool, end: f64, row: impl Fn(&Meridian) -> Vec<Sums>) -> Vec<[f64; 6]> {
-    let mut table = vec![[0.0; 6]; ANGLES + 1];
-    let mut sums = table.clone();
+/// Integrals over the corner up to each angle of the normal, by Simpson's rule.
+fn corner_table(tool: &Tool, end: f64, row: impl Fn(&Meridian) -> Vec<Sums>) -> Vec<Row> {
+    let mut table: Vec<Row> = Vec::with_capacity(NORMALS + 1);
     for (piece, from, to) in Piece::between(tool, 0.0, end) {
         let step = (to - from) / NORMALS as f64;
+        let growth = |share: f64| -> Vec<[f64; 6]> {
+            let place = piece.point(from + step * share);
+            let of = row(&place).into_iter();
+            of.map(|of| at_place(of, &place, place.width * step))
+                .map(|force| {
+                    let (f, m) = (force.force_n, force.moment_n_mm);
+                    [f.x, f.y, f.z, m.x, m.y, m.z]
+                })
+                .collect()
+        };
+        table.push(Row {
+            value: vec![[0.0; 6]; ANGLES + 1],
+            growth: growth(0.0),
+        });
         for i in 0..NORMALS {
-            let place = piece.point(from + step * (i as f64 + 0.5));
-            for (sum, of) in sums.iter_mut().zip(row(&place)) {
-                let force = at_place(of, &place, place.width * step);
-                let of = force.force_n.iter().chain(force.moment_n_mm.iter());
-                for (sum, of) in sum.iter_mut().zip(of) {
-                    *sum += of;
-                }
-            }
-            table.extend_from_slice(&sums);
+            let (middle, last) = (growth(i as f64 + 0.5), growth(i as f64 + 1.0));
+            let before = &table[i];
+            let value = (0..=ANGLES).map(|a| {
+                std::array::from_fn(|k| {
+                    let sum = before.growth[a][k] + 4.0 * middle[a][k] + last[a][k];
+                    before.value[a][k] + sum / 6.0
+                })
+            });
+            let value = value.collect();
+            table.push(Row {
+                value,
+                growth: last,
+            });
         }
     }
     table

@@ -3,9 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 mod corrections;
+mod drilling;
 mod fitting;
 mod material;
 mod milling_invariants;
 mod milling_plain;
 mod milling_reference;
 mod plain;
+mod spindle;
+mod tool_tables;
+mod turning;

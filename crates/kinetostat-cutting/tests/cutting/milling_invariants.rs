@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use kinetostat_cutting::{
     Contact, Engagement, Feed, Kienzle, Linear, Milling, Rotation, RunOut, Shape, Side, Tool, Wall,
 };
+use kinetostat_testing::largest_size;
 use proptest::prelude::*;
 
 const K_C: [f64; 3] = [796.0, 168.0, 222.0];
@@ -41,7 +42,7 @@ proptest! {
         let engagement = Engagement { contacts: vec![Contact::side(0.0, depth, entry, exit)] };
         let found = Milling::new(&tool, &law, &engagement, Feed::level(feed).unwrap()).mean().force_n;
         let exact = closed_form(teeth, depth, feed, entry, exit);
-        let largest = exact.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let largest = largest_size(exact);
         for i in 0..3 {
             prop_assert!((found[i] - exact[i]).abs() <= 1e-6 * largest, "{} {:?}", found, exact);
         }

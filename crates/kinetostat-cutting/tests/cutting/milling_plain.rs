@@ -117,7 +117,7 @@ proptest! {
         // Against the force of a slot of the same depth.
         let slot = Engagement { contacts: vec![Contact::side(0.0, engagement.depth_mm(), 0.0, std::f64::consts::PI)] };
         let scale = Milling::new(&tool, &*law, &slot, Feed::level(feed).unwrap()).mean().moment_n_mm.norm();
-        prop_assert!((a.force_n - b.force_n).norm() < 1e-4 * scale / 5.0, "{:?} {:?}", a, b);
-        prop_assert!((a.moment_n_mm - b.moment_n_mm).norm() < 1e-4 * scale, "{:?} {:?}", a, b);
+        prop_assert!((a.force_n - b.force_n).norm() < 5e-4 * scale / 5.0, "{:?} {:?}", a, b);
+        prop_assert!((a.moment_n_mm - b.moment_n_mm).norm() < 5e-4 * scale, "{:?} {:?}", a, b);
     }
 }

@@ -3,6 +3,7 @@
 use kinetostat_cutting::{
     Engagement, Feed, Kienzle, Law, Linear, Milling, RunOut, Shape, Side, Tool, Wall,
 };
+use kinetostat_testing::largest_size;
 
 fn aluminium() -> Law {
     Law::Linear(Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4]).unwrap())
@@ -150,9 +151,7 @@ fn every_cylinder_of_the_table() {
             continue;
         }
         let found = measured(row);
-        let largest = row.printed[..3]
-            .iter()
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        let largest = largest_size(row.printed[..3].iter().copied());
         for i in 0..3 {
             let off = (found[i] - row.printed[i]).abs();
             assert!(

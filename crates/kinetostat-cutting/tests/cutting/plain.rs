@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use kinetostat_testing::{largest, least};
+
 /// A law as a function of the chip, mm, to tangential, radial and axial N/mm.
 pub(crate) type Law<'a> = &'a dyn Fn(f64) -> [f64; 3];
 
@@ -64,10 +66,8 @@ impl Plain<'_> {
                 if (phi - self.arc.0).rem_euclid(TAU) > self.arc.1 - self.arc.0 {
                     continue;
                 }
-                let chip = (1..=n)
-                    .map(|m| m as f64 * self.feed * phi.sin() + out(j) - out((j + m) % n))
-                    .fold(f64::INFINITY, f64::min)
-                    * sin;
+                let left = |m: usize| m as f64 * self.feed * phi.sin() + out(j) - out((j + m) % n);
+                let chip = sin * least((1..=n).map(left));
                 if chip <= 0.0 {
                     continue;
                 }
@@ -91,7 +91,8 @@ impl Plain<'_> {
 
     /// Mean over evenly spaced angles, the largest force in the plane and the largest torque.
     pub(crate) fn revolution(&self, angles: usize, slices: usize) -> (Sum, f64, f64) {
-        let (mut mean, mut peak, mut torque) = (Sum::default(), 0.0, 0.0);
+        let mut mean = Sum::default();
+        let (mut peak, mut torque) = (Vec::new(), Vec::new());
         for i in 0..angles {
             let at = self.at(TAU * (i as f64 + 0.5) / angles as f64, slices);
             for (m, f) in mean.force.iter_mut().zip(at.force) {
@@ -102,9 +103,9 @@ impl Plain<'_> {
             }
             mean.torque += at.torque / angles as f64;
             assert!(at.torque.is_finite() && at.force.iter().all(|f| f.is_finite()));
-            peak = f64::max(peak, at.force[0].hypot(at.force[1]));
-            torque = f64::max(torque, at.torque);
+            peak.push(at.force[0].hypot(at.force[1]));
+            torque.push(at.torque);
         }
-        (mean, peak, torque)
+        (mean, largest(peak), largest(torque))
     }
 }
