@@ -11,6 +11,7 @@ mod engagement;
 mod error;
 mod law;
 mod number;
+mod stock;
 mod tool;
 
 pub use engagement::{Contact, Edge, Engagement, Side};
@@ -19,4 +20,5 @@ pub use law::{
     Coolant, Corrected, Correction, CuttingMaterial, EdgeForce, Exponential, ForceLaw, Kienzle,
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
+pub use stock::{Probe, Station, Stock, StockSettings};
 pub use tool::{RunOut, Shape, Tool};

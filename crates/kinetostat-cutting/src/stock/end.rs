@@ -1,0 +1,54 @@
+//! Where the flat end of a tool that goes down is in the material.
+
+use crate::engagement::{Contact, Engagement};
+use crate::stock::arcs::{Range, same};
+use crate::stock::grid::Stock;
+use crate::stock::rim::{Stand, depth_in};
+
+/// Rings of the end at one place.
+const RINGS: [f64; 2] = [4.0, 64.0];
+
+/// Buffers for the contacts of a flat end.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct End {
+    arcs: Vec<[f64; 2]>,
+    within: Vec<[f64; 2]>,
+}
+
+impl End {
+    /// Adds the contacts of a flat end of this radius.
+    pub fn contacts(&mut self, stock: &Stock, stand: &Stand, radius: f64, found: &mut Engagement) {
+        let level = stand.tip.max(0.0) + stock.tolerance();
+        if stand.tip < -stock.tolerance() || level >= stock.height {
+            return;
+        }
+        let rings = (radius / stock.cell).ceil().max(RINGS[0]).min(RINGS[1]);
+        let width = radius / rings;
+        self.within.clear();
+        for ring in 0..rings as usize {
+            let inner = width * ring as f64;
+            let middle = inner + 0.5 * width;
+            let value = |direction: [f64; 2]| {
+                depth_in(stock, stand.place(middle, direction), level, None)
+            };
+            Range::full(middle, stock.cell).arcs(value, &mut self.arcs);
+            let outer = match ring + 1 == rings as usize {
+                true => radius,
+                false => inner + width,
+            };
+            match same(&self.arcs, &self.within) {
+                true => {
+                    let first = found.contacts.len() - self.arcs.len();
+                    for contact in &mut found.contacts[first..] {
+                        contact.to_mm = outer;
+                    }
+                }
+                false => {
+                    let contact = |arc: &[f64; 2]| Contact::end(inner, outer, arc[0], arc[1]);
+                    found.contacts.extend(self.arcs.iter().map(contact));
+                }
+            }
+            std::mem::swap(&mut self.arcs, &mut self.within);
+        }
+    }
+}
