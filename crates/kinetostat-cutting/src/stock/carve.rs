@@ -80,7 +80,7 @@ impl Stock {
             true => profile.end - known,
             false => 0.0,
         };
-        let seen_from = if wall.is_finite() { wall + known } else { reach };
+        let seen_from = if reach < wall { reach } else { wall + known };
         let skin = (SKIN * self.cell) as f32;
         // Out of the struct while it is read for the geometry; no column is copied.
         let mut columns = std::mem::take(&mut self.columns);

@@ -295,12 +295,12 @@ impl Probe {
         }
         let shoulder = profile.shoulder();
         let step = SAMPLE * stock.cell;
-        let ahead = Range::facing(std::f64::consts::FRAC_PI_2, motion, self.radius, step);
+        let ahead = Range::facing(std::f64::consts::FRAC_PI_2, motion, profile.outer, step);
         if let Some(range) = ahead
             && stand.tip + shoulder < stock.height
         {
             let found = &mut self.found;
-            self.rim.contacts(stock, &stand, self.radius, shoulder, &range, found);
+            self.rim.contacts(stock, &stand, profile.outer, shoulder, &range, found);
         }
     }
 

@@ -12,9 +12,12 @@ pub(crate) struct Profile {
     pub corner: f64,
     /// Height over radius of the cone of a face mill.
     pub cone: Option<f64>,
-    /// Radius of the cylinder; infinite with a cone.
+    /// Radius of the cylinder.
     pub outer: f64,
 }
+
+/// The cone of a face mill is taken up to this multiple of its radius at the tip: inserts are shorter.
+const CONE: f64 = 2.0;
 
 impl Profile {
     pub fn new(tool: &Tool) -> Self {
@@ -26,7 +29,7 @@ impl Profile {
             end: tool.end_radius_mm(),
             corner: tool.corner_radius_mm(),
             cone,
-            outer: if cone.is_some() { f64::INFINITY } else { tool.radius_mm() },
+            outer: if cone.is_some() { CONE * tool.radius_mm() } else { tool.radius_mm() },
         }
     }
 
@@ -35,10 +38,10 @@ impl Profile {
         self.corner == 0.0 && self.cone.is_none()
     }
 
-    /// Height where the cylinder begins; infinite with a cone.
+    /// Height where the cylinder begins.
     pub fn shoulder(&self) -> f64 {
         match self.cone {
-            Some(_) => f64::INFINITY,
+            Some(slope) => (self.outer - self.end) * slope,
             None => self.corner,
         }
     }
@@ -51,7 +54,7 @@ impl Profile {
             return 0.0;
         }
         match self.cone {
-            Some(slope) => beyond * slope,
+            Some(slope) => beyond.min(self.outer - self.end) * slope,
             None => {
                 let rest = self.corner * self.corner - beyond * beyond;
                 self.corner - if rest > 0.0 { rest.sqrt() } else { 0.0 }
@@ -80,6 +83,7 @@ impl Profile {
             return f64::NEG_INFINITY;
         }
         match self.cone {
+            Some(_) if height >= self.shoulder() => f64::INFINITY,
             Some(slope) => self.end + height / slope,
             None if height >= self.corner => f64::INFINITY,
             None => {
@@ -92,7 +96,7 @@ impl Profile {
     /// Radius up to which the tool reaches into material of this height above the tip.
     pub fn reach(&self, height: f64) -> f64 {
         match self.cone {
-            Some(slope) => self.end + height.max(0.0) / slope,
+            Some(slope) => (self.end + height.max(0.0) / slope).min(self.outer),
             None => self.outer,
         }
     }
