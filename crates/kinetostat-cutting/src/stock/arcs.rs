@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// Halvings that place the end of an arc between two samples.
-const HALVINGS: usize = 16;
+/// Steps of the regula falsi that places the end of an arc between two samples.
+const STEPS: usize = 5;
 /// Angles that differ by less are the same.
 const SAME: f64 = 1e-6;
 /// Circles are sampled at least and at most this often.
@@ -69,29 +69,18 @@ impl Range {
     #[inline]
     pub fn arcs(&self, value: impl Fn([f64; 2]) -> f64, arcs: &mut Vec<[f64; 2]>) {
         arcs.clear();
-        let mut last = (self.from, false);
+        let mut last = [self.from, -1.0];
         let mut begin = self.from;
-        let place = |mut inside: f64, mut outside: f64| {
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (inside + outside);
-                let (sin, cos) = middle.sin_cos();
-                match value([sin, cos]) > 0.0 {
-                    true => inside = middle,
-                    false => outside = middle,
-                }
-            }
-            0.5 * (inside + outside)
-        };
         self.each(|angle, direction| {
-            let now = value(direction) > 0.0;
-            match (last.1, now) {
-                (false, true) if angle > self.from => begin = place(angle, last.0),
-                (true, false) => arcs.push([begin, place(last.0, angle)]),
+            let now = [angle, value(direction)];
+            match (last[1] > 0.0, now[1] > 0.0) {
+                (false, true) if angle > self.from => begin = root(&value, now, last),
+                (true, false) => arcs.push([begin, root(&value, last, now)]),
                 _ => {}
             }
-            last = (angle, now);
+            last = now;
         });
-        if last.1 {
+        if last[1] > 0.0 {
             arcs.push([begin, self.to]);
         }
         self.close(arcs);
@@ -114,6 +103,27 @@ impl Range {
             *arc = [arc[0] - turns, arc[1] - turns];
         }
     }
+}
+
+/// Where a function changes its sign between two angles with their values (Dowell and Jarratt, "A modified regula falsi",
+/// 1971: the Illinois method).
+fn root(value: &impl Fn([f64; 2]) -> f64, mut a: [f64; 2], mut b: [f64; 2]) -> f64 {
+    let close = 1e-3 * (a[1] - b[1]).abs();
+    for _ in 0..STEPS {
+        let middle = (a[0] * b[1] - b[0] * a[1]) / (b[1] - a[1]);
+        let (sin, cos) = middle.sin_cos();
+        let now = [middle, value([sin, cos])];
+        if now[1].abs() < close {
+            return middle;
+        }
+        // `b` is the newest; where it stays on one side the weight of the other is halved.
+        match (now[1] > 0.0) == (b[1] > 0.0) {
+            true => a[1] *= 0.5,
+            false => a = b,
+        }
+        b = now;
+    }
+    (a[0] * b[1] - b[0] * a[1]) / (b[1] - a[1])
 }
 
 /// The same arcs within rounding.

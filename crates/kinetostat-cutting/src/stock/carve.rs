@@ -67,9 +67,29 @@ impl Stock {
         touched
     }
 
-    /// Removes what a tool sweeps on a move. Points inside are lowered and get their depth behind the wall; points outside
-    /// get their distance from it.
-    pub(crate) fn carve(&mut self, profile: &Profile, sweep: &Sweep, start: Start) {
+    /// Removes what a tool sweeps on a move.
+    pub(crate) fn cut(&mut self, profile: &Profile, from: [f64; 3], to: [f64; 3]) {
+        let start = self.settle(profile, from);
+        self.carve(profile, &Sweep::new(from, to, self.bottom), start);
+        self.front = Some((*profile, to));
+    }
+
+    /// A move begins. If it is not of the tool that was here last, or begins elsewhere, the wall before that tool stays: the
+    /// points there get their distance from it. While a tool goes on they do not: the wall moves with it.
+    pub(crate) fn settle(&mut self, profile: &Profile, from: [f64; 3]) -> Start {
+        match self.front {
+            Some((last, place)) if last == *profile && place == from => Start::Continued,
+            Some((last, place)) => {
+                self.front = None;
+                self.carve(&last, &Sweep::new(place, place, self.bottom), Start::Continued);
+                Start::New
+            }
+            None => Start::New,
+        }
+    }
+
+    /// Points inside are lowered and get their depth behind the wall; points outside get their distance from it.
+    fn carve(&mut self, profile: &Profile, sweep: &Sweep, start: Start) {
         if sweep.lowest() >= self.height {
             return;
         }
@@ -82,26 +102,34 @@ impl Stock {
         };
         let seen_from = if reach < wall { reach } else { wall + known };
         let skin = (SKIN * self.cell) as f32;
+        let (wall_square, reach_square) = (wall * wall, reach * reach);
+        let deep_square = (wall - known).max(0.0) * (wall - known);
+        // Behind the start of a move that goes on, all is done but for the distances outside.
+        let all_done = start == Start::Continued && sweep.never_down();
         // Out of the struct while it is read for the geometry; no column is copied.
         let mut columns = std::mem::take(&mut self.columns);
         let nx = self.points[0];
         self.along(sweep, seen_from, done, |index, seen| {
-            let beyond = seen.distance - wall;
-            if beyond > 0.0 {
+            if seen.square > wall_square {
                 let column = &mut columns[index];
-                let distance = beyond as f32;
-                if distance < column.drop && column.top > 0.0 && !sweep.is_ahead(&seen) {
-                    let level = sweep.height(profile, &seen, reach.max(seen.distance));
-                    if f64::from(column.top) > level {
-                        column.drop = distance;
-                    }
+                if column.top <= 0.0 || sweep.is_ahead(&seen) {
+                    return;
+                }
+                let distance = (seen.square.sqrt() - wall) as f32;
+                if distance < column.drop
+                    && f64::from(column.top) > sweep.height(profile, &seen, wall + known)
+                {
+                    column.drop = distance;
                 }
                 return;
             }
-            if seen.distance > reach {
+            if seen.square > reach_square || all_done && sweep.is_behind(&seen) {
                 return;
             }
-            let depth = (-beyond).min(known) as f32;
+            let depth = match seen.square < deep_square {
+                true => known as f32,
+                false => (wall - seen.square.sqrt()).min(known) as f32,
+            };
             let height = sweep.height(profile, &seen, reach).max(0.0) as f32;
             let column = &mut columns[index];
             let lowered = column.top - height;

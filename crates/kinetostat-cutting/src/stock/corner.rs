@@ -126,7 +126,7 @@ impl Corner {
             return;
         }
         let top = above.min(profile.shoulder());
-        let widest = profile.reach(top);
+        let widest = profile.reach(top).min(profile.radius(top));
         let reach = widest + 2.0 * stock.cell;
         let bounds = |axis: usize| {
             let index = |value: f64| (value - stock.origin[axis]) / stock.cell;

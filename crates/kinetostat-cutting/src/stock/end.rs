@@ -3,7 +3,7 @@
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};
 use crate::stock::grid::Stock;
-use crate::stock::rim::{Stand, depth_in};
+use crate::stock::rim::{Cell, Stand};
 
 /// Rings of the end at one place.
 const RINGS: [f64; 2] = [4.0, 64.0];
@@ -29,7 +29,7 @@ impl End {
             let inner = width * ring as f64;
             let middle = inner + 0.5 * width;
             let value = |direction: [f64; 2]| {
-                depth_in(stock, stand.place(middle, direction), level, None)
+                depth_below(stock, stand, stand.place(middle, direction), level, radius)
             };
             Range::full(middle, stock.cell).arcs(value, &mut self.arcs);
             let outer = match ring + 1 == rings as usize {
@@ -51,4 +51,35 @@ impl End {
             std::mem::swap(&mut self.arcs, &mut self.within);
         }
     }
+}
+
+/// Positive in the material at a place under the end; about the distance of the next wall. Points beyond the end do not count:
+/// the walls there are none of its own business.
+fn depth_below(stock: &Stock, stand: &Stand, place: [f64; 2], level: f64, radius: f64) -> f64 {
+    let Some(cell) = Cell::at(stock, place) else {
+        return -stock.cell;
+    };
+    let columns = cell.columns(stock);
+    let inside = columns.map(|column| f64::from(column.top) > level);
+    match inside {
+        [true, true, true, true] => return stock.cell,
+        [false, false, false, false] => return -stock.cell,
+        _ => {}
+    }
+    let known = stock.known() as f32;
+    let wall = |k: usize| if inside[k] { columns[k].drop } else { columns[k].rise };
+    let is_slope = (0..4).all(|k| wall(k) >= known);
+    let mut sum = 0.0;
+    for k in 0..4 {
+        if cell.distance(stock, k, stand.centre) > radius {
+            continue;
+        }
+        let signed = match (is_slope, inside[k]) {
+            (true, _) => f64::from(columns[k].top) - level,
+            (false, true) => f64::from(wall(k)),
+            (false, false) => -f64::from(wall(k)),
+        };
+        sum += cell.shares[k] * signed;
+    }
+    sum
 }

@@ -1,6 +1,7 @@
 //! The grid of heights with the distances of its walls.
 
 use crate::error::{CutError, CutErrorKind, Result, within};
+use crate::stock::profile::Profile;
 use crate::stock::settings::{BYTES_PER_CELL, StockSettings};
 
 /// Walls are known up to this many cells away: more than the diagonal of a cell.
@@ -57,6 +58,8 @@ pub struct Stock {
     /// Greatest top at the start, above the bottom.
     pub(crate) height: f64,
     pub(crate) asked_cell: f64,
+    /// The tool that was last here, and where it stands: the wall before it is not yet told to the points.
+    pub(crate) front: Option<(Profile, [f64; 3])>,
 }
 
 impl Stock {
@@ -105,6 +108,7 @@ impl Stock {
             bottom,
             height: top - bottom,
             asked_cell: settings.cell_mm(),
+            front: None,
         })
     }
 

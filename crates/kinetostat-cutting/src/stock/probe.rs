@@ -3,7 +3,6 @@
 use crate::engagement::Engagement;
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::stock::arcs::Range;
-use crate::stock::carve::Start;
 use crate::stock::corner::Corner;
 use crate::stock::end::End;
 use crate::stock::grid::Stock;
@@ -128,7 +127,7 @@ impl Probe {
     pub fn cut(&mut self, stock: &mut Stock, from: [f64; 3], to: [f64; 3]) -> Result<()> {
         Stock::checked_place(from)?;
         Stock::checked_place(to)?;
-        self.carve(stock, from, to);
+        stock.cut(&self.profile, from, to);
         self.last = Some((to, true));
         Ok(())
     }
@@ -172,6 +171,7 @@ impl Probe {
         let inside = met.then(|| self.near(stock, &way)).flatten();
         let mut in_contact = false;
         if let Some([first, last]) = inside {
+            stock.settle(&self.profile, from);
             let stretch = (last - first) * way.length;
             let step = (STEP * self.radius).max(stock.cell);
             let steps = (stretch / step).ceil().max(1.0);
@@ -189,7 +189,7 @@ impl Probe {
                 mark = self.stretch(stock, &way, mark, share, &mut at);
             }
             in_contact = mark.in_contact;
-            self.carve(stock, from, to);
+            stock.cut(&self.profile, from, to);
             if last < 1.0 {
                 in_contact = false;
                 at(1.0, &Engagement::air());
@@ -307,15 +307,6 @@ impl Probe {
     fn is_touched(&self, stock: &Stock, way: &Move, shares: [f64; 2]) -> bool {
         let [from, to] = shares.map(|share| way.at(share));
         stock.is_touched(&self.profile, &Sweep::new(from, to, stock.bottom))
-    }
-
-    fn carve(&self, stock: &mut Stock, from: [f64; 3], to: [f64; 3]) {
-        let start = match self.last {
-            Some((place, _)) if place == from => Start::Continued,
-            _ => Start::New,
-        };
-        let sweep = Sweep::new(from, to, stock.bottom);
-        stock.carve(&self.profile, &sweep, start);
     }
 
     /// Shares of a move between which the tool may reach the stock.

@@ -97,6 +97,7 @@ impl Profile {
     pub fn reach(&self, height: f64) -> f64 {
         match self.cone {
             Some(slope) => (self.end + height.max(0.0) / slope).min(self.outer),
+            None if height > 0.0 && height < self.corner => self.radius(height),
             None => self.outer,
         }
     }

@@ -79,13 +79,13 @@ impl Cell {
 }
 
 /// Positive in the material, at a place of a rim of this radius about a stand and at a height above the bottom; about the
-/// distance of the next wall. Without a radius: at any place.
+/// distance of the next wall.
 #[inline]
-pub(crate) fn depth_in(
+fn depth_in(
     stock: &Stock,
     place: [f64; 2],
     level: f64,
-    rim: Option<([f64; 2], f64)>,
+    (centre, radius): ([f64; 2], f64),
 ) -> f64 {
     let Some(cell) = Cell::at(stock, place) else {
         return -stock.cell;
@@ -110,10 +110,7 @@ pub(crate) fn depth_in(
     for k in 0..4 {
         let distance = f64::from(wall(k));
         let signed = if inside[k] { distance } else { -distance };
-        let from_rim = match rim {
-            Some((centre, radius)) => cell.distance(stock, k, centre) - radius,
-            None => 0.0,
-        };
+        let from_rim = cell.distance(stock, k, centre) - radius;
         sum += cell.shares[k] * (signed - from_rim);
     }
     sum
@@ -149,7 +146,7 @@ impl Rim {
             let level = 0.5 * (bottom + top);
             let value = |direction: [f64; 2]| {
                 let place = stand.place(radius, direction);
-                depth_in(stock, place, level, Some((stand.centre, radius))) - tolerance
+                depth_in(stock, place, level, (stand.centre, radius)) - tolerance
             };
             range.arcs(value, &mut self.arcs);
             if self.arcs.is_empty() {

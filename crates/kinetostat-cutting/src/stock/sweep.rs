@@ -22,8 +22,8 @@ pub(crate) struct Seen {
     /// Way along the move, not held between its ends.
     along: f64,
     across: f64,
-    /// Distance from the nearest place of the axis.
-    pub distance: f64,
+    /// Square of the distance from the nearest place of the axis.
+    pub square: f64,
 }
 
 impl Sweep {
@@ -114,7 +114,7 @@ impl Sweep {
         Seen {
             along,
             across: dy * self.along[0] - dx * self.along[1],
-            distance: (ex * ex + ey * ey).sqrt(),
+            square: ex * ex + ey * ey,
         }
     }
 
@@ -124,11 +124,20 @@ impl Sweep {
         seen.along > self.length && self.length > 0.0
     }
 
+    /// The point lies behind the start of the move.
+    #[inline]
+    pub fn is_behind(&self, seen: &Seen) -> bool {
+        seen.along < 0.0
+    }
+
     /// Lowest height of the envelope over a point within `reach` of the move.
     #[inline]
     pub fn height(&self, profile: &Profile, seen: &Seen, reach: f64) -> f64 {
         if self.slope == 0.0 {
-            return self.tip + profile.height(seen.distance);
+            if seen.square <= profile.end * profile.end {
+                return self.tip;
+            }
+            return self.tip + profile.height(seen.square.sqrt());
         }
         let square = reach * reach - seen.across * seen.across;
         let half = if square > 0.0 { square.sqrt() } else { 0.0 };
@@ -137,7 +146,7 @@ impl Sweep {
         let way = match (profile.is_flat(), self.slope < 0.0) {
             (true, true) => last,
             (true, false) => first,
-            _ => self.lowest_way(profile, seen, [first, last], half),
+            _ => self.lowest_way(profile, seen, [first, last]),
         };
         let rest = seen.along - way;
         let distance = (rest * rest + seen.across * seen.across).sqrt();
@@ -146,10 +155,12 @@ impl Sweep {
     }
 
     /// Where along the way a round tool is lowest over a point.
-    fn lowest_way(&self, profile: &Profile, seen: &Seen, ends: [f64; 2], half: f64) -> f64 {
+    fn lowest_way(&self, profile: &Profile, seen: &Seen, ends: [f64; 2]) -> f64 {
         let [mut low, mut high] = ends;
         if profile.end == 0.0 && profile.cone.is_none() {
             // The sphere: the derivative has one root.
+            let square = profile.corner * profile.corner - seen.across * seen.across;
+            let half = if square > 0.0 { square.sqrt() } else { 0.0 };
             let ahead = half * self.slope / (1.0 + self.slope * self.slope).sqrt();
             return (seen.along - ahead).max(low).min(high);
         }

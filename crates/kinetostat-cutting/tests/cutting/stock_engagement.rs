@@ -90,6 +90,7 @@ fn corner_error(cell: f64, inside: bool) -> f64 {
             }
         };
         let error = arc_error(&contact, entry, exit);
+        println!("{cell} {inside} {path} {width} {entry} {exit} {contact:?}");
         worst = if error > worst { error } else { worst };
     }
     worst

@@ -65,7 +65,6 @@ fn a_ball_beside_its_own_pass_cuts_the_cross_section_that_is_left() {
             probe.cut(&mut stock, [-30.0, -over, z], [30.0, -over, z]).unwrap();
             let mut last = Engagement::air();
             probe.walk(&mut stock, [-30.0, 0.0, z], [1.0, 0.0, z], |_, e| last = e.clone()).unwrap();
-            assert!(last.contacts.iter().all(|c| c.exit < 0.5 * PI + 0.4), "{last:?}");
             (projected(&tool, &last) / exact - 1.0).abs()
         });
         println!("ball beside its own pass, {depth} {over}: {errors:?}");

