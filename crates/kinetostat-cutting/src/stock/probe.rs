@@ -281,6 +281,7 @@ impl Probe {
                 true => [direction[0] / horizontal, direction[1] / horizontal],
                 false => [1.0, 0.0],
             },
+            slope: if motion[0] > 0.0 { motion[1] / motion[0] } else { 0.0 },
         };
         if stand.tip >= stock.height {
             return;

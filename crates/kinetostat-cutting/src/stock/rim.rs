@@ -20,6 +20,8 @@ pub(crate) struct Stand {
     pub centre: [f64; 2],
     pub tip: f64,
     pub feed: [f64; 2],
+    /// Rise of the tip per way in the plane.
+    pub slope: f64,
 }
 
 impl Stand {
@@ -85,14 +87,24 @@ fn depth_in(
     stock: &Stock,
     place: [f64; 2],
     level: f64,
-    (centre, radius): ([f64; 2], f64),
+    stand: &Stand,
+    radius: f64,
 ) -> f64 {
     let Some(cell) = Cell::at(stock, place) else {
         return -stock.cell;
     };
     let columns = cell.columns(stock);
     let known = stock.known() as f32;
-    let inside = columns.map(|column| f64::from(column.top) > level);
+    // On a ramp the floor that the tool leaves or finds is higher at the points where its tip was or will be higher.
+    let level_at = |k: usize| match stand.slope == 0.0 {
+        true => level,
+        false => {
+            let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
+            let way = (at[0] - place[0]) * stand.feed[0] + (at[1] - place[1]) * stand.feed[1];
+            level + (stand.slope * way).max(0.0)
+        }
+    };
+    let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
     match inside {
         [true, true, true, true] => return stock.cell,
         [false, false, false, false] => return -stock.cell,
@@ -110,7 +122,7 @@ fn depth_in(
     for k in 0..4 {
         let distance = f64::from(wall(k));
         let signed = if inside[k] { distance } else { -distance };
-        let from_rim = cell.distance(stock, k, centre) - radius;
+        let from_rim = cell.distance(stock, k, stand.centre) - radius;
         sum += cell.shares[k] * (signed - from_rim);
     }
     sum
@@ -146,7 +158,7 @@ impl Rim {
             let level = 0.5 * (bottom + top);
             let value = |direction: [f64; 2]| {
                 let place = stand.place(radius, direction);
-                depth_in(stock, place, level, (stand.centre, radius)) - tolerance
+                depth_in(stock, place, level, stand, radius) - tolerance
             };
             range.arcs(value, &mut self.arcs);
             if self.arcs.is_empty() {
