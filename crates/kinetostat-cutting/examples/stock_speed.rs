@@ -1,4 +1,4 @@
-//! Blocks per second of the stock: a pocket in small moves of random length. 
+//! Blocks per second of the stock: a pocket in small moves of random length.
 //!
 //! `cargo run --release -p kinetostat-cutting --example stock_speed`
 
@@ -12,7 +12,9 @@ use kinetostat_cutting::{Probe, Result, Shape, Stock, StockSettings, Tool};
 fn spiral(over: f64, widest: f64, z: f64) -> Vec<[f64; 3]> {
     let mut state = 1_u64;
     let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut angle = 0.5_f64;
@@ -29,7 +31,13 @@ fn main() -> Result<()> {
     let shapes = [
         (Shape::Flat, 3.0, 3.0),
         (Shape::Ball, 1.0, 1.0),
-        (Shape::Bull { corner_radius_mm: 1.0 }, 3.0, 2.0),
+        (
+            Shape::Bull {
+                corner_radius_mm: 1.0,
+            },
+            3.0,
+            2.0,
+        ),
     ];
     for (shape, depth, over) in shapes {
         for divisor in [10.0, 20.0, 40.0] {

@@ -61,7 +61,10 @@ impl Range {
         let (mut sin, mut cos) = self.from.sin_cos();
         for k in 0..=self.samples {
             at(self.from + step * k as f64, [sin, cos]);
-            (sin, cos) = (sin * cos_step + cos * sin_step, cos * cos_step - sin * sin_step);
+            (sin, cos) = (
+                sin * cos_step + cos * sin_step,
+                cos * cos_step - sin * sin_step,
+            );
         }
     }
 

@@ -17,7 +17,7 @@ pub(crate) enum Start {
 
 /// Columns between two places of a row, as indices.
 fn indices(stock: &Stock, [low, high]: [f64; 2], axis: usize) -> [usize; 2] {
-    let index = |value: f64| (value - stock.origin[axis]) / stock.cell;
+    let index = |value: f64| (value - stock.origin[axis]) * stock.per_mm;
     let most = stock.points[axis] as f64;
     // Casts hold at 0 and below at 0.
     [
@@ -81,7 +81,11 @@ impl Stock {
             Some((last, place)) if last == *profile && place == from => Start::Continued,
             Some((last, place)) => {
                 self.front = None;
-                self.carve(&last, &Sweep::new(place, place, self.bottom), Start::Continued);
+                self.carve(
+                    &last,
+                    &Sweep::new(place, place, self.bottom),
+                    Start::Continued,
+                );
                 Start::New
             }
             None => Start::New,

@@ -56,7 +56,7 @@ impl Corner {
         motion: [f64; 2],
         found: &mut Engagement,
     ) {
-        self.look(stock, stand, profile);
+        self.look(stock, stand, profile, motion[1]);
         if self.highest <= 0.0 {
             return;
         }
@@ -108,7 +108,10 @@ impl Corner {
             }
             let corner = j * size[0] + i;
             let mut sum = 0.0;
-            for (k, index) in [corner, corner + 1, corner + size[0], corner + size[0] + 1].iter().enumerate() {
+            for (k, index) in [corner, corner + 1, corner + size[0], corner + size[0] + 1]
+                .iter()
+                .enumerate()
+            {
                 sum += cell.shares[k] * nodes[*index].over_at(band, known);
             }
             sum - tolerance
@@ -117,7 +120,7 @@ impl Corner {
     }
 
     /// Takes what is known of the points under the tool.
-    fn look(&mut self, stock: &Stock, stand: &Stand, profile: &Profile) {
+    fn look(&mut self, stock: &Stock, stand: &Stand, profile: &Profile, upwards: f64) {
         self.nodes.clear();
         self.size = [1, 1];
         self.highest = 0.0;
@@ -132,7 +135,9 @@ impl Corner {
             let index = |value: f64| (value - stock.origin[axis]) / stock.cell;
             let most = stock.points[axis] as f64;
             let low = index(stand.centre[axis] - reach).floor().max(0.0).min(most) as usize;
-            let high = (index(stand.centre[axis] + reach).ceil() + 1.0).max(0.0).min(most);
+            let high = (index(stand.centre[axis] + reach).ceil() + 1.0)
+                .max(0.0)
+                .min(most);
             [low, high as usize]
         };
         let ([i0, i1], [j0, j1]) = (bounds(0), bounds(1));
@@ -142,12 +147,24 @@ impl Corner {
         self.first = [i0, j0];
         self.size = [i1 - i0, j1 - j0];
         let (known, steep_from) = (stock.known(), profile.steep_from());
+        let reach_square = reach * reach;
+        // A tool that does not go down has nothing to cut behind its axis.
+        let behind = if upwards < 0.0 {
+            -2.0 * reach
+        } else {
+            -1.5 * stock.cell
+        };
         for j in j0..j1 {
             let dy = stock.origin[1] + j as f64 * stock.cell - stand.centre[1];
             for i in i0..i1 {
                 let column = &stock.columns[j * stock.points[0] + i];
                 let dx = stock.origin[0] + i as f64 * stock.cell - stand.centre[0];
-                let radius = (dx * dx + dy * dy).sqrt();
+                let square = dx * dx + dy * dy;
+                if square > reach_square || dx * stand.feed[0] + dy * stand.feed[1] < behind {
+                    self.nodes.push(Node::default());
+                    continue;
+                }
+                let radius = square.sqrt();
                 let top = match column.top > 0.0 {
                     true => f64::from(column.top) - stand.tip,
                     false => f64::NEG_INFINITY,
@@ -164,8 +181,16 @@ impl Corner {
                 self.nodes.push(Node {
                     over,
                     top,
-                    drop: if drop < near { drop - radius } else { f64::INFINITY },
-                    rise: if rise < near { -rise - radius } else { f64::NEG_INFINITY },
+                    drop: if drop < near {
+                        drop - radius
+                    } else {
+                        f64::INFINITY
+                    },
+                    rise: if rise < near {
+                        -rise - radius
+                    } else {
+                        f64::NEG_INFINITY
+                    },
                 });
             }
         }
@@ -179,12 +204,20 @@ impl Node {
         match self.top > band.height {
             true => {
                 let wall = self.drop + band.radius;
-                let wall = if wall < 2.0 * known { wall } else { 2.0 * known };
+                let wall = if wall < 2.0 * known {
+                    wall
+                } else {
+                    2.0 * known
+                };
                 if self.over < wall { self.over } else { wall }
             }
             false => {
                 let wall = self.rise + band.radius;
-                let wall = if wall > -2.0 * known { wall } else { -2.0 * known };
+                let wall = if wall > -2.0 * known {
+                    wall
+                } else {
+                    -2.0 * known
+                };
                 if self.over > wall { self.over } else { wall }
             }
         }

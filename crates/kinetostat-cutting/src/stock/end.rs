@@ -67,7 +67,13 @@ fn depth_below(stock: &Stock, stand: &Stand, place: [f64; 2], level: f64, radius
         _ => {}
     }
     let known = stock.known() as f32;
-    let wall = |k: usize| if inside[k] { columns[k].drop } else { columns[k].rise };
+    let wall = |k: usize| {
+        if inside[k] {
+            columns[k].drop
+        } else {
+            columns[k].rise
+        }
+    };
     let is_slope = (0..4).all(|k| wall(k) >= known);
     let mut sum = 0.0;
     for k in 0..4 {

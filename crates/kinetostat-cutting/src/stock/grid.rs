@@ -54,6 +54,8 @@ pub struct Stock {
     /// Place of the first point, mm.
     pub(crate) origin: [f64; 2],
     pub(crate) cell: f64,
+    /// Cells per mm.
+    pub(crate) per_mm: f64,
     pub(crate) bottom: f64,
     /// Greatest top at the start, above the bottom.
     pub(crate) height: f64,
@@ -90,7 +92,13 @@ impl Stock {
         let place = [corner[0], corner[1], opposite[0], opposite[1], bottom, top];
         for value in place {
             let bounds = -FAR_MM..=FAR_MM;
-            within(CutErrorKind::Stock, "place of the stock", value, bounds, "mm")?;
+            within(
+                CutErrorKind::Stock,
+                "place of the stock",
+                value,
+                bounds,
+                "mm",
+            )?;
         }
         let lengths = [opposite[0] - corner[0], opposite[1] - corner[1]];
         let (cell, points) = settings.grid_for(lengths)?;
@@ -105,6 +113,7 @@ impl Stock {
             points,
             origin: corner.map(|c| c - 0.5 * cell),
             cell,
+            per_mm: 1.0 / cell,
             bottom,
             height: top - bottom,
             asked_cell: settings.cell_mm(),

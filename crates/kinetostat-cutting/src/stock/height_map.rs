@@ -44,7 +44,9 @@ impl Stock {
         let mut field = Self::empty([x0, y0], opposite, [bottom, highest], settings)?;
         field.fill(|x, y| {
             let (u, v) = (x - x0, y - y0);
-            let beyond = [-u, u - dx, -v, v - dy].into_iter().fold(f64::NEG_INFINITY, larger);
+            let beyond = [-u, u - dx, -v, v - dy]
+                .into_iter()
+                .fold(f64::NEG_INFINITY, larger);
             let top = map.at(u / spacing_mm, v / spacing_mm) - bottom;
             match top > 0.0 {
                 true => (top, -beyond),
@@ -81,7 +83,12 @@ impl Map {
         loop {
             let more = reader.read_record(&mut record).map_err(|error| {
                 let line = error.position().map(csv::Position::line);
-                wrong("map of heights", error.to_string(), "rows of numbers".into(), line)
+                wrong(
+                    "map of heights",
+                    error.to_string(),
+                    "rows of numbers".into(),
+                    line,
+                )
             })?;
             if !more {
                 break;

@@ -43,8 +43,16 @@ impl Stock {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for vertex in triangles.iter().flatten() {
             for i in 0..3 {
-                low[i] = if vertex[i] < low[i] { vertex[i] } else { low[i] };
-                high[i] = if vertex[i] > high[i] { vertex[i] } else { high[i] };
+                low[i] = if vertex[i] < low[i] {
+                    vertex[i]
+                } else {
+                    low[i]
+                };
+                high[i] = if vertex[i] > high[i] {
+                    vertex[i]
+                } else {
+                    high[i]
+                };
             }
         }
         let in_file = |error: CutError| error.at(name, None);
@@ -68,11 +76,22 @@ impl Stock {
             let index = |value: f64| (value - self.origin[axis]) / self.cell;
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for vertex in triangle {
-                low = if vertex[axis] < low { vertex[axis] } else { low };
-                high = if vertex[axis] > high { vertex[axis] } else { high };
+                low = if vertex[axis] < low {
+                    vertex[axis]
+                } else {
+                    low
+                };
+                high = if vertex[axis] > high {
+                    vertex[axis]
+                } else {
+                    high
+                };
             }
             let last = (self.points[axis] - 1) as f64;
-            [index(low).ceil().min(last) as usize, index(high).floor().min(last) as usize]
+            [
+                index(low).ceil().min(last) as usize,
+                index(high).floor().min(last) as usize,
+            ]
         };
         let ([i0, i1], [j0, j1]) = (bounds(0), bounds(1));
         for j in j0..=j1 {
@@ -101,7 +120,10 @@ fn read(bytes: &[u8], name: &str) -> Result<Vec<Triangle>> {
     };
     let binary = bytes.get(80..84).map(|count| {
         let count = u32::from_le_bytes([count[0], count[1], count[2], count[3]]) as usize;
-        (count, count.saturating_mul(BINARY[1]).saturating_add(BINARY[0]) == bytes.len())
+        (
+            count,
+            count.saturating_mul(BINARY[1]).saturating_add(BINARY[0]) == bytes.len(),
+        )
     });
     let text = bytes.starts_with(b"solid ");
     let owned;
@@ -115,17 +137,24 @@ fn read(bytes: &[u8], name: &str) -> Result<Vec<Triangle>> {
         _ if text => bytes,
         Some((count, false)) => {
             let found = format!("{} bytes for {count} triangles", bytes.len());
-            return Err(wrong("STL file", found, "84 bytes and 50 for each triangle"));
+            return Err(wrong(
+                "STL file",
+                found,
+                "84 bytes and 50 for each triangle",
+            ));
         }
         None => {
             let found = format!("{} bytes", bytes.len());
-            return Err(wrong("STL file", found, "a text that begins with `solid`, or 84 bytes and more"));
+            return Err(wrong(
+                "STL file",
+                found,
+                "a text that begins with `solid`, or 84 bytes and more",
+            ));
         }
     };
     let mut cursor = Cursor::new(source);
-    let of_library = |error: std::io::Error| {
-        wrong("STL file", error.to_string(), "triangles of three vertices")
-    };
+    let of_library =
+        |error: std::io::Error| wrong("STL file", error.to_string(), "triangles of three vertices");
     let mut triangles = Vec::new();
     for triangle in stl_io::create_stl_reader(&mut cursor).map_err(of_library)? {
         let triangle = triangle.map_err(of_library)?;
@@ -133,15 +162,27 @@ fn read(bytes: &[u8], name: &str) -> Result<Vec<Triangle>> {
         let far = corners.iter().flatten().find(|x| !(x.abs() <= FAR_MM));
         if let Some(far) = far {
             let found = format!("{far} in triangle {}", triangles.len() + 1);
-            return Err(wrong("coordinate of the mesh", found, "numbers up to 100000 mm"));
+            return Err(wrong(
+                "coordinate of the mesh",
+                found,
+                "numbers up to 100000 mm",
+            ));
         }
         if triangles.len() == MOST {
-            return Err(wrong("triangles of the mesh", format!("more than {MOST}"), "a coarser mesh"));
+            return Err(wrong(
+                "triangles of the mesh",
+                format!("more than {MOST}"),
+                "a coarser mesh",
+            ));
         }
         triangles.push(corners);
     }
     match triangles.is_empty() {
-        true => Err(wrong("triangles of the mesh", "none".into(), "at least one")),
+        true => Err(wrong(
+            "triangles of the mesh",
+            "none".into(),
+            "at least one",
+        )),
         false => Ok(triangles),
     }
 }

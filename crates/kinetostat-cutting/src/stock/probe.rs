@@ -262,7 +262,11 @@ impl Probe {
     /// Looks at a share of a move, but not where the tool stood at its start.
     fn look_at(&mut self, stock: &Stock, way: &Move, share: f64) -> bool {
         let least = 0.5 * PLACE * stock.cell / way.length;
-        self.look(stock, way.at(if share < least { least } else { share }), way.direction());
+        self.look(
+            stock,
+            way.at(if share < least { least } else { share }),
+            way.direction(),
+        );
         !self.found.is_air()
     }
 
@@ -281,14 +285,19 @@ impl Probe {
                 true => [direction[0] / horizontal, direction[1] / horizontal],
                 false => [1.0, 0.0],
             },
-            slope: if motion[0] > 0.0 { motion[1] / motion[0] } else { 0.0 },
+            slope: if motion[0] > 0.0 {
+                motion[1] / motion[0]
+            } else {
+                0.0
+            },
         };
         if stand.tip >= stock.height {
             return;
         }
         let profile = self.profile;
         if profile.end > 0.0 && motion[1] < 0.0 {
-            self.end.contacts(stock, &stand, profile.end, &mut self.found);
+            self.end
+                .contacts(stock, &stand, profile.end, &mut self.found);
         }
         if !profile.is_flat() {
             let found = &mut self.found;
@@ -301,7 +310,8 @@ impl Probe {
             && stand.tip + shoulder < stock.height
         {
             let found = &mut self.found;
-            self.rim.contacts(stock, &stand, profile.outer, shoulder, &range, found);
+            self.rim
+                .contacts(stock, &stand, profile.outer, shoulder, &range, found);
         }
     }
 
@@ -312,11 +322,23 @@ impl Probe {
 
     /// Shares of a move between which the tool may reach the stock.
     fn near(&self, stock: &Stock, way: &Move) -> Option<[f64; 2]> {
-        let lowest = if way.to[2] < way.from[2] { way.to[2] } else { way.from[2] };
+        let lowest = if way.to[2] < way.from[2] {
+            way.to[2]
+        } else {
+            way.from[2]
+        };
         let reach = self.profile.reach(stock.bottom + stock.height - lowest) + stock.cell;
         let last = |axis: usize| stock.place(stock.points[0] - 1, stock.points[1] - 1)[axis];
-        let low = [stock.origin[0] - reach, stock.origin[1] - reach, f64::NEG_INFINITY];
-        let high = [last(0) + reach, last(1) + reach, stock.bottom + stock.height];
+        let low = [
+            stock.origin[0] - reach,
+            stock.origin[1] - reach,
+            f64::NEG_INFINITY,
+        ];
+        let high = [
+            last(0) + reach,
+            last(1) + reach,
+            stock.bottom + stock.height,
+        ];
         let mut shares = [0.0, 1.0];
         for i in 0..3 {
             let (start, step) = (way.from[i], way.to[i] - way.from[i]);
@@ -328,8 +350,16 @@ impl Probe {
             }
             let (a, b) = ((low[i] - start) / step, (high[i] - start) / step);
             let (enters, leaves) = if a < b { (a, b) } else { (b, a) };
-            shares[0] = if enters > shares[0] { enters } else { shares[0] };
-            shares[1] = if leaves < shares[1] { leaves } else { shares[1] };
+            shares[0] = if enters > shares[0] {
+                enters
+            } else {
+                shares[0]
+            };
+            shares[1] = if leaves < shares[1] {
+                leaves
+            } else {
+                shares[1]
+            };
         }
         (shares[0] < shares[1]).then_some(shares)
     }

@@ -29,7 +29,11 @@ impl Profile {
             end: tool.end_radius_mm(),
             corner: tool.corner_radius_mm(),
             cone,
-            outer: if cone.is_some() { CONE * tool.radius_mm() } else { tool.radius_mm() },
+            outer: if cone.is_some() {
+                CONE * tool.radius_mm()
+            } else {
+                tool.radius_mm()
+            },
         }
     }
 
@@ -71,7 +75,11 @@ impl Profile {
             Some(slope) => slope,
             None => {
                 let rest = self.corner * self.corner - beyond * beyond;
-                if rest > 0.0 { beyond / rest.sqrt() } else { 1e12 }
+                if rest > 0.0 {
+                    beyond / rest.sqrt()
+                } else {
+                    1e12
+                }
             }
         }
     }
@@ -82,10 +90,11 @@ impl Profile {
         if height <= 0.0 {
             return f64::NEG_INFINITY;
         }
+        let rounding = 1e-4 * self.corner;
         match self.cone {
-            Some(_) if height >= self.shoulder() => f64::INFINITY,
+            Some(_) if height > self.shoulder() * (1.0 + 1e-4) => f64::INFINITY,
             Some(slope) => self.end + height / slope,
-            None if height >= self.corner => f64::INFINITY,
+            None if height > self.corner + rounding => f64::INFINITY,
             None => {
                 let rest = self.corner - height;
                 self.end + (self.corner * self.corner - rest * rest).sqrt()

@@ -36,6 +36,25 @@ impl Stand {
     }
 }
 
+impl Stand {
+    /// How much higher than now the tip is on a ramp when the end of the tool leaves a point (downwards) or comes to it
+    /// (upwards): the floor there is not lower.
+    #[inline]
+    fn floor_above(&self, [x, y]: [f64; 2], radius: f64) -> f64 {
+        let (dx, dy) = (x - self.centre[0], y - self.centre[1]);
+        let way = dx * self.feed[0] + dy * self.feed[1];
+        let across = dy * self.feed[0] - dx * self.feed[1];
+        let square = radius * radius - across * across;
+        let half = if square > 0.0 { square.sqrt() } else { 0.0 };
+        let until = if self.slope > 0.0 {
+            way - half
+        } else {
+            way + half
+        };
+        (self.slope * until).max(0.0)
+    }
+}
+
 /// A cell of the grid: the index of its lower corner and the shares of its corners at a place in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cell {
@@ -48,7 +67,8 @@ impl Cell {
     /// The cell that holds a place.
     #[inline]
     pub fn at(stock: &Stock, [x, y]: [f64; 2]) -> Option<Self> {
-        let (u, v) = ((x - stock.origin[0]) / stock.cell, (y - stock.origin[1]) / stock.cell);
+        let u = (x - stock.origin[0]) * stock.per_mm;
+        let v = (y - stock.origin[1]) * stock.per_mm;
         let [nx, ny] = stock.points;
         if !(u >= 0.0 && v >= 0.0 && u < (nx - 1) as f64 && v < (ny - 1) as f64) {
             return None;
@@ -83,25 +103,17 @@ impl Cell {
 /// Positive in the material, at a place of a rim of this radius about a stand and at a height above the bottom; about the
 /// distance of the next wall.
 #[inline]
-fn depth_in(
-    stock: &Stock,
-    place: [f64; 2],
-    level: f64,
-    stand: &Stand,
-    radius: f64,
-) -> f64 {
+fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f64) -> f64 {
     let Some(cell) = Cell::at(stock, place) else {
         return -stock.cell;
     };
     let columns = cell.columns(stock);
     let known = stock.known() as f32;
-    // On a ramp the floor that the tool leaves or finds is higher at the points where its tip was or will be higher.
     let level_at = |k: usize| match stand.slope == 0.0 {
         true => level,
         false => {
             let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
-            let way = (at[0] - place[0]) * stand.feed[0] + (at[1] - place[1]) * stand.feed[1];
-            level + (stand.slope * way).max(0.0)
+            level + stand.floor_above(at, radius)
         }
     };
     let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
@@ -110,7 +122,13 @@ fn depth_in(
         [false, false, false, false] => return -stock.cell,
         _ => {}
     }
-    let wall = |k: usize| if inside[k] { columns[k].drop } else { columns[k].rise };
+    let wall = |k: usize| {
+        if inside[k] {
+            columns[k].drop
+        } else {
+            columns[k].rise
+        }
+    };
     let mut sum = 0.0;
     if (0..4).all(|k| wall(k) >= known) {
         // No tool has been here: a slope.

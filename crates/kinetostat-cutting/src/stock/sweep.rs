@@ -33,7 +33,11 @@ impl Sweep {
         let level = length > 1e-9;
         Self {
             from: [from[0], from[1]],
-            along: if level { [dx / length, dy / length] } else { [0.0; 2] },
+            along: if level {
+                [dx / length, dy / length]
+            } else {
+                [0.0; 2]
+            },
             length: if level { length } else { 0.0 },
             // Straight down or up: all of it is done at its lower end.
             tip: if level || dz > 0.0 { from[2] } else { to[2] } - bottom,
@@ -55,7 +59,11 @@ impl Sweep {
     /// Least and greatest y within a distance of the move.
     pub fn rows(&self, reach: f64) -> [f64; 2] {
         let end = self.from[1] + self.length * self.along[1];
-        let (low, high) = if end < self.from[1] { (end, self.from[1]) } else { (self.from[1], end) };
+        let (low, high) = if end < self.from[1] {
+            (end, self.from[1])
+        } else {
+            (self.from[1], end)
+        };
         [low - reach, high + reach]
     }
 

@@ -48,8 +48,16 @@ impl Stock {
         for b in j - 1..=j + 1 {
             for a in i - 1..=i + 1 {
                 let neighbour = at(a, b);
-                lowest = if neighbour < lowest { neighbour } else { lowest };
-                highest = if neighbour > highest { neighbour } else { highest };
+                lowest = if neighbour < lowest {
+                    neighbour
+                } else {
+                    lowest
+                };
+                highest = if neighbour > highest {
+                    neighbour
+                } else {
+                    highest
+                };
             }
         }
         let across = match length > 0.0 {

@@ -23,18 +23,31 @@ fn straight_error(cell: f64) -> f64 {
                 // Beside the feed: the wall of the first pass lies `RADIUS - width` to the side of the part.
                 let to_part = if side == Side::Left { 1.0 } else { -1.0 };
                 let beside = |way: f64, left: f64| {
-                    [0.17 + way * cos - left * sin, 0.05 + way * sin + left * cos, 5.0 - DEPTH]
+                    [
+                        0.17 + way * cos - left * sin,
+                        0.05 + way * sin + left * cos,
+                        5.0 - DEPTH,
+                    ]
                 };
                 let back = to_part * -width;
-                probe.cut(&mut stock, beside(-50.0, back), beside(50.0, back)).unwrap();
+                probe
+                    .cut(&mut stock, beside(-50.0, back), beside(50.0, back))
+                    .unwrap();
                 let mut found = None;
                 probe
-                    .walk(&mut stock, beside(-50.0, 0.0), beside(0.0, 0.0), |_, engagement| {
-                        found = Some(engagement.clone());
-                    })
+                    .walk(
+                        &mut stock,
+                        beside(-50.0, 0.0),
+                        beside(0.0, 0.0),
+                        |_, engagement| {
+                            found = Some(engagement.clone());
+                        },
+                    )
                     .unwrap();
                 let contact = only_side(&found.unwrap());
-                let exact = Engagement::straight(RADIUS, width, DEPTH, side).unwrap().contacts[0];
+                let exact = Engagement::straight(RADIUS, width, DEPTH, side)
+                    .unwrap()
+                    .contacts[0];
                 assert!(contact.from_mm.abs() < 1e-6 && (contact.to_mm - DEPTH).abs() < 1e-6);
                 let error = arc_error(&contact, exact.entry, exact.exit);
                 worst = if error > worst { error } else { worst };
@@ -49,7 +62,10 @@ fn straight_cuts_follow_their_closed_form_and_the_error_falls_with_the_cell() {
     let errors = [0.3, 0.15, 0.075].map(straight_error);
     println!("straight: {errors:?} rad; a cell is 0.1 rad");
     assert!(errors[0] < 0.02, "{errors:?}"); // a fifth of a cell on the rim
-    assert!(errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1], "{errors:?}");
+    assert!(
+        errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1],
+        "{errors:?}"
+    );
 }
 
 /// Error of a tool on a circle, with a wall before the pass at a radius; the tool turns left, the wall outside or inside.
@@ -63,13 +79,21 @@ fn corner_error(cell: f64, inside: bool) -> f64 {
         let mut probe = Probe::new(&tool);
         // The wall before: of the same tool on a circle beside.
         let before = if inside { path - width } else { path + width };
-        probe.cut_along(&mut stock, &circle(centre, before, z, [0.0, TAU], 1440)).unwrap();
+        probe
+            .cut_along(&mut stock, &circle(centre, before, z, [0.0, TAU], 1440))
+            .unwrap();
         // Half a turn of the pass itself, and the look at the middle of the next chord.
         let pass = circle(centre, path, z, [0.4, 0.4 + PI], 720);
         probe.cut_along(&mut stock, &pass).unwrap();
         let half = 0.5 * PI / 720.0;
         let at = 0.4 + PI + half;
-        let place = |angle: f64, r: f64| [centre[0] + r * f64::cos(angle), centre[1] + r * f64::sin(angle), z];
+        let place = |angle: f64, r: f64| {
+            [
+                centre[0] + r * f64::cos(angle),
+                centre[1] + r * f64::sin(angle),
+                z,
+            ]
+        };
         let from = place(0.4 + PI, path);
         let to = place(at + half, path);
         let middle: [f64; 3] = std::array::from_fn(|i| 0.5 * (from[i] + to[i]));
@@ -100,7 +124,10 @@ fn inside_corners_follow_their_closed_form() {
     let errors = [0.3, 0.15, 0.075].map(|cell| corner_error(cell, true));
     println!("inside corner: {errors:?} rad");
     assert!(errors[0] < 0.04, "{errors:?}");
-    assert!(errors[2] < 0.25 * errors[0] || errors[2] < 0.006, "{errors:?}");
+    assert!(
+        errors[2] < 0.25 * errors[0] || errors[2] < 0.006,
+        "{errors:?}"
+    );
 }
 
 #[test]
@@ -108,7 +135,10 @@ fn outside_corners_follow_their_closed_form() {
     let errors = [0.3, 0.15, 0.075].map(|cell| corner_error(cell, false));
     println!("outside corner: {errors:?} rad");
     assert!(errors[0] < 0.1, "{errors:?}"); // a cell on the rim
-    assert!(errors[2] < 0.25 * errors[0] || errors[2] < 0.006, "{errors:?}");
+    assert!(
+        errors[2] < 0.25 * errors[0] || errors[2] < 0.006,
+        "{errors:?}"
+    );
 }
 
 #[test]
@@ -117,10 +147,16 @@ fn a_slot_is_half_the_circle_from_its_entry_on() {
     for heading in [0.0, 0.7, 2.0, 4.0_f64] {
         let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 5.0], 0.3);
         let mut probe = Probe::new(&tool);
-        probe.cut(&mut stock, [0.0, 0.0, 8.0], [0.0, 0.0, 3.0]).unwrap();
+        probe
+            .cut(&mut stock, [0.0, 0.0, 8.0], [0.0, 0.0, 3.0])
+            .unwrap();
         let mut at = [0.0, 0.0, 3.0];
         for _ in 0..40 {
-            let next = [at[0] + 0.21 * heading.cos(), at[1] + 0.21 * heading.sin(), 3.0];
+            let next = [
+                at[0] + 0.21 * heading.cos(),
+                at[1] + 0.21 * heading.sin(),
+                3.0,
+            ];
             for station in probe.stations(&mut stock, at, next).unwrap() {
                 let error = arc_error(&only_side(&station.engagement), 0.0, PI);
                 assert!(error < 0.02, "{error} {:?}", station.engagement);
@@ -135,7 +171,9 @@ fn a_plunge_is_the_whole_end_and_no_side() {
     let tool = flat(2.0 * RADIUS);
     let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 5.0], 0.3);
     let mut probe = Probe::new(&tool);
-    let down = probe.stations(&mut stock, [1.1, 2.0, 9.0], [1.1, 2.0, 1.0]).unwrap();
+    let down = probe
+        .stations(&mut stock, [1.1, 2.0, 9.0], [1.1, 2.0, 1.0])
+        .unwrap();
     let contacts: Vec<_> = down.iter().filter(|s| !s.engagement.is_air()).collect();
     assert!(contacts.len() > 3);
     for station in contacts {
@@ -145,8 +183,12 @@ fn a_plunge_is_the_whole_end_and_no_side() {
     let last_air = down.iter().rfind(|s| s.engagement.is_air()).unwrap();
     assert!((last_air.share - 0.5).abs() < 0.03, "{last_air:?}");
     // Up, and down again, there is nothing.
-    let up = probe.stations(&mut stock, [1.1, 2.0, 1.0], [1.1, 2.0, 9.0]).unwrap();
-    let again = probe.stations(&mut stock, [1.1, 2.0, 9.0], [1.1, 2.0, 1.0]).unwrap();
+    let up = probe
+        .stations(&mut stock, [1.1, 2.0, 1.0], [1.1, 2.0, 9.0])
+        .unwrap();
+    let again = probe
+        .stations(&mut stock, [1.1, 2.0, 9.0], [1.1, 2.0, 1.0])
+        .unwrap();
     assert!(up.iter().chain(&again).all(|s| s.engagement.is_air()));
 }
 
@@ -158,7 +200,10 @@ fn a_plunge_beside_a_wall_has_the_part_of_the_end_that_is_over_it() {
     // The feed stands along x; the half with y above 0 is left of it.
     for contact in &found.contacts {
         let middle = 0.5 * (contact.entry + contact.exit);
-        assert!((contact.exit - contact.entry - PI).abs() < 0.3, "{contact:?}");
+        assert!(
+            (contact.exit - contact.entry - PI).abs() < 0.3,
+            "{contact:?}"
+        );
         assert!((middle - TAU).abs() < 0.1, "{contact:?}");
     }
     let area: f64 = found

@@ -17,13 +17,31 @@ fn cells_and_blocks_that_cannot_be() {
         refused(StockSettings::with_cell_mm(cell), "cell");
     }
     let one = cells(1.0);
-    refused(Stock::block([0.0; 3], [0.0, 5.0, 5.0], &one), "stock along x");
-    refused(Stock::block([0.0; 3], [5.0, f64::NAN, 5.0], &one), "stock along y");
-    refused(Stock::block([0.0; 3], [5.0, 5.0, 0.0], &one), "height of the stock");
-    refused(Stock::block([0.0; 3], [1e9, 5.0, 1.0], &one), "stock along x");
-    refused(Stock::block([9e9, 0.0, 0.0], [9e9 + 5.0, 5.0, 1.0], &one), "place of the stock");
+    refused(
+        Stock::block([0.0; 3], [0.0, 5.0, 5.0], &one),
+        "stock along x",
+    );
+    refused(
+        Stock::block([0.0; 3], [5.0, f64::NAN, 5.0], &one),
+        "stock along y",
+    );
+    refused(
+        Stock::block([0.0; 3], [5.0, 5.0, 0.0], &one),
+        "height of the stock",
+    );
+    refused(
+        Stock::block([0.0; 3], [1e9, 5.0, 1.0], &one),
+        "stock along x",
+    );
+    refused(
+        Stock::block([9e9, 0.0, 0.0], [9e9 + 5.0, 5.0, 1.0], &one),
+        "place of the stock",
+    );
     refused(Stock::cylinder([0.0; 3], -4.0, 5.0, &one), "stock along x");
-    refused(Stock::cylinder([0.0; 3], 4.0, f64::NAN, &one), "height of the stock");
+    refused(
+        Stock::cylinder([0.0; 3], 4.0, f64::NAN, &one),
+        "height of the stock",
+    );
 }
 
 #[test]
@@ -42,13 +60,19 @@ fn memory_is_told_and_bounded() {
     assert!(stock.memory_bytes() < 40_000_000 && stock.cells() > 2_700_000);
     assert_eq!(stock.coarsened_from_mm(), None);
     let fine = cells(0.01);
-    let error = refused(Stock::block([0.0; 3], [500.0, 500.0, 50.0], &fine), "memory of the stock");
+    let error = refused(
+        Stock::block([0.0; 3], [500.0, 500.0, 50.0], &fine),
+        "memory of the stock",
+    );
     assert_eq!(error.kind, CutErrorKind::Stock);
     let stock = Stock::block([0.0; 3], [500.0, 500.0, 50.0], &fine.coarser_if_needed()).unwrap();
     assert!(stock.memory_bytes() <= 500_000_000 && stock.memory_bytes() > 450_000_000);
     assert_eq!(stock.coarsened_from_mm(), Some(0.01));
     let none = cells(1.0).with_memory_bytes(10).coarser_if_needed();
-    refused(Stock::block([0.0; 3], [5.0; 3], &none), "memory of the stock");
+    refused(
+        Stock::block([0.0; 3], [5.0; 3], &none),
+        "memory of the stock",
+    );
 }
 
 #[test]
@@ -57,10 +81,22 @@ fn moves_that_cannot_be() {
     let mut stock = block([0.0; 3], [10.0; 3], 0.5);
     let mut probe = Probe::new(&tool);
     let nowhere = [f64::NAN, 0.0, 0.0];
-    refused(probe.cut(&mut stock, [0.0; 3], nowhere), "place of the tool");
-    refused(probe.stations(&mut stock, nowhere, [0.0; 3]), "place of the tool");
-    refused(probe.engagement(&stock, [0.0; 3], [0.0; 3]), "direction of the tool");
-    refused(probe.engagement(&stock, [0.0; 3], nowhere), "place of the tool");
+    refused(
+        probe.cut(&mut stock, [0.0; 3], nowhere),
+        "place of the tool",
+    );
+    refused(
+        probe.stations(&mut stock, nowhere, [0.0; 3]),
+        "place of the tool",
+    );
+    refused(
+        probe.engagement(&stock, [0.0; 3], [0.0; 3]),
+        "direction of the tool",
+    );
+    refused(
+        probe.engagement(&stock, [0.0; 3], nowhere),
+        "place of the tool",
+    );
     // No way at all: one station, in air.
     let stations = probe.stations(&mut stock, [5.0; 3], [5.0; 3]).unwrap();
     assert!(stations.len() == 1 && stations[0].engagement.is_air());
@@ -71,10 +107,17 @@ fn maps_of_heights() {
     let map = b"1, 1, 1\n1, 3, 1\n1, 1, 1\n";
     let stock = Stock::height_map(map, "map.csv", [0.0; 3], 10.0, &cells(0.2)).unwrap();
     // 400 mm^2 of 1, and a tent: bilinear, a quarter of 2 in each of four squares.
-    assert!((stock.volume_mm3() - (400.0 + 400.0 * 0.5)).abs() < 3.0, "{}", stock.volume_mm3());
+    assert!(
+        (stock.volume_mm3() - (400.0 + 400.0 * 0.5)).abs() < 3.0,
+        "{}",
+        stock.volume_mm3()
+    );
     let read = |bytes: &[u8]| Stock::height_map(bytes, "map.csv", [0.0; 3], 10.0, &cells(0.2));
     let error = refused(read(b"1,2\n3,x\n"), "height");
-    assert_eq!((error.line, error.file.as_deref()), (Some(2), Some("map.csv")));
+    assert_eq!(
+        (error.line, error.file.as_deref()),
+        (Some(2), Some("map.csv"))
+    );
     assert_eq!(refused(read(b"1,2\n3\n"), "row of the map").line, Some(2));
     refused(read(b"1,NaN\n3,4\n"), "height");
     refused(read(b"1,2\n"), "map of heights");
@@ -95,8 +138,20 @@ fn box_triangles([dx, dy, dz]: [f32; 3]) -> Vec<[[f32; 3]; 3]> {
             if k & 4 > 0 { dz } else { 0.0 },
         ]
     };
-    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-    let triangles = |[a, b, c, d]: [usize; 4]| [[corner(a), corner(b), corner(c)], [corner(a), corner(c), corner(d)]];
+    let faces = [
+        [0, 1, 3, 2],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 3, 7, 5],
+    ];
+    let triangles = |[a, b, c, d]: [usize; 4]| {
+        [
+            [corner(a), corner(b), corner(c)],
+            [corner(a), corner(c), corner(d)],
+        ]
+    };
     faces.into_iter().flat_map(triangles).collect()
 }
 
@@ -130,7 +185,11 @@ fn text(triangles: &[[[f32; 3]; 3]]) -> String {
 fn meshes() {
     let triangles = box_triangles([20.0, 10.0, 4.0]);
     let plain = Stock::stl(&binary(&triangles, b"made here"), "part.stl", &cells(0.2)).unwrap();
-    assert!((plain.volume_mm3() / 800.0 - 1.0).abs() < 0.01, "{}", plain.volume_mm3());
+    assert!(
+        (plain.volume_mm3() / 800.0 - 1.0).abs() < 0.01,
+        "{}",
+        plain.volume_mm3()
+    );
     let like_text = Stock::stl(&binary(&triangles, b"solid "), "part.stl", &cells(0.2)).unwrap();
     let of_text = Stock::stl(text(&triangles).as_bytes(), "part.stl", &cells(0.2)).unwrap();
     assert_eq!(plain, like_text);
@@ -146,7 +205,10 @@ fn meshes() {
     refused(read(&binary(&far, b"")), "coordinate of the mesh");
     let plate = [[[0.0, 0.0, 1.0], [5.0, 0.0, 1.0], [0.0, 5.0, 1.0]]];
     refused(read(&binary(&plate, b"")), "height of the stock");
-    refused(read(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex a b c\n"), "STL file");
+    refused(
+        read(b"solid x\nfacet normal 0 0 1\nouter loop\nvertex a b c\n"),
+        "STL file",
+    );
 }
 
 proptest! {

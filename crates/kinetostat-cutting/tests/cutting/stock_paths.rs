@@ -12,7 +12,9 @@ fn the_same_way_again_is_air() {
     let shapes = [
         Shape::Flat,
         Shape::Ball,
-        Shape::Bull { corner_radius_mm: 1.0 },
+        Shape::Bull {
+            corner_radius_mm: 1.0,
+        },
         Shape::Face { lead_angle: 0.8 },
     ];
     for shape in shapes {
@@ -68,11 +70,17 @@ fn a_pass_between_two_others_cuts_what_is_left() {
     let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 5.0], 0.3);
     let mut probe = Probe::new(&tool);
     for y in [-5.0, 5.0] {
-        probe.cut(&mut stock, [-30.0, y, 3.0], [30.0, y, 3.0]).unwrap();
+        probe
+            .cut(&mut stock, [-30.0, y, 3.0], [30.0, y, 3.0])
+            .unwrap();
     }
     // The ridge reaches from -2 to 2; the tool in the middle is 3 on both sides.
     let mut last = Engagement::air();
-    probe.walk(&mut stock, [-30.0, 0.0, 3.0], [5.0, 0.0, 3.0], |_, e| last = e.clone()).unwrap();
+    probe
+        .walk(&mut stock, [-30.0, 0.0, 3.0], [5.0, 0.0, 3.0], |_, e| {
+            last = e.clone()
+        })
+        .unwrap();
     let angle = (2.0_f64 / 3.0).acos();
     let error = arc_error(&only_side(&last), angle, PI - angle);
     assert!(error < 0.02, "{error}");
@@ -87,7 +95,9 @@ fn an_island_is_met_and_left() {
     for k in 0..9 {
         for side in [-1.0, 1.0] {
             let x = side * (4.0 + 3.0 * f64::from(k));
-            probe.cut(&mut stock, [x, -30.0, 3.0], [x, 30.0, 3.0]).unwrap();
+            probe
+                .cut(&mut stock, [x, -30.0, 3.0], [x, 30.0, 3.0])
+                .unwrap();
         }
     }
     let from = [-25.0, 0.4, 3.0];
@@ -109,7 +119,9 @@ fn a_thin_wall_between_two_steps_is_not_missed() {
     for place in [0.0, 0.7, 1.3, 1.9] {
         let mut stock = block([place, -0.4, 0.0], [place + 0.8, 0.4, 5.0], 0.2);
         let mut probe = Probe::new(&tool);
-        let stations = probe.stations(&mut stock, [-40.0, 0.0, 3.0], [40.0, 0.0, 3.0]).unwrap();
+        let stations = probe
+            .stations(&mut stock, [-40.0, 0.0, 3.0], [40.0, 0.0, 3.0])
+            .unwrap();
         assert!(stations.iter().any(|s| !s.engagement.is_air()), "{place}");
         assert!(stations.windows(2).all(|s| s[0].share < s[1].share));
         assert_eq!(stations[stations.len() - 1].share, 1.0);
@@ -121,7 +133,9 @@ fn engagement_grows_as_the_tool_enters_and_ends_as_it_leaves() {
     let tool = flat(6.0);
     let mut stock = block([0.0, -20.0, 0.0], [30.0, 20.0, 5.0], 0.3);
     let mut probe = Probe::new(&tool);
-    let stations = probe.stations(&mut stock, [-10.0, 0.0, 3.0], [40.0, 0.0, 3.0]).unwrap();
+    let stations = probe
+        .stations(&mut stock, [-10.0, 0.0, 3.0], [40.0, 0.0, 3.0])
+        .unwrap();
     let mut last_depth = 0.0;
     let mut compared = 0;
     for station in &stations {
@@ -130,7 +144,10 @@ fn engagement_grows_as_the_tool_enters_and_ends_as_it_leaves() {
         if x > -2.8 && x < -0.1 {
             let contact = only_side(&station.engagement);
             let half = (-x / 3.0_f64).asin();
-            assert!(arc_error(&contact, half, PI - half) < 0.05, "{x} {contact:?}");
+            assert!(
+                arc_error(&contact, half, PI - half) < 0.05,
+                "{x} {contact:?}"
+            );
             assert!(contact.exit - contact.entry > last_depth);
             last_depth = contact.exit - contact.entry;
             compared += 1;
@@ -159,15 +176,24 @@ fn steps_in_height_give_bands() {
     let mut probe = Probe::new(&tool);
     // A step along the way: left of y = 0.5 the stock is 8 high, right of it 6.
     let wide = flat(20.0);
-    Probe::new(&wide).cut(&mut stock, [-40.0, -9.5, 6.0], [40.0, -9.5, 6.0]).unwrap();
+    Probe::new(&wide)
+        .cut(&mut stock, [-40.0, -9.5, 6.0], [40.0, -9.5, 6.0])
+        .unwrap();
     let mut last = Engagement::air();
-    probe.walk(&mut stock, [-30.0, 0.0, 3.0], [0.0, 0.0, 3.0], |_, e| last = e.clone()).unwrap();
+    probe
+        .walk(&mut stock, [-30.0, 0.0, 3.0], [0.0, 0.0, 3.0], |_, e| {
+            last = e.clone()
+        })
+        .unwrap();
     assert_eq!(last.contacts.len(), 2, "{last:?}");
     let (low, high) = (last.contacts[0], last.contacts[1]);
     assert!(low.from_mm.abs() < 1e-5 && (low.to_mm - 3.0).abs() < 1e-5);
     assert!((high.from_mm - 3.0).abs() < 1e-5 && (high.to_mm - 5.0).abs() < 1e-5);
     assert!(arc_error(&low, 0.0, PI) < 0.01);
-    assert!(arc_error(&high, 0.0, (0.5_f64 / 3.0).acos()) < 0.02, "{high:?}");
+    assert!(
+        arc_error(&high, 0.0, (0.5_f64 / 3.0).acos()) < 0.02,
+        "{high:?}"
+    );
 }
 
 #[test]

@@ -32,8 +32,12 @@ fn a_full_slot_of_a_ball_is_the_front_half_at_every_height() {
         let mut last = Engagement::air();
         let mut probe = Probe::new(&tool);
         let (from, to) = ([-8.0 * cos, -8.0 * sin, z], [3.0 * cos, 3.0 * sin, z]);
-        probe.cut(&mut stock, [from[0], from[1], 9.0], from).unwrap();
-        probe.walk(&mut stock, from, to, |_, e| last = e.clone()).unwrap();
+        probe
+            .cut(&mut stock, [from[0], from[1], 9.0], from)
+            .unwrap();
+        probe
+            .walk(&mut stock, from, to, |_, e| last = e.clone())
+            .unwrap();
         for contact in &last.contacts {
             assert!(arc_error(contact, 0.0, PI) < 0.02, "{depth} {contact:?}");
         }
@@ -62,29 +66,50 @@ fn a_ball_beside_its_own_pass_cuts_the_cross_section_that_is_left() {
             let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 8.0], cell);
             let mut probe = Probe::new(&tool);
             let z = 8.0 - depth;
-            probe.cut(&mut stock, [-30.0, -over, z], [30.0, -over, z]).unwrap();
+            probe
+                .cut(&mut stock, [-30.0, -over, z], [30.0, -over, z])
+                .unwrap();
             let mut last = Engagement::air();
-            probe.walk(&mut stock, [-30.0, 0.0, z], [1.0, 0.0, z], |_, e| last = e.clone()).unwrap();
+            probe
+                .walk(&mut stock, [-30.0, 0.0, z], [1.0, 0.0, z], |_, e| {
+                    last = e.clone()
+                })
+                .unwrap();
             (projected(&tool, &last) / exact - 1.0).abs()
         });
         println!("ball beside its own pass, {depth} {over}: {errors:?}");
-        assert!(errors[0] < 0.15 && errors[1] < 0.08, "{depth} {over}: {errors:?}");
+        assert!(
+            errors[0] < 0.15 && errors[1] < 0.08,
+            "{depth} {over}: {errors:?}"
+        );
     }
 }
 
 #[test]
 fn what_is_removed_is_what_was_met() {
     // Volume per way equals the projected area: a bull nose through a slot off the axes.
-    let tool = Tool::new(Shape::Bull { corner_radius_mm: 1.0 }, 6.0, 2).unwrap();
+    let tool = Tool::new(
+        Shape::Bull {
+            corner_radius_mm: 1.0,
+        },
+        6.0,
+        2,
+    )
+    .unwrap();
     let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 8.0], 0.15);
     let mut probe = Probe::new(&tool);
     let place = |way: f64| [way * 0.8, way * 0.6, 6.4];
     probe.cut(&mut stock, place(-10.0), place(-2.0)).unwrap();
     let before = stock.volume_mm3();
     let mut last = Engagement::air();
-    probe.walk(&mut stock, place(-2.0), place(4.0), |_, e| last = e.clone()).unwrap();
+    probe
+        .walk(&mut stock, place(-2.0), place(4.0), |_, e| last = e.clone())
+        .unwrap();
     let removed = (before - stock.volume_mm3()) / 6.0;
-    assert!((projected(&tool, &last) / removed - 1.0).abs() < 0.01, "{removed} {last:?}");
+    assert!(
+        (projected(&tool, &last) / removed - 1.0).abs() < 0.01,
+        "{removed} {last:?}"
+    );
 }
 
 #[test]

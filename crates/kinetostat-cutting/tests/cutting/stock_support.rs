@@ -27,18 +27,34 @@ pub fn only_side(engagement: &Engagement) -> Contact {
 /// Largest difference of the ends of an arc from those expected, rad.
 pub fn arc_error(contact: &Contact, entry: f64, exit: f64) -> f64 {
     let around = |angle: f64| (angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-    let (a, b) = (around(contact.entry - entry).abs(), around(contact.exit - exit).abs());
+    let (a, b) = (
+        around(contact.entry - entry).abs(),
+        around(contact.exit - exit).abs(),
+    );
     let length = (contact.exit - contact.entry - (exit - entry)).abs();
-    assert!(a.is_finite() && b.is_finite() && length < 3.0, "{contact:?}");
+    assert!(
+        a.is_finite() && b.is_finite() && length < 3.0,
+        "{contact:?}"
+    );
     if a < b { b } else { a }
 }
 
 /// Places on a circle in the plane of a height, from one angle (counted from x to y) to another.
-pub fn circle(centre: [f64; 2], radius: f64, z: f64, [from, to]: [f64; 2], n: usize) -> Vec<[f64; 3]> {
+pub fn circle(
+    centre: [f64; 2],
+    radius: f64,
+    z: f64,
+    [from, to]: [f64; 2],
+    n: usize,
+) -> Vec<[f64; 3]> {
     (0..=n)
         .map(|k| {
             let angle = from + (to - from) * k as f64 / n as f64;
-            [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin(), z]
+            [
+                centre[0] + radius * angle.cos(),
+                centre[1] + radius * angle.sin(),
+                z,
+            ]
         })
         .collect()
 }

@@ -23,7 +23,10 @@ fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64
 
 fn assert_converges(errors: [f64; 3], first: f64) {
     assert!(errors[0].abs() < first, "{errors:?}");
-    assert!(errors[2].abs() < 0.5 * first && errors[2].abs() < 0.5 * errors[0].abs() + 2e-4, "{errors:?}");
+    assert!(
+        errors[2].abs() < 0.5 * first && errors[2].abs() < 0.5 * errors[0].abs() + 2e-4,
+        "{errors:?}"
+    );
 }
 
 const A: [f64; 3] = [-7.1, -4.3, 4.0];
@@ -36,7 +39,9 @@ fn length() -> f64 {
 #[test]
 fn a_slot_with_round_ends() {
     let exact = (PI * 9.0 + 6.0 * length()) * 2.0;
-    let errors = errors(exact, &flat(6.0), |probe, stock| probe.cut(stock, A, B).unwrap());
+    let errors = errors(exact, &flat(6.0), |probe, stock| {
+        probe.cut(stock, A, B).unwrap()
+    });
     assert_converges(errors, 2e-3);
 }
 
@@ -58,7 +63,9 @@ fn a_slot_of_a_ball() {
     let (r, h) = (3.0_f64, 2.0_f64);
     let segment = r * r * (1.0 - h / r).acos() - (r - h) * (2.0 * r * h - h * h).sqrt();
     let cap = PI * h * h * (r - h / 3.0);
-    let errors = errors(segment * length() + cap, &ball, |probe, stock| probe.cut(stock, A, B).unwrap());
+    let errors = errors(segment * length() + cap, &ball, |probe, stock| {
+        probe.cut(stock, A, B).unwrap()
+    });
     assert_converges(errors, 4e-3);
 }
 
@@ -75,11 +82,17 @@ fn a_ramp_of_a_ball() {
     let step = 0.1;
     for i in 0..400 {
         for j in 0..400 {
-            let (x, y) = (-20.0 + step * (i as f64 + 0.5), -20.0 + step * (j as f64 + 0.5));
+            let (x, y) = (
+                -20.0 + step * (i as f64 + 0.5),
+                -20.0 + step * (j as f64 + 0.5),
+            );
             let mut top = 6.0_f64;
             for k in 0..=1500 {
                 let t = f64::from(k) / 1500.0;
-                let (dx, dy) = (x - from[0] - t * (to[0] - from[0]), y - from[1] - t * (to[1] - from[1]));
+                let (dx, dy) = (
+                    x - from[0] - t * (to[0] - from[0]),
+                    y - from[1] - t * (to[1] - from[1]),
+                );
                 let rest = 4.0 - dx * dx - dy * dy;
                 if rest >= 0.0 {
                     top = top.min(from[2] + t * (to[2] - from[2]) + 2.0 - rest.sqrt());
@@ -101,19 +114,25 @@ fn a_plunge_of_each_shape() {
         (Shape::Ball, PI * 4.0 * (3.0 - 2.0 / 3.0)),
         // Half a turn of the quarter circle with corner 1: end 2, height 1, then a cylinder.
         (
-            Shape::Bull { corner_radius_mm: 1.0 },
+            Shape::Bull {
+                corner_radius_mm: 1.0,
+            },
             PI * 9.0 + PI * (4.0 + 4.0 * PI / 4.0 + 2.0 / 3.0),
         ),
         // A cone from 3 to 5 mm.
         (
-            Shape::Face { lead_angle: PI / 4.0 },
+            Shape::Face {
+                lead_angle: PI / 4.0,
+            },
             PI * 2.0 / 3.0 * (9.0 + 15.0 + 25.0),
         ),
     ];
     for (shape, exact) in shapes {
         let tool = Tool::new(shape, 6.0, 2).unwrap();
         let errors = errors(exact, &tool, |probe, stock| {
-            probe.cut(stock, [0.37, 0.21, 9.0], [0.37, 0.21, 4.0]).unwrap();
+            probe
+                .cut(stock, [0.37, 0.21, 9.0], [0.37, 0.21, 4.0])
+                .unwrap();
         });
         assert_converges(errors, 8e-3);
     }
@@ -135,6 +154,8 @@ fn a_round_pocket() {
 fn below_the_bottom_there_is_nothing_to_remove() {
     let mut stock = block([0.0; 3], [10.0, 10.0, 2.0], 0.25);
     let mut probe = Probe::new(&flat(40.0));
-    probe.cut(&mut stock, [5.0, 5.0, 9.0], [5.0, 5.0, -3.0]).unwrap();
+    probe
+        .cut(&mut stock, [5.0, 5.0, 9.0], [5.0, 5.0, -3.0])
+        .unwrap();
     assert_eq!(stock.volume_mm3(), 0.0);
 }
