@@ -24,7 +24,7 @@ impl Range {
         Self {
             from,
             to,
-            samples: samples.max(SAMPLES[0]).min(SAMPLES[1]) as usize,
+            samples: samples.clamp(SAMPLES[0], SAMPLES[1]) as usize,
         }
     }
 

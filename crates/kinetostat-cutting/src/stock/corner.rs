@@ -66,7 +66,7 @@ impl Corner {
             Some(slope) => top * (1.0 + 1.0 / (slope * slope)).sqrt(),
             None => profile.corner * (1.0 - top / profile.corner).acos(),
         };
-        let count = (count / stock.cell).ceil().max(BANDS[0]).min(BANDS[1]) as usize;
+        let count = (count / stock.cell).ceil().clamp(BANDS[0], BANDS[1]) as usize;
         self.below.clear();
         for k in 0..count {
             let band = band(profile, top, k, count);

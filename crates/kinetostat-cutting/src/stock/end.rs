@@ -22,7 +22,7 @@ impl End {
         if stand.tip < -stock.tolerance() || level >= stock.height {
             return;
         }
-        let rings = (radius / stock.cell).ceil().max(RINGS[0]).min(RINGS[1]);
+        let rings = (radius / stock.cell).ceil().clamp(RINGS[0], RINGS[1]);
         let width = radius / rings;
         self.within.clear();
         for ring in 0..rings as usize {

@@ -159,7 +159,10 @@ fn read(bytes: &[u8], name: &str) -> Result<Vec<Triangle>> {
     for triangle in stl_io::create_stl_reader(&mut cursor).map_err(of_library)? {
         let triangle = triangle.map_err(of_library)?;
         let corners = triangle.vertices.map(|vertex| vertex.0.map(f64::from));
-        let far = corners.iter().flatten().find(|x| !(x.abs() <= FAR_MM));
+        let far = corners
+            .iter()
+            .flatten()
+            .find(|x| x.is_nan() || x.abs() > FAR_MM);
         if let Some(far) = far {
             let found = format!("{far} in triangle {}", triangles.len() + 1);
             return Err(wrong(
