@@ -169,6 +169,10 @@ impl Corner {
                     true => f64::from(column.top) - stand.tip,
                     false => f64::NEG_INFINITY,
                 };
+                let top = match stand.slope != 0.0 && radius > profile.outer {
+                    true => top - stand.floor_above(stock.place(i, j), profile.outer),
+                    false => top,
+                };
                 let over = match radius <= steep_from {
                     true => top - profile.height(radius),
                     false => profile.radius(top) - radius,

@@ -61,10 +61,8 @@ fn depth_below(stock: &Stock, stand: &Stand, place: [f64; 2], level: f64, radius
     };
     let columns = cell.columns(stock);
     let inside = columns.map(|column| f64::from(column.top) > level);
-    match inside {
-        [true, true, true, true] => return stock.cell,
-        [false, false, false, false] => return -stock.cell,
-        _ => {}
+    if inside == [false; 4] {
+        return -stock.cell;
     }
     let known = stock.known() as f32;
     let wall = |k: usize| {

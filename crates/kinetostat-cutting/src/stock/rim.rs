@@ -40,7 +40,7 @@ impl Stand {
     /// How much higher than now the tip is on a ramp when the end of the tool leaves a point (downwards) or comes to it
     /// (upwards): the floor there is not lower.
     #[inline]
-    fn floor_above(&self, [x, y]: [f64; 2], radius: f64) -> f64 {
+    pub fn floor_above(&self, [x, y]: [f64; 2], radius: f64) -> f64 {
         let (dx, dy) = (x - self.centre[0], y - self.centre[1]);
         let way = dx * self.feed[0] + dy * self.feed[1];
         let across = dy * self.feed[0] - dx * self.feed[1];
@@ -117,11 +117,6 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         }
     };
     let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
-    match inside {
-        [true, true, true, true] => return stock.cell,
-        [false, false, false, false] => return -stock.cell,
-        _ => {}
-    }
     let wall = |k: usize| {
         if inside[k] {
             columns[k].drop
@@ -129,6 +124,12 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
             columns[k].rise
         }
     };
+    match inside {
+        [false, false, false, false] => return -stock.cell,
+        // The rim may pass between points that are all outside it: only where no wall is near is that material.
+        [true, true, true, true] if (0..4).all(|k| wall(k) >= known) => return stock.cell,
+        _ => {}
+    }
     let mut sum = 0.0;
     if (0..4).all(|k| wall(k) >= known) {
         // No tool has been here: a slope.

@@ -10,7 +10,7 @@ impl Stock {
     /// use kinetostat_cutting::{Stock, StockSettings};
     ///
     /// let stock = Stock::block([0.0; 3], [20.0, 10.0, 5.0], &StockSettings::with_cell_mm(0.3)?)?;
-    /// assert!((stock.volume_mm3() - 1000.0).abs() < 1e-2);
+    /// assert!((stock.volume_mm3() - 1000.0).abs() < 0.1);
     /// # Ok::<(), kinetostat_cutting::CutError>(())
     /// ```
     #[must_use]
