@@ -17,6 +17,7 @@ mod milling;
 mod names;
 mod number;
 mod spindle;
+mod stock;
 mod tool;
 mod tool_table;
 mod turning;
@@ -32,6 +33,7 @@ pub use law::{
 pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
 pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
 pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
+pub use stock::{Probe, Station, Stock, StockSettings};
 pub use tool::{RunOut, Shape, Tool};
 pub use tool_table::{LinuxCncTable, LinuxCncTool, MachineUnit, ToolEntry, ToolTable};
 pub use turning::{Turning, TurningForce};

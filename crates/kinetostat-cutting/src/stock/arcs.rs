@@ -1,0 +1,138 @@
+//! Arcs of a circle on which a function is positive.
+
+use std::f64::consts::TAU;
+
+/// Steps of the regula falsi that places the end of an arc between two samples.
+const STEPS: usize = 5;
+/// Angles that differ by less are the same.
+const SAME: f64 = 1e-6;
+/// Circles are sampled at least and at most this often.
+const SAMPLES: [f64; 2] = [8.0, 4096.0];
+
+/// Which part of a circle is looked at, and how densely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Range {
+    pub from: f64,
+    pub to: f64,
+    samples: usize,
+}
+
+impl Range {
+    /// From one angle to another, with samples no farther apart than `step` on a circle of this radius.
+    pub fn new(from: f64, to: f64, radius: f64, step: f64) -> Self {
+        let samples = ((to - from) * radius / step).ceil();
+        Self {
+            from,
+            to,
+            samples: samples.clamp(SAMPLES[0], SAMPLES[1]) as usize,
+        }
+    }
+
+    /// The whole circle.
+    pub fn full(radius: f64, step: f64) -> Self {
+        Self::new(0.0, TAU, radius, step)
+    }
+
+    /// Where the outward normal of a tool looks where the tool goes: `normal` is its angle from the axis, the motion has a
+    /// horizontal and a vertical part (up).
+    pub fn facing(
+        normal: f64,
+        [horizontal, vertical]: [f64; 2],
+        radius: f64,
+        step: f64,
+    ) -> Option<Self> {
+        // n v = sin(normal) sin(phi) horizontal - cos(normal) vertical
+        let (side, down) = (normal.sin() * horizontal, normal.cos() * vertical);
+        if side - down <= 1e-12 {
+            return None;
+        }
+        if side + down < -1e-12 {
+            return Some(Self::full(radius, step));
+        }
+        let from = (down / side).max(-1.0).asin();
+        Some(Self::new(from, std::f64::consts::PI - from, radius, step))
+    }
+
+    /// Directions of the samples, `(sin, cos)`.
+    #[inline]
+    pub fn each(&self, mut at: impl FnMut(f64, [f64; 2])) {
+        let step = (self.to - self.from) / self.samples as f64;
+        let (sin_step, cos_step) = step.sin_cos();
+        let (mut sin, mut cos) = self.from.sin_cos();
+        for k in 0..=self.samples {
+            at(self.from + step * k as f64, [sin, cos]);
+            (sin, cos) = (
+                sin * cos_step + cos * sin_step,
+                cos * cos_step - sin * sin_step,
+            );
+        }
+    }
+
+    /// Writes the arcs on which `value` is positive.
+    #[inline]
+    pub fn arcs(&self, value: impl Fn([f64; 2]) -> f64, arcs: &mut Vec<[f64; 2]>) {
+        arcs.clear();
+        let mut last = [self.from, -1.0];
+        let mut begin = self.from;
+        self.each(|angle, direction| {
+            let now = [angle, value(direction)];
+            match (last[1] > 0.0, now[1] > 0.0) {
+                (false, true) if angle > self.from => begin = root(&value, now, last),
+                (true, false) => arcs.push([begin, root(&value, last, now)]),
+                _ => {}
+            }
+            last = now;
+        });
+        if last[1] > 0.0 {
+            arcs.push([begin, self.to]);
+        }
+        self.close(arcs);
+    }
+
+    /// Joins what meets where a whole circle begins, and brings the beginnings into one turn.
+    fn close(&self, arcs: &mut Vec<[f64; 2]>) {
+        let ends = (arcs.first().copied(), arcs.last().copied());
+        if let (Some(first), Some(last)) = ends
+            && self.to - self.from >= TAU - SAME
+            && arcs.len() > 1
+            && first[0] <= self.from + SAME
+            && last[1] >= self.to - SAME
+        {
+            arcs.pop();
+            arcs[0] = [last[0], first[1] + TAU];
+        }
+        for arc in arcs {
+            let turns = (arc[0] / TAU).floor() * TAU;
+            *arc = [arc[0] - turns, arc[1] - turns];
+        }
+    }
+}
+
+/// Where a function changes its sign between two angles with their values (Dowell and Jarratt, "A modified regula falsi",
+/// 1971: the Illinois method).
+fn root(value: &impl Fn([f64; 2]) -> f64, mut a: [f64; 2], mut b: [f64; 2]) -> f64 {
+    let close = 1e-3 * (a[1] - b[1]).abs();
+    for _ in 0..STEPS {
+        let middle = (a[0] * b[1] - b[0] * a[1]) / (b[1] - a[1]);
+        let (sin, cos) = middle.sin_cos();
+        let now = [middle, value([sin, cos])];
+        if now[1].abs() < close {
+            return middle;
+        }
+        // `b` is the newest; where it stays on one side the weight of the other is halved.
+        match (now[1] > 0.0) == (b[1] > 0.0) {
+            true => a[1] *= 0.5,
+            false => a = b,
+        }
+        b = now;
+    }
+    (a[0] * b[1] - b[0] * a[1]) / (b[1] - a[1])
+}
+
+/// The same arcs within rounding.
+pub(crate) fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(a, b)| (a[0] - b[0]).abs() < SAME && (a[1] - b[1]).abs() < SAME)
+}

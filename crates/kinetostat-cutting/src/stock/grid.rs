@@ -1,0 +1,220 @@
+//! The grid of heights with the distances of its walls.
+
+use crate::error::{CutError, CutErrorKind, Result, within};
+use crate::stock::profile::Profile;
+use crate::stock::settings::{BYTES_PER_CELL, StockSettings};
+
+/// Walls are known up to this many cells away: more than the diagonal of a cell.
+const KNOWN_CELLS: f64 = 1.5;
+/// Coordinates beyond this are a slip of the unit, mm.
+pub(crate) const FAR_MM: f64 = 1e5;
+
+/// One point of the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Column {
+    /// Top of the material above the stock's bottom, mm; 0 where there is none.
+    pub top: f32,
+    /// Distance of the next wall down, seen from above, mm; `known` where none is near.
+    pub drop: f32,
+    /// Distance of the next wall up, mm; `known` where none is near.
+    pub rise: f32,
+}
+
+/// What is left of the material: heights at the points of a square grid parallel to x and y of the part.
+///
+/// Every point holds the top of the material (below it all is material down to the bottom) and the distances of the next
+/// wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the points:
+/// errors are of the size `cell^2/(8 radius)` where a wall and a tool meet, far below a cell. Where walls at two heights lie
+/// less than one and a half cells apart, or a mesh or a map of heights has steep walls, the place of a wall may be wrong by
+/// up to a cell.
+///
+/// **What it cannot know**: undercuts and cavities (the greatest height counts), tools whose axis is not z, what is cut by
+/// T-slot or lollipop cutters, shanks and holders that rub. Numbers are held as `f32` above the bottom: heights are rounded by
+/// less than 6e-8 of the stock's height.
+///
+/// ```
+/// use kinetostat_cutting::{Engagement, Probe, Shape, Side, Stock, StockSettings, Tool};
+///
+/// let tool = Tool::new(Shape::Flat, 6.0, 2)?;
+/// let mut stock = Stock::block([0.0, 0.0, 0.0], [40.0, 30.0, 10.0], &StockSettings::for_tool(&tool))?; // mm
+/// let mut probe = Probe::new(&tool);
+/// // Along the left edge (seen along the feed, +x, the part is at the right), 1.5 mm wide and 2 mm deep.
+/// let stations = probe.stations(&mut stock, [-5.0, 31.5, 8.0], [20.0, 31.5, 8.0])?;
+/// let last = stations.last().unwrap();
+/// let exact = Engagement::straight(3.0, 1.5, 2.0, Side::Right)?.contacts[0];
+/// let found = last.engagement.contacts[0];
+/// assert_eq!(last.share, 1.0);
+/// assert!((found.entry - exact.entry).abs() < 0.01 && (found.exit - exact.exit).abs() < 0.01);
+/// # Ok::<(), kinetostat_cutting::CutError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stock {
+    pub(crate) columns: Vec<Column>,
+    pub(crate) points: [usize; 2],
+    /// Place of the first point, mm.
+    pub(crate) origin: [f64; 2],
+    pub(crate) cell: f64,
+    /// Cells per mm.
+    pub(crate) per_mm: f64,
+    pub(crate) bottom: f64,
+    /// Greatest top at the start, above the bottom.
+    pub(crate) height: f64,
+    pub(crate) asked_cell: f64,
+    /// The tool that was last here, and where it stands: the wall before it is not yet told to the points.
+    pub(crate) front: Option<(Profile, [f64; 3])>,
+}
+
+impl Stock {
+    /// Air above a rectangle, with a ring of points around it, and the walls not known.
+    pub(crate) fn empty(
+        corner: [f64; 2],
+        opposite: [f64; 2],
+        [bottom, top]: [f64; 2],
+        settings: &StockSettings,
+    ) -> Result<Self> {
+        let names = ["along x", "along y"];
+        for i in 0..2 {
+            within(
+                CutErrorKind::Stock,
+                &format!("stock {}", names[i]),
+                opposite[i] - corner[i],
+                1e-3..=FAR_MM,
+                "mm",
+            )?;
+        }
+        within(
+            CutErrorKind::Stock,
+            "height of the stock",
+            top - bottom,
+            1e-3..=FAR_MM,
+            "mm",
+        )?;
+        let place = [corner[0], corner[1], opposite[0], opposite[1], bottom, top];
+        for value in place {
+            let bounds = -FAR_MM..=FAR_MM;
+            within(
+                CutErrorKind::Stock,
+                "place of the stock",
+                value,
+                bounds,
+                "mm",
+            )?;
+        }
+        let lengths = [opposite[0] - corner[0], opposite[1] - corner[1]];
+        let (cell, points) = settings.grid_for(lengths)?;
+        let known = (KNOWN_CELLS * cell) as f32;
+        let air = Column {
+            top: 0.0,
+            drop: known,
+            rise: known,
+        };
+        Ok(Self {
+            columns: vec![air; points[0] * points[1]],
+            points,
+            origin: corner.map(|c| c - 0.5 * cell),
+            cell,
+            per_mm: 1.0 / cell,
+            bottom,
+            height: top - bottom,
+            asked_cell: settings.cell_mm(),
+            front: None,
+        })
+    }
+
+    /// Sets every point; takes x and y, gives the top above the bottom and the distance of the stock's outline, negative
+    /// outside (infinite where it is not known).
+    pub(crate) fn fill(&mut self, at: impl Fn(f64, f64) -> (f64, f64)) {
+        let known = self.known();
+        for j in 0..self.points[1] {
+            for i in 0..self.points[0] {
+                let [x, y] = self.place(i, j);
+                let (top, inside) = at(x, y);
+                let distance = inside.abs().min(known) as f32;
+                let column = &mut self.columns[j * self.points[0] + i];
+                match inside > 0.0 {
+                    true => {
+                        column.top = (top as f32).max(0.0);
+                        column.drop = distance;
+                    }
+                    false => column.rise = distance,
+                }
+            }
+        }
+    }
+
+    /// Size of a cell, mm.
+    #[must_use]
+    pub fn cell_mm(&self) -> f64 {
+        self.cell
+    }
+
+    /// The size that was asked for, mm, if the memory did not do for it.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Stock, StockSettings};
+    ///
+    /// let settings = StockSettings::with_cell_mm(0.1)?.with_memory_bytes(1_000_000).coarser_if_needed();
+    /// let stock = Stock::block([0.0; 3], [100.0, 100.0, 20.0], &settings)?;
+    /// assert_eq!(stock.coarsened_from_mm(), Some(0.1));
+    /// assert!(stock.cell_mm() < 0.36 && stock.memory_bytes() <= 1_000_000);
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn coarsened_from_mm(&self) -> Option<f64> {
+        (self.cell > self.asked_cell).then_some(self.asked_cell)
+    }
+
+    /// Number of points of the grid.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Memory of the grid, bytes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.columns.len() as u64 * BYTES_PER_CELL
+    }
+
+    /// Top of the material at the grid point next to x and y, mm; `None` where there is no material.
+    #[must_use]
+    pub fn top_mm(&self, x: f64, y: f64) -> Option<f64> {
+        let index = |value: f64, i: usize| {
+            let at = ((value - self.origin[i]) / self.cell).round();
+            (at >= 0.0 && at < self.points[i] as f64).then_some(at as usize)
+        };
+        let top = self.columns[index(y, 1)? * self.points[0] + index(x, 0)?].top;
+        (top > 0.0).then(|| f64::from(top) + self.bottom)
+    }
+
+    /// Greatest distance at which walls are known.
+    pub(crate) fn known(&self) -> f64 {
+        KNOWN_CELLS * self.cell
+    }
+
+    /// Place of a point.
+    pub(crate) fn place(&self, i: usize, j: usize) -> [f64; 2] {
+        [
+            self.origin[0] + i as f64 * self.cell,
+            self.origin[1] + j as f64 * self.cell,
+        ]
+    }
+
+    /// Height below which differences are rounding, mm.
+    pub(crate) fn tolerance(&self) -> f64 {
+        (1e-4 * self.cell).max(4e-7 * self.height)
+    }
+
+    /// Error of a coordinate of a move that no machine has.
+    pub(crate) fn checked_place(place: [f64; 3]) -> Result<[f64; 3]> {
+        match place.iter().all(|value| value.abs() <= FAR_MM) {
+            true => Ok(place),
+            false => Err(CutError::new(
+                CutErrorKind::Cut,
+                "place of the tool",
+                format!("{place:?} mm"),
+                format!("coordinates up to {FAR_MM} mm"),
+            )),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Removed volume against exact ones.
+
+use std::f64::consts::PI;
+
+use kinetostat_cutting::{Probe, Shape, Stock, Tool};
+
+use crate::stock_support::{block, circle, flat};
+
+/// Relative errors of a removed volume with cells of 0.3, 0.15 and 0.075 mm.
+fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64; 3] {
+    let errors = [0.3, 0.15, 0.075].map(|cell| {
+        let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 6.0], cell);
+        let before = stock.volume_mm3();
+        let mut probe = Probe::new(tool);
+        cut(&mut probe, &mut stock);
+        // Away: the wall before the tool is done.
+        probe.cut(&mut stock, [50.0; 3], [50.0; 3]).unwrap();
+        (before - stock.volume_mm3()) / exact - 1.0
+    });
+    println!("{:?} {}: {errors:?}", tool.shape(), tool.diameter_mm());
+    errors
+}
+
+fn assert_converges(errors: [f64; 3], first: f64) {
+    assert!(errors[0].abs() < first, "{errors:?}");
+    assert!(
+        errors[2].abs() < 0.5 * first && errors[2].abs() < 0.5 * errors[0].abs() + 2e-4,
+        "{errors:?}"
+    );
+}
+
+const A: [f64; 3] = [-7.1, -4.3, 4.0];
+const B: [f64; 3] = [8.2, 5.1, 4.0];
+
+fn length() -> f64 {
+    (B[0] - A[0]).hypot(B[1] - A[1])
+}
+
+#[test]
+fn a_slot_with_round_ends() {
+    let exact = (PI * 9.0 + 6.0 * length()) * 2.0;
+    let errors = errors(exact, &flat(6.0), |probe, stock| {
+        probe.cut(stock, A, B).unwrap()
+    });
+    assert_converges(errors, 2e-3);
+}
+
+#[test]
+fn a_slot_in_short_chords_is_the_slot() {
+    let exact = (PI * 9.0 + 6.0 * length()) * 2.0;
+    let errors = errors(exact, &flat(6.0), |probe, stock| {
+        let place = |k: usize| std::array::from_fn(|i| A[i] + (B[i] - A[i]) * k as f64 / 53.0);
+        let places: Vec<[f64; 3]> = (0..=53).map(place).collect();
+        probe.cut_along(stock, &places).unwrap();
+    });
+    assert_converges(errors, 2e-3);
+}
+
+#[test]
+fn a_slot_of_a_ball() {
+    let ball = Tool::new(Shape::Ball, 6.0, 2).unwrap();
+    // 2 mm deep with a radius of 3: the segment of the circle along, and a cap of the sphere (half at each end).
+    let (r, h) = (3.0_f64, 2.0_f64);
+    let segment = r * r * (1.0 - h / r).acos() - (r - h) * (2.0 * r * h - h * h).sqrt();
+    let cap = PI * h * h * (r - h / 3.0);
+    let errors = errors(segment * length() + cap, &ball, |probe, stock| {
+        probe.cut(stock, A, B).unwrap()
+    });
+    assert_converges(errors, 4e-3);
+}
+
+#[test]
+fn a_ramp_of_a_ball() {
+    // Deep enough that its sphere is in the material all along: the cylinder of its way below the top.
+    let ball = Tool::new(Shape::Ball, 4.0, 2).unwrap();
+    let errors = errors(1.0, &ball, |probe, stock| {
+        probe.cut(stock, [-9.0, 1.0, 3.5], [9.0, 2.0, 1.0]).unwrap();
+    });
+    // By brute force: columns of 0.02 mm, the lowest of 4000 spheres' places.
+    let (from, to) = ([-9.0, 1.0, 3.5], [9.0, 2.0, 1.0_f64]);
+    let mut exact = 0.0;
+    let step = 0.1;
+    for i in 0..400 {
+        for j in 0..400 {
+            let (x, y) = (
+                -20.0 + step * (i as f64 + 0.5),
+                -20.0 + step * (j as f64 + 0.5),
+            );
+            let mut top = 6.0_f64;
+            for k in 0..=1500 {
+                let t = f64::from(k) / 1500.0;
+                let (dx, dy) = (
+                    x - from[0] - t * (to[0] - from[0]),
+                    y - from[1] - t * (to[1] - from[1]),
+                );
+                let rest = 4.0 - dx * dx - dy * dy;
+                if rest >= 0.0 {
+                    top = top.min(from[2] + t * (to[2] - from[2]) + 2.0 - rest.sqrt());
+                }
+            }
+            exact += (6.0 - top) * step * step;
+        }
+    }
+    for (error, bound) in errors.iter().zip([1e-2, 4e-3, 2e-3]) {
+        let found = error + 1.0;
+        assert!((found / exact - 1.0).abs() < bound, "{found} {exact}");
+    }
+}
+
+#[test]
+fn a_plunge_of_each_shape() {
+    let shapes = [
+        (Shape::Flat, PI * 9.0 * 2.0),
+        (Shape::Ball, PI * 4.0 * (3.0 - 2.0 / 3.0)),
+        // Half a turn of the quarter circle with corner 1: end 2, height 1, then a cylinder.
+        (
+            Shape::Bull {
+                corner_radius_mm: 1.0,
+            },
+            PI * 9.0 + PI * (4.0 + 4.0 * PI / 4.0 + 2.0 / 3.0),
+        ),
+        // A cone from 3 to 5 mm.
+        (
+            Shape::Face {
+                lead_angle: PI / 4.0,
+            },
+            PI * 2.0 / 3.0 * (9.0 + 15.0 + 25.0),
+        ),
+    ];
+    for (shape, exact) in shapes {
+        let tool = Tool::new(shape, 6.0, 2).unwrap();
+        let errors = errors(exact, &tool, |probe, stock| {
+            probe
+                .cut(stock, [0.37, 0.21, 9.0], [0.37, 0.21, 4.0])
+                .unwrap();
+        });
+        assert_converges(errors, 8e-3);
+    }
+}
+
+#[test]
+fn a_round_pocket() {
+    let exact = PI * 100.0 * 3.0;
+    let errors = errors(exact, &flat(6.0), |probe, stock| {
+        for radius in [1.0, 3.0, 5.0, 7.0] {
+            let places = circle([0.1, 0.3], radius, 3.0, [0.0, 2.0 * PI], 720);
+            probe.cut_along(stock, &places).unwrap();
+        }
+    });
+    assert_converges(errors, 2e-3);
+}
+
+#[test]
+fn below_the_bottom_there_is_nothing_to_remove() {
+    let mut stock = block([0.0; 3], [10.0, 10.0, 2.0], 0.25);
+    let mut probe = Probe::new(&flat(40.0));
+    probe
+        .cut(&mut stock, [5.0, 5.0, 9.0], [5.0, 5.0, -3.0])
+        .unwrap();
+    assert_eq!(stock.volume_mm3(), 0.0);
+}
