@@ -27,7 +27,9 @@ pub enum CutFailure {
         number: u32,
     },
     /// The program cuts before it takes a tool, and there is none for such blocks.
-    #[error("line {line}: the program cuts before it takes a tool (T); describe a tool for all blocks, or add the T word")]
+    #[error(
+        "line {line}: the program cuts before it takes a tool (T); describe a tool for all blocks, or add the T word"
+    )]
     NoTool {
         /// Line of the first such cut.
         line: usize,
@@ -38,7 +40,7 @@ pub enum CutFailure {
         /// Line of the program, from 1.
         line: usize,
         /// What is wrong.
-        error: CutError,
+        error: Box<CutError>,
     },
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]

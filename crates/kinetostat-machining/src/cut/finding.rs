@@ -45,7 +45,13 @@ pub(crate) struct Findings {
 
 impl Findings {
     /// A finding on a line, of some size; the text is made for the worst alone.
-    pub fn add(&mut self, kind: CutFindingKind, line: usize, size: f64, text: impl FnOnce() -> String) {
+    pub fn add(
+        &mut self,
+        kind: CutFindingKind,
+        line: usize,
+        size: f64,
+        text: impl FnOnce() -> String,
+    ) {
         let found = self.worst.entry(kind).or_insert_with(|| {
             let none = CutFinding {
                 kind,
@@ -67,6 +73,9 @@ impl Findings {
     }
 
     pub fn list(self) -> Vec<CutFinding> {
-        self.worst.into_values().map(|(_, _, found)| found).collect()
+        self.worst
+            .into_values()
+            .map(|(_, _, found)| found)
+            .collect()
     }
 }

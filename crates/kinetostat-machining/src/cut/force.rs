@@ -72,7 +72,12 @@ impl<'a> ForceOf<'a> {
         Ok((chosen, torque))
     }
 
-    fn level(&mut self, engagement: &Engagement, feed: Feed, rotation: Rotation) -> Result<CutForce> {
+    fn level(
+        &mut self,
+        engagement: &Engagement,
+        feed: Feed,
+        rotation: Rotation,
+    ) -> Result<CutForce> {
         let tool = self.tool;
         let here = |known: &Known| known.feed_mm == feed.level_mm && known.rotation == rotation;
         let at = self.tables.iter().position(here).unwrap_or_else(|| {

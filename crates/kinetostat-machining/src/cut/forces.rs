@@ -84,7 +84,7 @@ impl CutQuestion {
         let mut stations = Vec::new();
         let cut = |error| CutFailure::Cut {
             line: motion.line,
-            error,
+            error: Box::new(error),
         };
         let tool = self.tool_on(path, motion.line);
         if motion.kind == MoveKind::Rapid {
@@ -94,9 +94,12 @@ impl CutQuestion {
             let through = walk.go(motion, tool, |_, _, engagement| {
                 if !engagement.is_air() {
                     let depth = engagement.depth_mm();
-                    findings.add(CutFindingKind::RapidThroughStock, motion.line, depth, || {
-                        format!("a rapid goes through material, {depth:.2} mm deep")
-                    });
+                    findings.add(
+                        CutFindingKind::RapidThroughStock,
+                        motion.line,
+                        depth,
+                        || format!("a rapid goes through material, {depth:.2} mm deep"),
+                    );
                 }
             });
             through.map_err(cut)?;
@@ -105,41 +108,52 @@ impl CutQuestion {
         // What is missing matters where something is cut.
         let mut drive: Option<Result<Drive, CutFailure>> = None;
         let mut wrong = None;
-        let whole = walk.go(motion, tool.clone().unwrap_or(0), |share, direction, engagement| {
-            if wrong.is_some() {
-                return;
-            }
-            if engagement.is_air() {
-                stations.push(CutStation::air(share));
-                return;
-            }
-            let drive = drive.get_or_insert_with(|| self.drive(path, motion, &tool));
-            match drive {
-                Err(failure) => wrong = Some(failure.clone()),
-                Ok(drive) => {
-                    let feed = feed_along(drive.per_tooth_mm, &direction);
-                    let force = feed.and_then(|feed| {
-                        let of = forces[drive.tool].of(engagement, feed, drive.rotation)?;
-                        Ok((feed, of))
-                    });
-                    match force {
-                        Err(error) => wrong = Some(cut(error)),
-                        Ok((feed, (force, torque))) => {
-                            let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
-                            let station = CutStation {
-                                share,
-                                wrench,
-                                torque_n_m: 1e-3 * torque,
-                                depth_mm: engagement.depth_mm(),
-                                arc: arc_of(engagement),
-                            };
-                            self.look_at(&station, engagement, drive, feed, motion.line, findings);
-                            stations.push(station);
+        let whole = walk.go(
+            motion,
+            tool.clone().unwrap_or(0),
+            |share, direction, engagement| {
+                if wrong.is_some() {
+                    return;
+                }
+                if engagement.is_air() {
+                    stations.push(CutStation::air(share));
+                    return;
+                }
+                let drive = drive.get_or_insert_with(|| self.drive(path, motion, &tool));
+                match drive {
+                    Err(failure) => wrong = Some(failure.clone()),
+                    Ok(drive) => {
+                        let feed = feed_along(drive.per_tooth_mm, &direction);
+                        let force = feed.and_then(|feed| {
+                            let of = forces[drive.tool].of(engagement, feed, drive.rotation)?;
+                            Ok((feed, of))
+                        });
+                        match force {
+                            Err(error) => wrong = Some(cut(error)),
+                            Ok((feed, (force, torque))) => {
+                                let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
+                                let station = CutStation {
+                                    share,
+                                    wrench,
+                                    torque_n_m: 1e-3 * torque,
+                                    depth_mm: engagement.depth_mm(),
+                                    arc: arc_of(engagement),
+                                };
+                                self.look_at(
+                                    &station,
+                                    engagement,
+                                    drive,
+                                    feed,
+                                    motion.line,
+                                    findings,
+                                );
+                                stations.push(station);
+                            }
                         }
                     }
                 }
-            }
-        });
+            },
+        );
         whole.map_err(cut)?;
         match wrong {
             Some(failure) => Err(failure),
@@ -179,7 +193,9 @@ impl CutQuestion {
                 "add M3 or M4 to the program, or give the sense of rotation",
             )
         })?;
-        let rpm = self.rpm.or(spindle.speed.and(spindle.rpm()).filter(|rpm| *rpm > 0.0));
+        let rpm = self
+            .rpm
+            .or(spindle.speed.and(spindle.rpm()).filter(|rpm| *rpm > 0.0));
         let rpm = rpm.ok_or_else(|| {
             missing(
                 "the tool cuts and no speed of the spindle is known (S with G97)",
@@ -223,7 +239,9 @@ impl CutQuestion {
             && chip > most
         {
             findings.add(CutFindingKind::OutsideTheLaw, line, chip, || {
-                format!("chips of up to {chip:.4} mm; the law of the material is known up to {most} mm")
+                format!(
+                    "chips of up to {chip:.4} mm; the law of the material is known up to {most} mm"
+                )
             });
         }
         if let Some(length) = tool.flute_length_mm
@@ -243,7 +261,10 @@ impl CutQuestion {
         let full = |c: &Contact| c.edge == Edge::End && c.exit - c.entry > 0.999 * TAU;
         if feed.down_mm > 0.0 && engagement.contacts.iter().any(full) {
             findings.add(CutFindingKind::Plunge, line, feed.down_mm, || {
-                format!("the tool plunges with {:.4} mm per tooth: its end must cut at the centre", feed.down_mm)
+                format!(
+                    "the tool plunges with {:.4} mm per tooth: its end must cut at the centre",
+                    feed.down_mm
+                )
             });
         }
     }

@@ -26,7 +26,10 @@ pub struct ForceAlongPath {
 
 impl ForceAlongPath {
     /// Of the stations of each move, in the order of the path.
-    pub(crate) fn of(moves: impl Iterator<Item = Vec<CutStation>>, findings: Vec<CutFinding>) -> Self {
+    pub(crate) fn of(
+        moves: impl Iterator<Item = Vec<CutStation>>,
+        findings: Vec<CutFinding>,
+    ) -> Self {
         let mut along = Self {
             findings,
             ..Self::default()
@@ -48,7 +51,12 @@ impl ForceAlongPath {
         along.first_vertex.push(0);
         for pair in along.first.windows(2) {
             let stations = &along.stations[pair[0]..pair[1]];
-            essential(stations, NEGLIGIBLE * size, NEGLIGIBLE * moment, &mut along.vertices);
+            essential(
+                stations,
+                NEGLIGIBLE * size,
+                NEGLIGIBLE * moment,
+                &mut along.vertices,
+            );
             along.first_vertex.push(along.vertices.len());
         }
         along
@@ -81,7 +89,10 @@ impl ForceAlongPath {
     pub fn wrench(&self, move_index: usize, share: f64) -> Wrench {
         let vertices = self.vertices(move_index);
         let after = vertices.partition_point(|(at, _)| *at < share);
-        match (after.checked_sub(1).map(|i| vertices[i]), vertices.get(after)) {
+        match (
+            after.checked_sub(1).map(|i| vertices[i]),
+            vertices.get(after),
+        ) {
             (None, None) => Wrench::zero(),
             (None, Some((_, wrench))) => *wrench,
             (Some((_, wrench)), None) => wrench,

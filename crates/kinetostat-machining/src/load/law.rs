@@ -136,7 +136,10 @@ impl ProgramLoad {
                 let f = largest.force();
                 format!(
                     "computed from the cut; at most {:.1} N ({:.1} along the feed, {:.1} to the left, {:.1} along z)",
-                    f.norm(), f.x, f.y, f.z
+                    f.norm(),
+                    f.x,
+                    f.y,
+                    f.z
                 )
             }
         };

@@ -9,6 +9,7 @@
 )]
 
 mod again;
+mod cut_forces;
 mod internal;
 mod load;
 mod map;

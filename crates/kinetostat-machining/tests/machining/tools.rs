@@ -56,6 +56,7 @@ fn run(
         placement: placement(),
         load,
         tools,
+        cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),

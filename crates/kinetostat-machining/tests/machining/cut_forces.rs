@@ -1,0 +1,222 @@
+//! Forces of the cut along a program: where the tool cuts, in which axes, and what it asks for.
+
+use std::sync::Arc;
+
+use kinetostat_cutting::{
+    Engagement, Feed, Linear, Milling, Rotation, Shape, Side, Stock, StockSettings, Tool,
+};
+use kinetostat_machining::{
+    CutFailure, CutFindingKind, CutQuestion, CuttingLoad, CuttingTool, EngagementSource,
+    ForceAlongPath, ForceChoice, LoadAlongPath, Placement, ProgramLoad, Unwatched,
+};
+use kinetostat_program::{Path, Program, ReadOptions, interpret};
+use nalgebra::{Rotation3, Vector3, vector};
+
+fn path(text: &str) -> Path {
+    interpret(&Program::read(text).unwrap(), &ReadOptions::default()).unwrap()
+}
+
+fn tool() -> Tool {
+    Tool::new(Shape::Flat, 6.0, 2)
+        .unwrap()
+        .with_helix(0.5)
+        .unwrap()
+}
+
+fn law() -> Linear {
+    Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4]).unwrap()
+}
+
+fn question(engagement: EngagementSource) -> CutQuestion {
+    CutQuestion {
+        tools: vec![CuttingTool::new(tool(), Arc::new(law()))],
+        engagement,
+        choice: ForceChoice::Mean,
+        rpm: None,
+        rotation: None,
+        spindle: None,
+    }
+}
+
+fn block(low: [f64; 3], high: [f64; 3]) -> EngagementSource {
+    let settings = StockSettings::for_tool(&tool());
+    EngagementSource::Stock(Box::new(Stock::block(low, high, &settings).unwrap()))
+}
+
+fn along(source: EngagementSource, path: &Path) -> ForceAlongPath {
+    question(source).along(path, &Unwatched).unwrap()
+}
+
+fn exact(width: f64, depth: f64, part: Side, feed: f64) -> Vector3<f64> {
+    let (tool, law) = (tool(), law());
+    let engagement = Engagement::straight(3.0, width, depth, part).unwrap();
+    let cut = Milling::new(&tool, &law, &engagement, Feed::level(feed).unwrap());
+    cut.mean().force_n
+}
+
+const START: &str = "G21 G90\nS10000 M3\nG0 X-10 Y0 Z5\n";
+
+/// A slot through a block: air before it, the force of a slot in it, air behind it; the second pass cuts air.
+#[test]
+fn a_slot_and_a_second_pass() {
+    let path = path(&format!("{START}G1 Z-2 F600\nG1 X50\nG1 X-10\n"));
+    let along = along(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]), &path);
+    let slot = exact(6.0, 2.0, Side::Left, 600.0 / 10_000.0 / 2.0);
+    let at = |x: f64| along.wrench(2, (x + 10.0) / 60.0);
+    for x in [5.0, 17.3, 36.0] {
+        let force = at(x).force();
+        assert!(
+            (force - slot).norm() < 0.01 * slot.norm(),
+            "{x}: {force} {slot}"
+        );
+    }
+    for x in [-9.0, -3.5, 44.0, 49.0] {
+        assert!(at(x).force().norm() < 1e-9, "{x}: {}", at(x).force());
+    }
+    for share in [0.1, 0.5, 0.9] {
+        assert!(along.wrench(3, share).force().norm() < 1e-9);
+    }
+    assert!(along.findings.is_empty(), "{:?}", along.findings);
+    // The load needs few places: a cut that does not change has no vertices in it.
+    assert!(along.breaks(2).len() < 30, "{:?}", along.breaks(2));
+}
+
+/// Half the width in the material, on both sides, in any direction: the force turns with the feed.
+#[test]
+fn the_force_turns_with_the_feed() {
+    let feed = 0.03;
+    let mut compared = 0;
+    for (turn, part, y) in [
+        (0.0, Side::Right, 3.0),
+        (37.0, Side::Left, -3.0),
+        (-120.0, Side::Right, 3.0),
+    ] {
+        let rotation = Rotation3::from_axis_angle(&Vector3::z_axis(), f64::to_radians(turn));
+        // A wall along the feed: the block is under the tool's right or left half only.
+        let constant = Engagement::straight(3.0, 2.0, 1.5, part).unwrap();
+        let to = rotation * vector![30.0, 0.0, 0.0];
+        let path = path(&format!(
+            "G21 G90\nS10000 M3\nG0 X0 Y0 Z0\nG1 X{:.6} Y{:.6} F600\n",
+            to.x, to.y
+        ));
+        let along = along(EngagementSource::Constant(constant), &path);
+        let load = ProgramLoad::new(CuttingLoad::FromCut {
+            largest: along.largest(),
+        });
+        let load = LoadAlongPath::new(load, &path).with_cut(Some(&along));
+        let tilt = Rotation3::from_euler_angles(0.3, -0.2, 0.5);
+        let mut placement = Placement::at(vector![0.1, 0.2, 0.3]);
+        placement.base_from_part.rotation = tilt.into();
+        let found = load.wrench(&placement, 1, 0.4).force();
+        let expected = tilt * (rotation * exact(2.0, 1.5, part, feed));
+        assert!(
+            (found - expected).norm() < 1e-4 * expected.norm(),
+            "{found} {expected}, {y}"
+        );
+        compared += 1;
+    }
+    assert_eq!(compared, 3);
+}
+
+/// M4 is the mirror image of M3.
+#[test]
+fn counter_clockwise_mirrors() {
+    let run = |m: &str, part: Side| {
+        let path = path(&format!("G21 G90\nS10000 {m}\nG0 X0 Y0 Z0\nG1 X30 F600\n"));
+        let constant = Engagement::straight(3.0, 2.0, 1.5, part).unwrap();
+        along(EngagementSource::Constant(constant), &path)
+            .wrench(1, 0.5)
+            .force()
+    };
+    let (a, b) = (run("M3", Side::Right), run("M4", Side::Left));
+    assert!((a.x - b.x).abs() < 1e-9 && (a.y + b.y).abs() < 1e-9 && (a.z - b.z).abs() < 1e-9);
+    assert!(a.y.abs() > 1.0);
+}
+
+/// A plunge pushes the tool up and nowhere else.
+#[test]
+fn a_plunge_pushes_up() {
+    let path = path("G21 G90\nS10000 M3\nG0 X10 Y3 Z5\nG1 Z-2 F200\n");
+    let along = along(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]), &path);
+    let wrench = along.wrench(1, 6.5 / 7.0);
+    // Two lips of 3 mm, chips of 0.01 mm, the radial part of the law.
+    let thrust = 2.0 * 3.0 * (168.0 * 0.01 + 30.8);
+    assert!(
+        (wrench.force() - Vector3::z() * thrust).norm() < 0.02 * thrust,
+        "{}",
+        wrench.force()
+    );
+    assert!(along.wrench(1, 4.0 / 7.0).force().norm() < 1e-9);
+    assert_eq!(along.findings.len(), 1);
+    assert_eq!(along.findings[0].kind, CutFindingKind::Plunge);
+    assert_eq!(along.findings[0].line, 4);
+}
+
+/// What is missing is asked for by name and line, and only where something is cut.
+#[test]
+fn what_is_missing_is_named() {
+    let ask = |text: &str| {
+        question(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0])).along(&path(text), &Unwatched)
+    };
+    let missing = |text: &str, line: usize, word: &str| match ask(text) {
+        Err(error @ CutFailure::Missing { line: found, .. }) => {
+            assert_eq!(found, line, "{error}");
+            assert!(error.to_string().contains(word), "{error}");
+        }
+        other => panic!("{other:?}"),
+    };
+    missing(
+        "G21 G90\nS10000\nG0 X-10 Y0 Z-2\nG1 X5 F600\n",
+        4,
+        "M3 or M4",
+    );
+    missing("G21 G90\nM3\nG0 X-10 Y0 Z-2\nG1 X5 F600\n", 4, "S with G97");
+    missing("G21 G90\nM3 S10000\nG0 X-10 Y0 Z-2\nG1 X5\n", 4, "(F)");
+    // Air asks for nothing.
+    let air = ask("G21 G90\nG0 X-10 Y0 Z5\nG1 X5\n").unwrap();
+    assert_eq!(air.largest().force().norm(), 0.0);
+    // Tools that nobody has described.
+    let mut numbered = question(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]));
+    numbered.tools[0].number = Some(3);
+    let failure = numbered.along(
+        &path("G21 G90\nT4 M6\nS10000 M3\nG0 X-10 Y0 Z-2\nG1 X5 F600\n"),
+        &Unwatched,
+    );
+    assert_eq!(
+        failure.unwrap_err(),
+        CutFailure::UnknownTool { line: 5, number: 4 }
+    );
+    let failure = numbered.along(
+        &path("G21 G90\nS10000 M3\nG0 X-10 Y0 Z-2\nG1 X5 F600\n"),
+        &Unwatched,
+    );
+    assert_eq!(failure.unwrap_err(), CutFailure::NoTool { line: 4 });
+}
+
+/// Forces by lines, and a sense and speed that the program does not state.
+#[test]
+fn lines_and_speeds_from_the_question() {
+    let path = path("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600\nG1 X20\nG1 X30\n");
+    let cut = Engagement::straight(3.0, 2.0, 1.5, Side::Right).unwrap();
+    let mut question = question(EngagementSource::Lines(vec![(4..=4, cut)]));
+    question.rpm = Some(5000.0);
+    question.rotation = Some(Rotation::Clockwise);
+    let along = question.along(&path, &Unwatched).unwrap();
+    let expected = exact(2.0, 1.5, Side::Right, 0.06);
+    assert!((along.wrench(2, 0.5).force() - expected).norm() < 1e-4 * expected.norm());
+    for other in [1, 3] {
+        assert_eq!(along.wrench(other, 0.5).force().norm(), 0.0);
+    }
+}
+
+/// A rapid through the material is told.
+#[test]
+fn a_rapid_through_the_stock_is_told() {
+    let path = path("G21 G90\nS10000 M3\nG0 X-10 Y0 Z-2\nG0 X20\n");
+    let along = along(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]), &path);
+    assert_eq!(along.findings.len(), 1);
+    assert_eq!(
+        (along.findings[0].kind, along.findings[0].line),
+        (CutFindingKind::RapidThroughStock, 4)
+    );
+}
