@@ -23,6 +23,8 @@ pub enum CutErrorKind {
     Cut,
     /// A stock that has no volume or needs more memory than is given.
     Stock,
+    /// A spindle that nobody builds.
+    Machine,
     /// A file that cannot be read, or a line of it that says nothing that belongs there.
     File,
     /// Measurements that do not determine what is asked.

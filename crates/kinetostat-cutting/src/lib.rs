@@ -7,18 +7,33 @@
 //! Axes of the cut: x along the feed of the tool over the part, z along the tool axis towards the spindle, y to the left of
 //! the feed. Source: `shared/theory/cutting.md`, and chapter 2 of the report with its errata.
 
+mod drilling;
 mod engagement;
 mod error;
+mod fitting;
 mod law;
+mod material;
+mod milling;
+mod names;
 mod number;
+mod spindle;
 mod stock;
 mod tool;
+mod tool_table;
+mod turning;
 
+pub use drilling::{Drill, DrillForce};
 pub use engagement::{Contact, Edge, Engagement, Side};
 pub use error::{CutError, CutErrorKind, Result};
+pub use fitting::{Coefficient, CoefficientFit, MeanForce, MeasuredCut, Series, fit_coefficients};
 pub use law::{
     Coolant, Corrected, Correction, CuttingMaterial, EdgeForce, Exponential, ForceLaw, Kienzle,
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
+pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
+pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
+pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
 pub use stock::{Probe, Station, Stock, StockSettings};
 pub use tool::{RunOut, Shape, Tool};
+pub use tool_table::{LinuxCncTable, LinuxCncTool, MachineUnit, ToolEntry, ToolTable};
+pub use turning::{Turning, TurningForce};

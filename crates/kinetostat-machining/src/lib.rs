@@ -6,6 +6,7 @@
 
 mod bounds;
 mod checks;
+mod cut;
 mod field;
 #[doc(hidden)]
 pub mod internal;
@@ -28,6 +29,14 @@ pub use checks::placement::origin_in_metres;
 pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;
 pub use checks::unusual::{odd_tolerances, refused_question, unusual_question};
+pub use cut::choice::ForceChoice;
+pub use cut::cutting_tool::CuttingTool;
+pub use cut::engagement_source::EngagementSource;
+pub use cut::failure::CutFailure;
+pub use cut::finding::{CutFinding, CutFindingKind};
+pub use cut::forces::CutQuestion;
+pub use cut::profile::ForceAlongPath;
+pub use cut::station::CutStation;
 pub use field::ModelField;
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};

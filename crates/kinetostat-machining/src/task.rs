@@ -4,6 +4,7 @@ use kinetostat::{Error, Mechanism, MotionKind, number};
 use kinetostat_program::{Path, Program, ReadOptions, WriteError, WriteOptions};
 
 use crate::bounds::Bounds;
+use crate::cut::profile::ForceAlongPath;
 use crate::limits::Beyond;
 use crate::load::law::ProgramLoad;
 use crate::load::tool::{Tool, tool_on};
@@ -28,6 +29,8 @@ pub struct Task<'a> {
     /// Tools that the program takes by number, each with its own machine and load; empty where there is
     /// one tool. `mechanism` and `load` are those of blocks without one of these.
     pub tools: &'a [Tool<'a>],
+    /// Forces of the cut, for loads that are [`crate::CuttingLoad::FromCut`].
+    pub cut: Option<&'a ForceAlongPath>,
     /// How the compensated program is written.
     pub writing: WriteOptions,
     /// Names and words for the result; figures are filled in by the run.

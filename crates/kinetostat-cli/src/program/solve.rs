@@ -95,6 +95,7 @@ pub(crate) fn with_task<R>(
         placement: machine.placement,
         load: machine.load,
         tools: &tools,
+        cut: None,
         writing,
         run_inputs,
         bounds: Bounds {

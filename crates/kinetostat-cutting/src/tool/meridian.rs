@@ -70,6 +70,11 @@ impl Piece {
         }
     }
 
+    /// Share of a corner up to a parameter: the whole of it is a right angle.
+    pub(crate) fn parameter_share(parameter: f64) -> f64 {
+        parameter / FRAC_PI_2
+    }
+
     /// The point at a parameter.
     #[inline]
     pub(crate) fn point(&self, parameter: f64) -> Meridian {
@@ -91,6 +96,19 @@ impl Piece {
                 cos,
                 width: 1.0 / sin,
             },
+        }
+    }
+}
+
+impl Meridian {
+    /// A place of the flat end: the normal is the axis, downwards.
+    pub(crate) fn of_end(radius: f64) -> Self {
+        Self {
+            height: 0.0,
+            radius,
+            sin: 0.0,
+            cos: 1.0,
+            width: 1.0,
         }
     }
 }

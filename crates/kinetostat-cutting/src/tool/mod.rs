@@ -7,4 +7,4 @@ mod cutter;
 mod meridian;
 
 pub use cutter::{RunOut, Shape, Tool};
-pub(crate) use meridian::Piece;
+pub(crate) use meridian::{Meridian, Piece};

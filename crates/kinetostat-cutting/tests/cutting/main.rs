@@ -1,8 +1,21 @@
-//! Tests of kinetostat-cutting, one binary.
+//! Tests of the cutting forces: closed forms, reference values, plain summation written apart.
 
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+mod corrections;
+mod drilling;
+mod fitting;
+mod material;
+mod milling_invariants;
+mod milling_plain;
+mod milling_reference;
+mod plain;
+mod spindle;
 mod stock_engagement;
 mod stock_inputs;
 mod stock_paths;
 mod stock_round;
 mod stock_support;
 mod stock_volume;
+mod tool_tables;
+mod turning;

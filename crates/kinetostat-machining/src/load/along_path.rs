@@ -15,6 +15,7 @@ use kinetostat::Wrench;
 use kinetostat_program::{Curve, Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::cut::profile::ForceAlongPath;
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
@@ -37,6 +38,7 @@ pub struct LoadAlongPath<'a> {
     load: ProgramLoad,
     path: &'a Path,
     tools: &'a [Tool<'a>],
+    cut: Option<&'a ForceAlongPath>,
     headings: Vec<Headings>,
 }
 
@@ -84,6 +86,18 @@ fn around(path: &Path, move_index: usize) -> Option<f64> {
     }
 }
 
+/// A wrench in axes of the feed, in those of the part.
+fn headed(wrench: &Wrench, heading: Option<f64>) -> Wrench {
+    match heading {
+        Some(angle) => wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle)),
+        // Along the tool axis only the axial part has a direction.
+        None => Wrench::new(
+            Vector3::z() * wrench.force().z,
+            Vector3::z() * wrench.moment().z,
+        ),
+    }
+}
+
 fn wrap(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     angle - turn * (angle / turn).round()
@@ -104,10 +118,18 @@ impl<'a> LoadAlongPath<'a> {
             load,
             path,
             tools,
+            cut: None,
             headings: Vec::new(),
         };
         along.headings = along.headings();
         along
+    }
+
+    /// The same with the forces of the cut, for loads that are [`CuttingLoad::FromCut`].
+    #[must_use]
+    pub fn with_cut(mut self, cut: Option<&'a ForceAlongPath>) -> Self {
+        self.cut = cut;
+        self
     }
 
     fn headings(&self) -> Vec<Headings> {
@@ -185,6 +207,9 @@ impl<'a> LoadAlongPath<'a> {
         {
             shares.extend(motion.shares_at(2, &[z]));
         }
+        if let (CuttingLoad::FromCut { .. }, Some(cut)) = (load.cutting, self.cut) {
+            shares.extend(cut.breaks(move_index));
+        }
         let h = &self.headings[move_index];
         let (length, zone) = (motion.length_mm(), load.turning_length_mm);
         if length > 2.0 * zone {
@@ -227,16 +252,11 @@ impl<'a> LoadAlongPath<'a> {
             CuttingLoad::Constant {
                 axes: LoadAxes::Feed,
                 wrench,
-            } => match heading {
-                Some(angle) => {
-                    in_base(wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle)))
-                }
-                // Along the tool axis only the axial part has a direction.
-                None => in_base(Wrench::new(
-                    Vector3::z() * wrench.force().z,
-                    Vector3::z() * wrench.moment().z,
-                )),
-            },
+            } => in_base(headed(&wrench, heading)),
+            CuttingLoad::FromCut { .. } => {
+                let cut = self.cut.map(|cut| cut.wrench(move_index, share));
+                in_base(headed(&cut.unwrap_or_else(Wrench::zero), heading))
+            }
             CuttingLoad::Milling {
                 radial,
                 tangential,

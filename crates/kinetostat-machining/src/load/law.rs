@@ -37,6 +37,11 @@ pub enum CuttingLoad {
         /// Along the part frame's z.
         axial: f64,
     },
+    /// Computed from the cut, another at every place: see [`crate::ForceAlongPath`].
+    FromCut {
+        /// The one with the largest force, N and N m, x along the feed, z along the part frame's z, y to the left.
+        largest: Wrench,
+    },
 }
 
 /// What the load is while the written program steps at a sharp corner, or where a cut begins.
@@ -127,6 +132,13 @@ impl ProgramLoad {
             } => format!(
                 "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
             ),
+            CuttingLoad::FromCut { largest } => {
+                let f = largest.force();
+                format!(
+                    "computed from the cut; at most {:.1} N ({:.1} along the feed, {:.1} to the left, {:.1} along z)",
+                    f.norm(), f.x, f.y, f.z
+                )
+            }
         };
         match self.below_z_mm {
             Some(z) => format!("{text}, only below Z {z} mm"),
@@ -138,6 +150,7 @@ impl ProgramLoad {
         matches!(
             self.cutting,
             CuttingLoad::Milling { .. }
+                | CuttingLoad::FromCut { .. }
                 | CuttingLoad::Constant {
                     axes: LoadAxes::Feed,
                     ..

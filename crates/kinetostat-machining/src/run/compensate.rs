@@ -47,7 +47,7 @@ fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
 /// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
     refuse(folding_load(task, &load, watch)?)?;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (points, _) = solve(task, sites, false, watch)?;
@@ -61,7 +61,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     refuse(of_task(task))?;
     has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
     refuse(first_look(task, &load, watch)?)?;
     let field = ModelField::new(task.mechanism, task.placement, &load);
     let mut again = Again::default();

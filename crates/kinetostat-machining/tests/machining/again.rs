@@ -65,6 +65,7 @@ fn run(bump: [f64; 2]) -> Run {
         placement: Placement::at(vector![0.0, 0.0, 0.2]),
         load: ProgramLoad::new(CuttingLoad::None),
         tools: &[],
+        cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),

@@ -74,6 +74,7 @@ fn task<'a>(
         },
         load,
         tools: &[],
+        cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),

@@ -72,6 +72,7 @@ fn run(
         placement,
         load,
         tools: &[],
+        cut: None,
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),

@@ -4,6 +4,8 @@
 
 pub(crate) mod crossing;
 pub(crate) mod curve;
+pub(crate) mod feed;
 pub(crate) mod moves;
 pub(crate) mod position_offset;
+pub(crate) mod spindle;
 pub(crate) mod tool_change;

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::position_offset::OffsetChange;
+use crate::path::spindle::SpindleChange;
 use crate::path::tool_change::ToolChange;
 
 /// Whether a move is made at rapid rate or at the programmed feed.
@@ -150,6 +151,8 @@ pub struct Path {
     pub warnings: Vec<Warning>,
     /// Where another tool is taken, in the order of lines; see [`Path::tool_on`].
     pub tool_changes: Vec<ToolChange>,
+    /// Where the spindle begins to turn otherwise, in the order of lines; see [`Path::spindle_on`].
+    pub spindle_changes: Vec<SpindleChange>,
     /// What changes between the moves and matters to who writes them.
     pub(crate) events: Vec<Event>,
 }

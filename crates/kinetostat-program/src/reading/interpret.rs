@@ -15,6 +15,7 @@ use crate::reading::modes::Modes;
 use crate::reading::moment::{Placed, moment_of};
 use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions};
 use crate::reading::repeated::Repeated;
+use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
 use crate::text::line::LineKind;
 use crate::text::program::Program;
@@ -134,6 +135,7 @@ struct Interpreter<'o> {
     knowledge: Vec<([bool; 3], [bool; 3])>,
     events: Vec<Event>,
     tools: ToolWords,
+    spindle: SpindleWords,
     warnings: Vec<Warning>,
 }
 
@@ -154,6 +156,7 @@ impl<'o> Interpreter<'o> {
             knowledge: Vec::new(),
             events: Vec::new(),
             tools: ToolWords::default(),
+            spindle: SpindleWords::default(),
             warnings: Vec::new(),
         }
     }
@@ -226,6 +229,7 @@ impl<'o> Interpreter<'o> {
         self.refuse_other_axes(block)?;
         self.modes.set(block)?;
         self.tools.note(block)?;
+        self.spindle.note(block, self.modes.units())?;
         if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
@@ -236,6 +240,9 @@ impl<'o> Interpreter<'o> {
         }
         if block.codes.ends {
             self.ended.get_or_insert(block.line_number);
+            let line = block.line_number;
+            let moves = self.moves.last().is_some_and(|last| last.line == line);
+            self.spindle.end(line + usize::from(moves));
         }
         Ok(())
     }
@@ -646,6 +653,7 @@ impl<'o> Interpreter<'o> {
             stated,
             warnings: self.warnings,
             tool_changes: Vec::new(),
+            spindle_changes: self.spindle.finish(),
             events: self.events,
         };
         self.tools.finish(&mut path, program, self.options)?;

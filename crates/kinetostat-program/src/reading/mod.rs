@@ -12,4 +12,5 @@ pub(crate) mod modes;
 pub(crate) mod moment;
 pub(crate) mod options;
 pub(crate) mod repeated;
+pub(crate) mod spindle;
 pub(crate) mod tools;

@@ -173,6 +173,11 @@ impl Modes {
         self.length_change = None;
     }
 
+    /// Units in force, where they are named.
+    pub fn units(&self) -> Option<Units> {
+        self.units
+    }
+
     /// Millimetres in one unit; a motion needs it.
     pub fn mm_per_unit(&self, block: &Block<'_>) -> Result<f64, ProgramError> {
         self.units.map(Units::mm_per_unit).ok_or_else(|| {

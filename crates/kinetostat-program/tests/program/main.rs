@@ -20,6 +20,7 @@ mod refusal_kinds;
 mod refusals;
 mod sampled;
 mod sampled_maps;
+mod spindle;
 mod support;
 mod tools;
 mod writing;

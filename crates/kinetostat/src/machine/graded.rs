@@ -21,6 +21,14 @@ use crate::model::chain::Scale;
 /// Stiffnesses of limbs that differ by more are kept apart when limbs are added.
 const UNEVEN: f64 = 1e6;
 
+/// Of more platforms only stiffnesses that differ by more than [`UNEVEN_OF_MANY`] are kept apart: rows of all limbs cost the
+/// cube of the number of platforms (a minute and more for 240), and legs under load have a stiffness of `F/L` across them
+/// that a platform on six legs does not feel.
+const MANY: usize = 40;
+
+/// Leaves four digits of the soft ones in a sum.
+const UNEVEN_OF_MANY: f64 = 1e11;
+
 /// Stiffness of all moving platforms, scaled.
 pub(crate) struct GradedPlatforms {
     scale: Scale,
@@ -43,11 +51,14 @@ impl GradedPlatforms {
         moving: usize,
         limbs: impl Iterator<Item = (&'a ChainStiffness, Scale, &'a Ends)> + Clone,
     ) -> Option<Self> {
-        // Limbs in series become softer with the cube of their number, and no less stiff along their axes.
-        let series = (moving * moving * moving) as f64;
+        let even = match moving <= MANY {
+            // Limbs in series become softer with the cube of their number, and no less stiff along their axes.
+            true => UNEVEN / moving.pow(3) as f64,
+            false => UNEVEN_OF_MANY,
+        };
         if !limbs
             .clone()
-            .any(|(limb, ..)| series * spread(&limb.directions) > UNEVEN)
+            .any(|(limb, ..)| spread(&limb.directions) > even)
         {
             return None;
         }

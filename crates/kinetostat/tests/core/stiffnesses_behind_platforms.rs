@@ -148,3 +148,74 @@ fn compliances_of_rods_beside_and_behind_each_other_add_up() {
         }
     }
 }
+
+/// Hexapods on top of each other, of few and of very many, where the tangent is sparse: their compliances at the tool add up.
+#[test]
+fn compliances_of_hexapods_in_series_add_up() {
+    for (count, most) in [(6, 1e-9), (30, 1e-8), (160, 1e-6)] {
+        let machine = crate::platforms::lattice(count, 1, false).unwrap();
+        let home = |k: usize| machine.platforms()[k].home;
+        let tool = home(machine.tool()).translation.vector;
+        let mut compliance = Matrix6::zeros();
+        for k in 1..=count {
+            let span = home(k - 1).inverse() * home(k);
+            let mut stage = Matrix6::zeros();
+            for i in 0..6 {
+                let [below, above] = crate::platforms::anchors(i, [0.25, 0.2]);
+                let head = (span * nalgebra::Point3::from(above)).coords;
+                let line = (head - below).normalize();
+                let arm = head - span.translation.vector;
+                let moment = arm.cross(&line);
+                let row =
+                    nalgebra::Vector6::new(line.x, line.y, line.z, moment.x, moment.y, moment.z);
+                stage += 2e7 * row * row.transpose();
+            }
+            // No platform is turned: the axes of all are those of the base.
+            let lever = shift_matrix(&(tool - home(k).translation.vector));
+            compliance += lever * stage.try_inverse().unwrap() * lever.transpose();
+        }
+        let posture = machine.posture(&home(machine.tool())).unwrap();
+        let product = posture.stiffness().unwrap().cartesian.matrix * compliance;
+        let length = tool.norm() / count as f64;
+        for i in 0..6 {
+            for j in 0..6 {
+                let unit = |k: usize| if k < 3 { 1.0 } else { length };
+                let one = if i == j { 1.0 } else { 0.0 };
+                let off = (product[(i, j)] - one).abs() * unit(j) / unit(i);
+                assert!(off < most, "{count} stages, ({i}, {j}): {off}");
+            }
+        }
+    }
+}
+
+/// Under load, where legs have a small stiffness across them: the stiffness of a tall tower against differences of poses.
+#[test]
+fn a_tall_tower_under_load_is_as_stiff_as_its_motion_says() {
+    let machine = crate::platforms::lattice(48, 1, false).unwrap();
+    let posture = machine
+        .posture(&machine.platforms()[machine.tool()].home)
+        .unwrap();
+    let wrench = Wrench::new(vector![0.3, -0.2, 0.5], vector![0.1, 0.0, -0.1]);
+    let loaded = posture.deflected_by(&wrench).unwrap();
+    assert!(loaded.stable());
+    let height = 14.4;
+    let mut compared = 0;
+    for k in 0..6 {
+        let step = if k < 3 { 0.05 } else { 0.5 };
+        let [ahead, behind] = [step, -step].map(|step| {
+            let mut changed = wrench;
+            changed.0[k] += step;
+            posture.deflected_by(&changed).unwrap().tool
+        });
+        let twist = kinetostat::spatial::pose_residual(&ahead, &behind);
+        let force = loaded.stiffness.matrix * twist.0 / (2.0 * step);
+        let unit = |k: usize| if k < 3 { 1.0 } else { height };
+        for i in 0..6 {
+            let one = if i == k { 1.0 } else { 0.0 };
+            let off = (force[i] - one).abs() * unit(k) / unit(i);
+            assert!(off < 1e-3, "({i}, {k}): {force}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 36);
+}

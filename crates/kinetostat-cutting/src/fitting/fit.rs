@@ -1,0 +1,214 @@
+//! Coefficients of the linear law that fit mean forces best.
+
+use crate::error::{CutError, CutErrorKind, Result};
+use crate::fitting::least_squares::solve;
+use crate::fitting::series::{MeanForce, Series};
+use crate::fitting::student::student_95;
+use crate::law::Linear;
+use crate::number::larger;
+
+/// Coefficients in the order of a fit, with their units.
+const NAMES: [(&str, &str); 6] = [
+    ("K_tc", "N/mm2"),
+    ("K_rc", "N/mm2"),
+    ("K_ac", "N/mm2"),
+    ("K_te", "N/mm"),
+    ("K_re", "N/mm"),
+    ("K_ae", "N/mm"),
+];
+/// Where those stand that act in the plane, in the order of [`crate::fitting::cut::MeasuredCut::plane_rows`].
+const PLANE: [usize; 4] = [0, 1, 3, 4];
+/// Where those stand that act along the axis.
+const AXIAL: [usize; 2] = [2, 5];
+
+/// A coefficient and how well it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Coefficient {
+    /// `K_tc`, `K_rc`, `K_ac`, `K_te`, `K_re` or `K_ae`.
+    pub symbol: &'static str,
+    /// N/mm2 for the part that grows with the chip, N/mm for that of the edge.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Standard error; `None` where there are no more forces than coefficients.
+    pub standard_error: Option<f64>,
+    /// Half width of the 95 % confidence interval (Student's t); `None` likewise.
+    pub half_width_95: Option<f64>,
+}
+
+/// What a fit gives.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CoefficientFit {
+    /// `K_tc`, `K_rc`, `K_ac` and `K_te`, `K_re`, `K_ae`.
+    pub coefficients: [Coefficient; 6],
+    /// Measured less fitted force, N, for each series and row: along x, y and z; `None` where it was not measured.
+    pub residuals_n: Vec<Vec<[Option<f64>; 3]>>,
+    /// Share of the variance about the mean that the fit explains, along x, y and z over all series; `None` where the
+    /// measured force does not vary.
+    pub r_squared: [Option<f64>; 3],
+    /// Largest thickness of chip that occurred, mm: the law is not measured beyond it.
+    pub largest_chip_mm: f64,
+}
+
+impl CoefficientFit {
+    /// The law with these coefficients.
+    ///
+    /// # Errors
+    /// Coefficients that no material has: with few or noisy forces, a tangential edge force below zero.
+    pub fn law(&self) -> Result<Linear> {
+        let value = |i: usize| self.coefficients[i].value;
+        Linear::new(
+            [value(0), value(1), value(2)],
+            [value(3), value(4), value(5)],
+        )
+    }
+}
+
+/// Fits the coefficients of the linear law to mean forces, from a slot, from partial immersion or from several of them together.
+///
+/// Forces along x and y determine the tangential and radial coefficients together, those along z the axial ones. Within
+/// each of these two groups, all forces are taken as equally accurate, and their errors as independent.
+///
+/// ```
+/// use kinetostat_cutting::{
+///     Engagement, MeasuredCut, Series, Shape, Side, Tool, fit_coefficients,
+/// };
+///
+/// let tool = Tool::new(Shape::Flat, 20.0, 4)?;
+/// let slot = Engagement::straight(10.0, 20.0, 2.0, Side::Left)?; // mm
+/// let text = "\
+/// feed_mm_per_tooth,fx_n,fy_n,fz_n
+/// 0.05,-95.2,149.7,19.3
+/// 0.10,-112.3,230.6,33.6
+/// 0.15,-128.6,309.5,48.1
+/// 0.20,-145.9,389.7,62.1
+/// ";
+/// let series = Series::read("slot.csv", text, MeasuredCut::new(&tool, &slot)?)?;
+/// let fit = fit_coefficients(&[series])?;
+/// let [tangential, ..] = fit.coefficients;
+/// assert!((tangential.value - 800.0).abs() < 10.0); // N/mm2
+/// assert!(tangential.half_width_95.is_some_and(|width| width < 20.0));
+/// # Ok::<(), kinetostat_cutting::CutError>(())
+/// ```
+///
+/// # Errors
+/// Coefficients that the forces do not determine, by their names.
+pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
+    let (mut plane, mut in_plane) = (Vec::new(), Vec::new());
+    let (mut axial, mut along) = (Vec::new(), Vec::new());
+    for (cut, row) in series
+        .iter()
+        .flat_map(|s| s.rows.iter().map(|row| (s.cut, row)))
+    {
+        for (design, force) in cut
+            .plane_rows(row.feed_mm_per_tooth)
+            .into_iter()
+            .zip(row.force_n)
+        {
+            if let Some(force) = force {
+                plane.push(design);
+                in_plane.push(force);
+            }
+        }
+        if let Some(force) = row.force_n[2] {
+            axial.push(cut.axial_row(row.feed_mm_per_tooth));
+            along.push(force);
+        }
+    }
+    let (plane, axial) = match (
+        solve(&plane, &in_plane, [0, 0, 1, 1]),
+        solve(&axial, &along, [0, 1]),
+    ) {
+        (Ok(plane), Ok(axial)) => (plane, axial),
+        (plane, axial) => {
+            let missing = |found: Option<Vec<usize>>, of: &[usize]| {
+                let indices = found.unwrap_or_default();
+                indices.into_iter().map(|i| of[i]).collect::<Vec<_>>()
+            };
+            return Err(undetermined(
+                &missing(plane.err(), &PLANE),
+                &missing(axial.err(), &AXIAL),
+            ));
+        }
+    };
+    let mut coefficients = NAMES.map(|(symbol, unit)| Coefficient {
+        symbol,
+        unit,
+        value: f64::NAN,
+        standard_error: None,
+        half_width_95: None,
+    });
+    for (solution, places) in [(&plane, &PLANE[..]), (&axial, &AXIAL[..])] {
+        for (i, place) in places.iter().enumerate() {
+            let coefficient = &mut coefficients[*place];
+            coefficient.value = solution.values[i];
+            coefficient.standard_error = solution.standard_errors.as_ref().map(|all| all[i]);
+            let t = student_95(solution.freedom);
+            coefficient.half_width_95 = coefficient.standard_error.zip(t).map(|(s, t)| s * t);
+        }
+    }
+    let values = coefficients.map(|coefficient| coefficient.value);
+    let law = Linear {
+        cutting_n_per_mm2: [values[0], values[1], values[2]],
+        edge_n_per_mm: [values[3], values[4], values[5]],
+    };
+    let residuals_n: Vec<Vec<[Option<f64>; 3]>> = series
+        .iter()
+        .map(|series| residuals(series, &law))
+        .collect();
+    Ok(CoefficientFit {
+        coefficients,
+        r_squared: [0, 1, 2].map(|axis| r_squared(series, &residuals_n, axis)),
+        residuals_n,
+        largest_chip_mm: series
+            .iter()
+            .flat_map(|s| {
+                s.rows
+                    .iter()
+                    .map(|row| s.cut.largest_chip_mm(row.feed_mm_per_tooth))
+            })
+            .fold(0.0, larger),
+    })
+}
+
+fn residuals(series: &Series, law: &Linear) -> Vec<[Option<f64>; 3]> {
+    let of_row = |row: &MeanForce| {
+        let fitted = series.cut.mean_force_n(law, row.feed_mm_per_tooth);
+        [0, 1, 2].map(|axis| row.force_n[axis].map(|force| force - fitted[axis]))
+    };
+    series.rows.iter().map(of_row).collect()
+}
+
+fn r_squared(series: &[Series], residuals: &[Vec<[Option<f64>; 3]>], axis: usize) -> Option<f64> {
+    let measured: Vec<f64> = series
+        .iter()
+        .flat_map(|series| &series.rows)
+        .filter_map(|row| row.force_n[axis])
+        .collect();
+    let mean = measured.iter().sum::<f64>() / measured.len() as f64;
+    let all: f64 = measured.iter().map(|force| (force - mean).powi(2)).sum();
+    let left: f64 = residuals
+        .iter()
+        .flatten()
+        .filter_map(|row| row[axis])
+        .map(|residual| residual * residual)
+        .sum();
+    (all > 0.0).then(|| 1.0 - left / all)
+}
+
+fn undetermined(plane: &[usize], axial: &[usize]) -> CutError {
+    let symbols: Vec<&str> = plane.iter().chain(axial).map(|i| NAMES[*i].0).collect();
+    let expected = match (plane.is_empty(), axial.is_empty()) {
+        (false, true) => "mean forces along x and y (fx_n, fy_n) at two different feeds at least",
+        (true, false) => "mean forces along z (fz_n) at two different feeds at least",
+        _ => "mean forces along x, y and z (fx_n, fy_n, fz_n) at two different feeds at least",
+    };
+    CutError::new(
+        CutErrorKind::Measurement,
+        symbols.join(", "),
+        "not determined by these forces",
+        expected,
+    )
+}

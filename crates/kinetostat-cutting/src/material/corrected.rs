@@ -1,0 +1,165 @@
+//! The law of a material with the factors by which a cut differs from the test [R 2.1], [R Table 2.1].
+
+use std::fmt;
+
+use crate::error::Result;
+use crate::law::{Coolant, Corrected, Correction, CuttingMaterial};
+use crate::material::entry::{Material, Process};
+
+/// `K_PRO` for coefficients of turning tests, where none is given: the middle of 1.2 to 1.4 [R Table 2.1].
+const PROCESS: f64 = 1.3;
+/// Half of that range.
+const PROCESS_SPREAD: f64 = 0.1;
+
+/// A factor that was applied, and why.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AppliedFactor {
+    /// Its symbol in the report, such as `K_PRO`.
+    pub symbol: &'static str,
+    /// What the force was multiplied by.
+    pub value: f64,
+    /// Why, in words.
+    pub reason: String,
+}
+
+impl fmt::Display for AppliedFactor {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "{} = {:.3}: {}", self.symbol, self.value, self.reason)
+    }
+}
+
+/// The law of a material for a cut, and what was done to it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Applied {
+    /// The law times the product of all factors.
+    pub law: Corrected<Material>,
+    /// How far the force may lie from that law: half width, as a share of the force. The material's own, and that of
+    /// `K_PRO` where nobody gave it, as the root of the sum of their squares.
+    pub spread: f64,
+    /// The factors, in the order of the report; none where the coefficients hold as they are.
+    pub factors: Vec<AppliedFactor>,
+}
+
+impl Material {
+    /// The law for milling, with the factors of a correction [R 2.1] and those that the test demands.
+    ///
+    /// - Coefficients of turning tests take `K_PRO` = 1.3 unless the correction gives another: the report has 1.2 to 1.4 for
+    ///   them [R Table 2.1], and this is the middle; the half width of 0.1 goes into the spread.
+    /// - `K_V` and `K_gamma` compare the cut with the test: where speed or rake of the test are known, the factor is divided
+    ///   by its value there; else it is that of the table, which is 1 at about 100 m/min and at 7.5 degrees (cast iron 2.5).
+    /// - The line of the rake factor is that of the material's group; `rake_reference` of the correction is not asked.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Correction, ForceLaw, Materials};
+    ///
+    /// let materials = Materials::library();
+    /// let worn = Correction { wear: Some(1.4), ..Correction::default() };
+    /// let applied = materials.find("AlMg4.5Mn")?.for_milling(&worn)?;
+    /// assert!((applied.law.factor - 1.3 * 1.4).abs() < 1e-12);
+    /// assert!((applied.law.edge_force(1.0).tangential - 780.0 * 1.82).abs() < 1e-9); // N/mm
+    /// let words: Vec<String> = applied.factors.iter().map(ToString::to_string).collect();
+    /// assert!(words[0].starts_with("K_PRO = 1.300: milling with coefficients of turning tests"));
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A speed, rake or factor beyond what the table is made for.
+    pub fn for_milling(&self, correction: &Correction) -> Result<Applied> {
+        let correction = Correction {
+            rake_reference: self.group.rake_reference(),
+            ..*correction
+        };
+        // Its own product, with all its bounds; what the test has of it is divided out below.
+        let mut factor = correction.factor()?;
+        let mut factors = Vec::new();
+        let mut spread = self.spread;
+        match (correction.process, self.measured_in.process) {
+            (Some(value), _) => factors.push(given("K_PRO", value, "process, as given")),
+            (None, Process::Turning) => {
+                factor *= PROCESS;
+                spread = spread.hypot(PROCESS_SPREAD / PROCESS);
+                let reason = "milling with coefficients of turning tests, the middle of 1.2 to 1.4";
+                factors.push(given("K_PRO", PROCESS, reason));
+            }
+            (None, Process::Milling) => {}
+        }
+        if let Some(speed) = correction.cutting_speed_m_per_min {
+            let of_test = self.measured_in.speed_m_per_min;
+            let at_test = of_test.map_or(1.0, Correction::of_speed);
+            factor /= at_test;
+            factors.push(AppliedFactor {
+                symbol: "K_V",
+                value: Correction::of_speed(speed) / at_test,
+                reason: match of_test {
+                    Some(test) => format!("cutting speed of {speed} m/min, {test} m/min in the test"),
+                    None => format!("cutting speed of {speed} m/min; that of the test is not known and taken as 100 m/min"),
+                },
+            });
+        }
+        if let Some(rake) = correction.rake_deg {
+            let reference = correction.rake_reference;
+            let of_test = self.measured_in.rake_deg;
+            let at_test = of_test.map_or(1.0, |test| Correction::of_rake(test, reference));
+            factor /= at_test;
+            factors.push(AppliedFactor {
+                symbol: "K_gamma",
+                value: Correction::of_rake(rake, reference) / at_test,
+                reason: match of_test {
+                    Some(test) => format!("rake angle of {rake} degrees, {test} degrees in the test"),
+                    None => format!("rake angle of {rake} degrees; that of the test is not known and taken as the table's"),
+                },
+            });
+        }
+        factors.extend(others(&correction)?);
+        Ok(Applied {
+            law: Corrected {
+                law: self.clone(),
+                factor,
+            },
+            spread,
+            factors,
+        })
+    }
+}
+
+fn given(symbol: &'static str, value: f64, reason: &str) -> AppliedFactor {
+    AppliedFactor {
+        symbol,
+        value,
+        reason: reason.to_owned(),
+    }
+}
+
+/// The factors that do not depend on the material; each alone has the value that it has in the product.
+fn others(correction: &Correction) -> Result<Vec<AppliedFactor>> {
+    let alone = Correction::default();
+    let edge = Correction {
+        cutting_material: correction.cutting_material,
+        ..alone
+    };
+    let coolant = Correction {
+        coolant: correction.coolant,
+        ..alone
+    };
+    let mut factors = Vec::new();
+    let mut push = |symbol, value: f64, reason: &str| factors.push(given(symbol, value, reason));
+    match correction.cutting_material {
+        CuttingMaterial::Carbide => {}
+        CuttingMaterial::HighSpeedSteel => push("K_CM", edge.factor()?, "edge of high-speed steel"),
+        CuttingMaterial::Ceramic => push("K_CM", edge.factor()?, "edge of ceramic"),
+    }
+    if let Some(value) = correction.wear {
+        push("K_TW", value, "wear of the edge, as given");
+    }
+    match correction.coolant {
+        Coolant::Dry => {}
+        Coolant::Emulsion => push("K_CL", coolant.factor()?, "cooled with emulsion"),
+        Coolant::Oil => push("K_CL", coolant.factor()?, "cooled with oil"),
+    }
+    if let Some(value) = correction.workpiece_shape {
+        push("K_WS", value, "shape of the workpiece, as given");
+    }
+    Ok(factors)
+}

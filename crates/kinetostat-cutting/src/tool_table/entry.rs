@@ -1,0 +1,25 @@
+//! What a table says about one tool.
+
+use crate::tool::Tool;
+
+/// A tool with what a cut needs to know beside its edges.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ToolEntry {
+    /// Number by which the program calls it (T).
+    pub number: u32,
+    /// Its name; the comment of `tool.tbl` where the table gives none, empty where neither does.
+    pub name: String,
+    /// Its edges.
+    pub tool: Tool,
+    /// Length outside the holder, mm.
+    pub stick_out_mm: Option<f64>,
+    /// Length of the edges, mm, at most the stick-out.
+    pub flute_length_mm: Option<f64>,
+    /// Rake angle, degrees.
+    pub rake_deg: Option<f64>,
+    /// Feed per tooth that the maker allows, mm.
+    pub max_chip_mm: Option<f64>,
+    /// Length offset of the controller (G43), mm: from a reference of the machine's, so it may be negative.
+    pub length_mm: Option<f64>,
+}

@@ -1,0 +1,86 @@
+//! The text of a table of tools, and errors with the line of what they are about.
+
+use std::ops::RangeInclusive;
+
+use serde_spanned::Spanned;
+
+use crate::error::{CutError, CutErrorKind, Result, within};
+use crate::names;
+
+/// A file's name and text, for errors with their line.
+pub(crate) struct Source<'t> {
+    pub(crate) file: &'t str,
+    pub(crate) text: &'t str,
+}
+
+impl Source<'_> {
+    pub(crate) fn line(&self, byte: usize) -> usize {
+        let before = self.text.as_bytes().get(..byte).unwrap_or_default();
+        1 + before.iter().filter(|b| **b == b'\n').count()
+    }
+
+    pub(crate) fn error(
+        &self,
+        byte: usize,
+        quantity: &str,
+        found: String,
+        expected: String,
+    ) -> CutError {
+        CutError::new(CutErrorKind::File, quantity, found, expected)
+            .at(self.file, Some(self.line(byte)))
+    }
+
+    /// A message of the TOML reader; for a key that is not known, with the nearest one.
+    pub(crate) fn syntax(&self, error: &toml::de::Error) -> CutError {
+        let byte = error.span().map_or(0, |span| span.start);
+        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+        let (quantity, found, expected) = match quoted.as_slice() {
+            [given, known @ ..] if message.starts_with("unknown ") => {
+                let expected = match nearest(given, known) {
+                    Some(near) => format!("a known key, perhaps `{near}`"),
+                    None => format!("one of {}", known.join(", ")),
+                };
+                (
+                    "key of a tool",
+                    format!("`{given}` is not known here"),
+                    expected,
+                )
+            }
+            [key] if message.starts_with("missing field") => (
+                "tool",
+                format!("no `{key}`"),
+                format!("a line `{key} = ...` under this [[tool]]"),
+            ),
+            _ => (
+                "table of tools",
+                message.clone(),
+                "[[tool]] with number, shape, diameter_mm, teeth, each on a line of its own"
+                    .to_owned(),
+            ),
+        };
+        self.error(byte, quantity, found, expected)
+    }
+
+    /// A number of a key within bounds; the error names the key and its line.
+    pub(crate) fn number(
+        &self,
+        key: &str,
+        value: Option<&Spanned<f64>>,
+        bounds: RangeInclusive<f64>,
+        unit: &str,
+    ) -> Result<Option<f64>> {
+        let Some(value) = value else { return Ok(None) };
+        within(CutErrorKind::Tool, key, *value.get_ref(), bounds, unit)
+            .map(Some)
+            .map_err(|error| error.at(self.file, Some(self.line(value.span().start))))
+    }
+}
+
+/// The nearest of some keys, if it is close enough to be a slip of the pen; a key without its unit is meant to be the one
+/// with it.
+fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
+    let stem = format!("{given}_");
+    let with_unit = known.iter().copied().find(|key| key.starts_with(&stem));
+    with_unit.or_else(|| names::nearest(given, known.iter().copied(), 1).pop())
+}

@@ -1,0 +1,42 @@
+//! A table of tools as it is written.
+
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct File {
+    #[serde(default)]
+    pub(crate) tool: Vec<Spanned<Entry>>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ShapeName {
+    Flat,
+    Ball,
+    Bull,
+    Face,
+}
+
+/// A tool as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Entry {
+    pub(crate) number: Spanned<u32>,
+    #[serde(default)]
+    pub(crate) name: String,
+    pub(crate) shape: Spanned<ShapeName>,
+    pub(crate) diameter_mm: Option<Spanned<f64>>,
+    pub(crate) teeth: Spanned<u32>,
+    pub(crate) helix_deg: Option<Spanned<f64>>,
+    pub(crate) corner_radius_mm: Option<Spanned<f64>>,
+    pub(crate) lead_angle_deg: Option<Spanned<f64>>,
+    pub(crate) stick_out_mm: Option<Spanned<f64>>,
+    pub(crate) flute_length_mm: Option<Spanned<f64>>,
+    pub(crate) run_out_um: Option<Spanned<f64>>,
+    pub(crate) run_out_angle_deg: Option<Spanned<f64>>,
+    pub(crate) rake_deg: Option<Spanned<f64>>,
+    pub(crate) max_chip_mm: Option<Spanned<f64>>,
+    pub(crate) length_mm: Option<Spanned<f64>>,
+}

@@ -1,0 +1,33 @@
+//! Which force of a revolution a program is compensated for.
+
+use serde::{Deserialize, Serialize};
+
+/// Which force of a revolution counts.
+///
+/// The machine is slow against the teeth: it bends under the mean, and the compensation follows that by default. What a tooth
+/// leaves on a wall is where the tool was while its edge passed the wall. If the tool follows every tooth (a soft tool in a stiff
+/// machine), the force of that moment prints into the wall, and it is another than the mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ForceChoice {
+    /// The mean over the revolution.
+    #[default]
+    Mean,
+    /// The force while a tooth makes the wall, as a mean over the height of the wall; the mean over the revolution where the tool
+    /// makes no wall or two (a slot).
+    AtSurfaceGeneration,
+    /// The force with the largest part across the tool axis: a worst case.
+    Peak,
+}
+
+impl ForceChoice {
+    /// In words.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Mean => "mean over the revolution",
+            Self::AtSurfaceGeneration => "while the tooth makes the wall",
+            Self::Peak => "peak of the revolution",
+        }
+    }
+}

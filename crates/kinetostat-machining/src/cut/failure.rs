@@ -1,0 +1,46 @@
+//! Why a program has no cutting force.
+
+use kinetostat_cutting::CutError;
+
+/// Why no force can be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CutFailure {
+    /// A value that the force depends on is stated nowhere.
+    #[error("line {line}: {what}; {help}")]
+    Missing {
+        /// Line of the program, from 1.
+        line: usize,
+        /// What is missing.
+        what: &'static str,
+        /// What to do.
+        help: &'static str,
+    },
+    /// The program takes a tool that nobody has described.
+    #[error(
+        "line {line}: the program cuts with tool {number}, of which nothing is known; describe it in the table of tools, or a tool for all others"
+    )]
+    UnknownTool {
+        /// Line of the first cut with it.
+        line: usize,
+        /// Its number.
+        number: u32,
+    },
+    /// The program cuts before it takes a tool, and there is none for such blocks.
+    #[error("line {line}: the program cuts before it takes a tool (T); describe a tool for all blocks, or add the T word")]
+    NoTool {
+        /// Line of the first such cut.
+        line: usize,
+    },
+    /// A cut that this tool cannot make.
+    #[error("line {line}: {error}")]
+    Cut {
+        /// Line of the program, from 1.
+        line: usize,
+        /// What is wrong.
+        error: CutError,
+    },
+    /// Stopped on request.
+    #[error("stopped on request; nothing was written")]
+    Cancelled,
+}

@@ -1,0 +1,106 @@
+//! Force of one engagement, by a table where the feed is level and seldom changes.
+
+use kinetostat_cutting::{
+    CutForce, Engagement, Feed, ForceLaw, MeanTable, Milling, Result, Rotation, Wall,
+};
+
+use crate::cut::choice::ForceChoice;
+use crate::cut::cutting_tool::CuttingTool;
+
+/// A table is worth its making after so many forces of one feed.
+const WORTH_A_TABLE: usize = 200;
+
+/// Tables that are kept: feeds of one program are few.
+const MOST_TABLES: usize = 16;
+
+/// Forces of a tool, with what is used again.
+#[derive(Debug)]
+pub(crate) struct ForceOf<'a> {
+    tool: &'a CuttingTool,
+    choice: ForceChoice,
+    tables: Vec<Known>,
+}
+
+/// A feed that has come before.
+#[derive(Debug)]
+struct Known {
+    feed_mm: f64,
+    rotation: Rotation,
+    asked: usize,
+    table: Option<MeanTable>,
+}
+
+impl<'a> ForceOf<'a> {
+    pub fn new(tool: &'a CuttingTool, choice: ForceChoice) -> Self {
+        Self {
+            tool,
+            choice,
+            tables: Vec::new(),
+        }
+    }
+
+    /// The force of the choice, and the mean torque, N mm.
+    pub fn of(
+        &mut self,
+        engagement: &Engagement,
+        feed: Feed,
+        rotation: Rotation,
+    ) -> Result<(CutForce, f64)> {
+        let law: &dyn ForceLaw = &*self.tool.law;
+        let mean = match feed.down_mm == 0.0 {
+            true => self.level(engagement, feed, rotation)?,
+            false => Milling::new(&self.tool.tool, law, engagement, feed)
+                .turning(rotation)
+                .mean(),
+        };
+        let torque = mean.torque_n_mm();
+        if self.choice == ForceChoice::Mean || engagement.is_air() {
+            return Ok((mean, torque));
+        }
+        let cut = Milling::new(&self.tool.tool, law, engagement, feed).turning(rotation);
+        let chosen = match self.choice {
+            ForceChoice::Mean => mean,
+            ForceChoice::Peak => cut.revolution_at(ANGLES).peak().1,
+            ForceChoice::AtSurfaceGeneration => {
+                let walls = [Wall::Left, Wall::Right].map(|wall| cut.surface_generation(wall));
+                match walls {
+                    [Some(force), None] | [None, Some(force)] => force,
+                    _ => mean,
+                }
+            }
+        };
+        Ok((chosen, torque))
+    }
+
+    fn level(&mut self, engagement: &Engagement, feed: Feed, rotation: Rotation) -> Result<CutForce> {
+        let tool = self.tool;
+        let here = |known: &Known| known.feed_mm == feed.level_mm && known.rotation == rotation;
+        let at = self.tables.iter().position(here).unwrap_or_else(|| {
+            if self.tables.len() == MOST_TABLES {
+                self.tables.remove(0);
+            }
+            self.tables.push(Known {
+                feed_mm: feed.level_mm,
+                rotation,
+                asked: 0,
+                table: None,
+            });
+            self.tables.len() - 1
+        });
+        let known = &mut self.tables[at];
+        known.asked += 1;
+        if known.table.is_none() && known.asked > WORTH_A_TABLE {
+            let table = MeanTable::new(&tool.tool, &*tool.law, feed.level_mm, rotation)?;
+            known.table = Some(table);
+        }
+        Ok(match &known.table {
+            Some(table) => table.mean(engagement),
+            None => Milling::new(&tool.tool, &*tool.law, engagement, feed)
+                .turning(rotation)
+                .mean(),
+        })
+    }
+}
+
+/// Angles from tooth to tooth at which a peak is looked for.
+const ANGLES: usize = 48;

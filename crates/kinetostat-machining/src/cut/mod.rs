@@ -1,0 +1,17 @@
+//! Cutting forces along a program, from the cut.
+//!
+//! Takes the motion of a program with its feeds and spindle words, tools with their materials, and where the tool is in the
+//! material: the same everywhere, by lines, or from a stock that the program itself cuts. Gives force, moment, torque and power
+//! at stations along the path, and what no such cut should be. Knows no machine: the load that comes of it is
+//! [`crate::CuttingLoad::FromCut`].
+
+pub(crate) mod choice;
+pub(crate) mod cutting_tool;
+pub(crate) mod engagement_source;
+pub(crate) mod failure;
+pub(crate) mod finding;
+pub(crate) mod force;
+pub(crate) mod forces;
+pub(crate) mod profile;
+pub(crate) mod station;
+pub(crate) mod walk;

@@ -1,0 +1,32 @@
+//! What acts on the tool at one place of a cut.
+
+use kinetostat::Wrench;
+use serde::Serialize;
+
+/// A place of the path with the force of the cut.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CutStation {
+    /// Share of the move's length.
+    pub share: f64,
+    /// Force (N) and moment about the tip (N m) on the tool: x along the feed, z along the part's z, y to the left.
+    pub wrench: Wrench,
+    /// Mean torque of the spindle, N m.
+    pub torque_n_m: f64,
+    /// Depth in contact, mm; 0 in air.
+    pub depth_mm: f64,
+    /// Sum of the arcs in contact at the lowest height, rad: pi in a slot, 0 in air.
+    pub arc: f64,
+}
+
+impl CutStation {
+    /// Nothing acts.
+    pub(crate) fn air(share: f64) -> Self {
+        Self {
+            share,
+            wrench: Wrench::zero(),
+            torque_n_m: 0.0,
+            depth_mm: 0.0,
+            arc: 0.0,
+        }
+    }
+}

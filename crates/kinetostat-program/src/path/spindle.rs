@@ -1,0 +1,107 @@
+//! How the spindle turns while a block is made, and what a feed is in a turn of it.
+
+use std::f64::consts::TAU;
+
+/// Which way the spindle turns, seen from the spindle towards the part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpindleRotation {
+    /// M3, M13: a right-hand cutter cuts.
+    Clockwise,
+    /// M4, M14.
+    CounterClockwise,
+    /// M5, M19, a change of tools, the end of the program; and before the first of these words.
+    #[default]
+    Stopped,
+}
+
+/// How the S word counts.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpeedMode {
+    /// G97: turns in a minute.
+    #[default]
+    Constant,
+    /// G96: constant surface speed, the spindle turning the faster the smaller the radius.
+    ConstantSurface {
+        /// The D beside G96: speed that is not exceeded, in rpm.
+        most_rpm: Option<f64>,
+    },
+}
+
+/// What the program says about the spindle.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Spindle {
+    /// Which way it turns.
+    pub rotation: SpindleRotation,
+    /// How `speed` counts.
+    pub mode: SpeedMode,
+    /// The S in force: in rpm with G97, in m/min with G96 (feet are converted). `None` before the first S, after a change
+    /// of G96 and G97 without S, and where it is not known whether an S beside G96 was in metres or feet.
+    pub speed: Option<f64>,
+}
+
+impl Spindle {
+    /// Turns in a minute, never negative; 0 while it stands still. `None` where the program has given no speed, and with
+    /// G96, where the speed is that of a radius ([`Spindle::rpm_at_radius_mm`]).
+    ///
+    /// ```
+    /// use kinetostat_program::*;
+    ///
+    /// let program = Program::read("G21 G90\nT1 M6\nS8000 M3\nG0 X0 Y0 Z0\nG1 X10 F960\nM30\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let spindle = path.spindle_on(5);
+    /// assert_eq!(spindle.rotation, SpindleRotation::Clockwise);
+    /// assert_eq!(spindle.rpm(), Some(8000.0));
+    /// assert_eq!(path.spindle_on(2).rpm(), Some(0.0));
+    /// # Ok::<(), ProgramError>(())
+    /// ```
+    #[must_use]
+    pub fn rpm(&self) -> Option<f64> {
+        match (self.rotation, self.mode) {
+            (SpindleRotation::Stopped, _) => Some(0.0),
+            (_, SpeedMode::Constant) => self.speed,
+            (_, SpeedMode::ConstantSurface { .. }) => None,
+        }
+    }
+
+    /// Turns in a minute while the edge cuts at a distance from the spindle's axis, in mm: `v/(2 pi r)` with G96, at most
+    /// the D beside it; what [`Spindle::rpm`] says with G97.
+    ///
+    /// `None` where the program has given no speed, and at the axis itself where it has given no largest one.
+    ///
+    /// ```
+    /// use kinetostat_program::{SpeedMode, Spindle, SpindleRotation};
+    ///
+    /// let mode = SpeedMode::ConstantSurface { most_rpm: Some(2500.0) };
+    /// let spindle = Spindle { rotation: SpindleRotation::Clockwise, mode, speed: Some(200.0) };
+    /// let rpm = spindle.rpm_at_radius_mm(20.0).unwrap(); // 200 m/min on a diameter of 40 mm
+    /// assert!((rpm - 1591.549).abs() < 1e-3);
+    /// assert_eq!(spindle.rpm_at_radius_mm(0.0), Some(2500.0));
+    /// ```
+    #[must_use]
+    pub fn rpm_at_radius_mm(&self, radius_mm: f64) -> Option<f64> {
+        let SpeedMode::ConstantSurface { most_rpm } = self.mode else {
+            return self.rpm();
+        };
+        if self.rotation == SpindleRotation::Stopped {
+            return Some(0.0);
+        }
+        let rpm = 1000.0 * self.speed? / (TAU * radius_mm.abs());
+        match most_rpm {
+            // At the axis a speed of zero over a way of zero is no number: the largest speed holds.
+            Some(most) => Some(if rpm <= most { rpm } else { most }),
+            None => rpm.is_finite().then_some(rpm),
+        }
+    }
+}
+
+/// A block from which on the spindle turns otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct SpindleChange {
+    /// Line of the first block that is made so, counted from 1. The stop of an M2 or M30 beside a motion holds from the
+    /// line after it.
+    pub line: usize,
+    /// What holds from this block on.
+    pub spindle: Spindle,
+}
