@@ -17,7 +17,6 @@ fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64
         probe.cut(&mut stock, [50.0; 3], [50.0; 3]).unwrap();
         (before - stock.volume_mm3()) / exact - 1.0
     });
-    println!("{:?} {}: {errors:?}", tool.shape(), tool.diameter_mm());
     errors
 }
 
