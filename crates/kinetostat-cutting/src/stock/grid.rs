@@ -23,14 +23,17 @@ pub(crate) struct Column {
 /// What is left of the material: heights at the points of a square grid parallel to x and y of the part.
 ///
 /// Every point holds the top of the material (below it all is material down to the bottom) and the distances of the next
-/// wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the points:
-/// errors are of the size `cell^2/(8 radius)` where a wall and a tool meet, far below a cell. Where walls at two heights lie
-/// less than one and a half cells apart, or a mesh or a map of heights has steep walls, the place of a wall may be wrong by
-/// up to a cell.
+/// wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the points.
+/// With a cell of a twentieth of the tool's diameter the ends of arcs were found to 0.003 rad on straight cuts (and to a
+/// quarter of that with half the cell), and mostly to 0.02 rad, in the worst case to a cell on the rim (0.1 rad), on curves
+/// of moves shorter than a cell: there the wall before the pass and that of the moves just made lie in the same cells.
+/// Likewise up to a cell where walls at two heights lie less than one and a half cells apart, and at the steep walls of a mesh
+/// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell on the rim at each side; on
+/// steep ones by more.
 ///
 /// **What it cannot know**: undercuts and cavities (the greatest height counts), tools whose axis is not z, what is cut by
-/// T-slot or lollipop cutters, shanks and holders that rub. Numbers are held as `f32` above the bottom: heights are rounded by
-/// less than 6e-8 of the stock's height.
+/// T-slot or lollipop cutters, shanks and holders that rub, the cone of a face mill beyond twice its diameter at the tip.
+/// Numbers are held as `f32` above the bottom: heights are rounded by less than 6e-8 of the stock's height.
 ///
 /// ```
 /// use kinetostat_cutting::{Engagement, Probe, Shape, Side, Stock, StockSettings, Tool};

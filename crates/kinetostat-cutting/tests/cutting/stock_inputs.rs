@@ -253,7 +253,7 @@ proptest! {
         let numbers = stations.iter().flat_map(|s| &s.engagement.contacts);
         for c in numbers {
             prop_assert!(c.from_mm >= 0.0 && c.from_mm < c.to_mm && c.entry >= 0.0);
-            prop_assert!(c.entry < c.exit && c.exit <= c.entry + 6.2832);
+            prop_assert!(c.entry < c.exit && c.exit <= c.entry + std::f64::consts::TAU + 1e-9);
         }
         prop_assert!(stock.volume_mm3() <= before + 1e-6);
     }

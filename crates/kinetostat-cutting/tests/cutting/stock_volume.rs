@@ -8,7 +8,7 @@ use crate::stock_support::{block, circle, flat};
 
 /// Relative errors of a removed volume with cells of 0.3, 0.15 and 0.075 mm.
 fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64; 3] {
-    let errors = [0.3, 0.15, 0.075].map(|cell| {
+    [0.3, 0.15, 0.075].map(|cell| {
         let mut stock = block([-20.0, -20.0, 0.0], [20.0, 20.0, 6.0], cell);
         let before = stock.volume_mm3();
         let mut probe = Probe::new(tool);
@@ -16,9 +16,7 @@ fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64
         // Away: the wall before the tool is done.
         probe.cut(&mut stock, [50.0; 3], [50.0; 3]).unwrap();
         (before - stock.volume_mm3()) / exact - 1.0
-    });
-    println!("{:?} {}: {errors:?}", tool.shape(), tool.diameter_mm());
-    errors
+    })
 }
 
 fn assert_converges(errors: [f64; 3], first: f64) {
