@@ -35,5 +35,5 @@ pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rota
 pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
 pub use stock::{Probe, Station, Stock, StockSettings};
 pub use tool::{RunOut, Shape, Tool};
-pub use tool_table::{LinuxCncTable, LinuxCncTool, MachineUnit, ToolEntry, ToolTable};
+pub use tool_table::{LinuxCncTable, LinuxCncTool, MachineUnit, ToolEntry, ToolTable, WrittenTool};
 pub use turning::{Turning, TurningForce};

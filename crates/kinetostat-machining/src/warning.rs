@@ -50,6 +50,8 @@ pub enum WarningCode {
     LongLever,
     /// A force that pulls the tool into the part.
     PullingForce,
+    /// Something about a cut that no cut should be.
+    Cut,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.

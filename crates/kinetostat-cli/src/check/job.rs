@@ -6,7 +6,8 @@ use std::path::Path;
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
-    LoadAlongPath, Placement, Task, Warning, load_description, refused_question, unusual_question,
+    LoadAlongPath, Placement, Task, Unwatched, Warning, load_description, refused_question,
+    unusual_question,
 };
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
@@ -16,13 +17,14 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::cut::along;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
-use crate::program::solve::with_task;
+use crate::program::solve::{computed, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
@@ -118,7 +120,11 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     ));
     let read = (&program, &motion);
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
-    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, check)?;
+    let cut = machine.cut.as_ref();
+    let forces = along::forces(cut, &setting.program_name, &motion, &Unwatched)?;
+    let forces = forces.as_ref();
+    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, forces, check)?;
+    warnings.extend(along::warnings(forces));
     let is_refused = !refused.is_empty();
     warnings.extend(refused);
     warnings.extend(unusual);
@@ -137,7 +143,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         placement: q.placement.clone(),
         load: load_description(
             &machine.mechanism,
-            &LoadAlongPath::new(machine.load, &motion),
+            &LoadAlongPath::new(computed(machine.load, forces), &motion),
         ),
         program: ProgramFinding {
             name: setting.program_name.clone(),

@@ -3,10 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use kinetostat_cutting::WrittenTool;
 use kinetostat_model::schema::{Deviation, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
+use crate::job::cut::format::{EngagementTable, MaterialTable, SpindleTable, StockTable};
 use crate::job::source::Source;
 use crate::ui::failure::Failure;
 
@@ -35,6 +37,13 @@ pub(crate) struct Job {
     pub tools: Vec<Spanned<NumberedTool>>,
     #[serde(default)]
     pub load: LoadTable,
+    /// What is cut: the load is computed from the cut.
+    pub material: Option<Spanned<MaterialTable>>,
+    /// The stock before the program.
+    pub stock: Option<Spanned<StockTable>>,
+    /// Where the tool is in the material, without a stock.
+    pub engagement: Option<Spanned<EngagementTable>>,
+    pub spindle: Option<SpindleTable>,
     #[serde(default)]
     pub reading: ReadingTable,
     #[serde(default)]
@@ -80,6 +89,8 @@ pub(crate) struct ToolTable {
     pub length_mm: Option<Spanned<f64>>,
     /// Or the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
+    /// Its edges, for loads that are computed from the cut.
+    pub cutter: Option<Spanned<WrittenTool>>,
 }
 
 /// A tool that the program takes by its number.
@@ -92,6 +103,8 @@ pub(crate) struct NumberedTool {
     pub length_mm: Option<Spanned<f64>>,
     /// Or the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
+    /// Its edges, for loads that are computed from the cut.
+    pub cutter: Option<Spanned<WrittenTool>>,
     /// What acts on it; without this, the job's `[load]`.
     pub load: Option<LoadTable>,
 }

@@ -11,6 +11,7 @@ use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cut::{CutSetup, cut_setup};
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
@@ -26,6 +27,8 @@ pub(crate) struct MachineSetup {
     pub(crate) mechanism: Mechanism,
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
+    /// The cuts that the load is computed from, where the job names a material.
+    pub(crate) cut: Option<CutSetup>,
     /// Tools by number, each with its machine and load.
     pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
     pub(crate) run_inputs: RunInputs,
@@ -78,6 +81,7 @@ pub(crate) fn machine_setup(
     let mechanism = model.mechanism.with_tool(&tool);
     let placement = placement(job, flags, &mechanism)?;
     let load = load(job, job.map(|j| &j.job.load), flags)?;
+    let cut = cut_setup(files, job, flags)?;
     let mut given = vec![ToolGiven {
         number: None,
         pose: tool,
@@ -96,6 +100,7 @@ pub(crate) fn machine_setup(
         run_inputs.model_deviations = deviation_descriptions(&model);
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
+        run_inputs.cut = cut.as_ref().map_or_else(Vec::new, |cut| cut.words.clone());
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
         run_inputs.files = vec![model_file];
@@ -106,6 +111,7 @@ pub(crate) fn machine_setup(
             mechanism,
             placement,
             load,
+            cut,
             tools,
             run_inputs,
             bounds: Bounds {

@@ -6,6 +6,7 @@
 
 pub(crate) mod all_faults;
 pub(crate) mod arguments;
+pub(crate) mod cut;
 pub(crate) mod format;
 pub(crate) mod job_file;
 mod limits;

@@ -3,11 +3,12 @@
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
-    Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
-    load_description, origin_in_metres,
+    Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, ProgramLoad, Run, Task, Tool, Warning,
+    WarningCode, analyse, compensate_program, load_description, origin_in_metres,
 };
 use kinetostat_program::{Path as ToolPath, Program};
 
+use crate::job::cut::along::{forces, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
@@ -17,16 +18,27 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 
 /// The tools of a job, where it names several.
-pub(crate) fn tools(machine: &MachineSetup) -> Vec<Tool<'_>> {
+fn tools<'m>(machine: &'m MachineSetup, forces: Option<&ForceAlongPath>) -> Vec<Tool<'m>> {
     machine
         .tools
         .iter()
         .map(|(number, mechanism, load)| Tool {
             number: *number,
             mechanism,
-            load: *load,
+            load: computed(*load, forces),
         })
         .collect()
+}
+
+/// A load, or that of the cut.
+pub(crate) fn computed(load: ProgramLoad, forces: Option<&ForceAlongPath>) -> ProgramLoad {
+    let cutting = forces.map(|forces| CuttingLoad::FromCut {
+        largest: forces.largest(),
+    });
+    ProgramLoad {
+        cutting: cutting.unwrap_or(load.cutting),
+        ..load
+    }
 }
 
 /// What `work` makes of the task of a run over a program that was read.
@@ -35,9 +47,11 @@ pub(crate) fn with_task<R>(
     machine: &MachineSetup,
     setting: &Setting,
     (program, path): (&Program, &ToolPath),
+    forces: Option<&ForceAlongPath>,
     work: impl FnOnce(&Task<'_>) -> R,
 ) -> Answer<R> {
-    let tools = tools(machine);
+    let tools = tools(machine, forces);
+    let load = computed(machine.load, forces);
     let mut run_inputs = machine.run_inputs.clone();
     run_inputs.program.clone_from(&setting.program_name);
     run_inputs.files.insert(0, setting.program_file.clone());
@@ -80,7 +94,7 @@ pub(crate) fn with_task<R>(
                 "load {}",
                 load_description(
                     &machine.mechanism,
-                    &LoadAlongPath::with_tools(machine.load, path, &tools)
+                    &LoadAlongPath::with_tools(load, path, &tools)
                 )
             ),
             format!("tool {}", run_inputs.tool),
@@ -93,9 +107,9 @@ pub(crate) fn with_task<R>(
         reading: setting.reading.clone(),
         path,
         placement: machine.placement,
-        load: machine.load,
+        load,
         tools: &tools,
-        cut: None,
+        cut: forces,
         writing,
         run_inputs,
         bounds: Bounds {
@@ -114,7 +128,14 @@ pub(crate) fn solve(
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
     let progress = Progress::new();
-    let result = with_task(aim, machine, setting, (&program, &path), |task| {
+    let forces = forces(
+        machine.cut.as_ref(),
+        &setting.program_name,
+        &path,
+        &progress,
+    )?;
+    let read = (&program, &path);
+    let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
         in_threads(threads, || match aim {
             Aim::Analyse => analyse(task, &progress),
             Aim::Compensate => compensate_program(task, &progress),
@@ -129,6 +150,7 @@ pub(crate) fn solve(
             None => failure,
         }
     })?;
+    run.result.warnings.extend(warnings(forces.as_ref()));
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second
         && most > limit

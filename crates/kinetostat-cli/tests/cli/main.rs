@@ -16,6 +16,7 @@ mod curves;
 mod curves_of_machines;
 mod curves_refused;
 mod curves_warned;
+mod cut;
 mod demo;
 mod draw;
 mod figures;

@@ -15,3 +15,4 @@ mod written;
 pub use entry::ToolEntry;
 pub use linuxcnc::{LinuxCncTable, LinuxCncTool, MachineUnit};
 pub use table::ToolTable;
+pub use written::WrittenTool;

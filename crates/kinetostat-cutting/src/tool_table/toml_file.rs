@@ -10,14 +10,14 @@ use crate::tool_table::bounds::{MOST_BYTES, MOST_TOOLS};
 use crate::tool_table::entry::ToolEntry;
 use crate::tool_table::linuxcnc::{LinuxCncTable, LinuxCncTool};
 use crate::tool_table::source::Source;
-use crate::tool_table::written::{Entry, File, ShapeName};
+use crate::tool_table::written::{File, ShapeName, WrittenTool};
 
 /// Shares of the diameter: a D of `tool.tbl` up to this far from it is the measured diameter, one up to this far from zero
 /// the wear (LinuxCNC allows both).
 const SAME_DIAMETER: f64 = 0.1;
 
 impl Source<'_> {
-    fn shape(&self, entry: &Entry) -> Result<Shape> {
+    fn shape(&self, entry: &WrittenTool) -> Result<Shape> {
         let name = *entry.shape.get_ref();
         let only = |key: &str, value: &Option<Spanned<f64>>, of: ShapeName, shape: &str| {
             let byte = match (value, name == of) {
@@ -65,7 +65,7 @@ impl Source<'_> {
     /// The diameter of the entry, or that of `tool.tbl`; one of each must be of the same tool.
     fn diameter(
         &self,
-        entry: &Entry,
+        entry: &WrittenTool,
         at: usize,
         known: Option<(&str, &LinuxCncTool)>,
     ) -> Result<f64> {
@@ -103,7 +103,7 @@ impl Source<'_> {
         }
     }
 
-    fn edges(&self, entry: &Entry, at: usize, diameter_mm: f64) -> Result<Tool> {
+    fn edges(&self, entry: &WrittenTool, at: usize, diameter_mm: f64) -> Result<Tool> {
         let shape = self.shape(entry)?;
         // The tool knows no lines: its error is put where the quantity stands.
         let start = |value: &Option<Spanned<f64>>| value.as_ref().map_or(at, |v| v.span().start);
@@ -136,9 +136,10 @@ impl Source<'_> {
             .map_err(placed)
     }
 
-    fn entry(
+    pub(crate) fn entry(
         &self,
-        spanned: Spanned<Entry>,
+        number: u32,
+        spanned: Spanned<WrittenTool>,
         known: Option<(&str, &LinuxCncTool)>,
     ) -> Result<ToolEntry> {
         let at = spanned.span().start;
@@ -169,7 +170,7 @@ impl Source<'_> {
         }
         let given = self.number("length_mm", entry.length_mm.as_ref(), -1e4..=1e4, "mm")?;
         Ok(ToolEntry {
-            number: *entry.number.get_ref(),
+            number,
             name: match (entry.name.is_empty(), machine) {
                 (true, Some(tool)) => tool.comment.clone(),
                 _ => entry.name,
@@ -186,6 +187,32 @@ impl Source<'_> {
             )?,
             length_mm: given.or(machine.and_then(|tool| tool.length_mm)),
         })
+    }
+}
+
+impl ToolEntry {
+    /// A tool that stands in a text among other things, under a number that is said elsewhere.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{ToolEntry, WrittenTool};
+    /// use serde_spanned::Spanned;
+    ///
+    /// let text = "shape = \"flat\"\ndiameter_mm = 6\nteeth = 2\n";
+    /// let written: Spanned<WrittenTool> = toml::from_str(text)?;
+    /// let entry = ToolEntry::written("job.toml", text, 3, &written)?;
+    /// assert_eq!((entry.number, entry.tool.teeth()), (3, 2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As a table of tools, with the line in the text.
+    pub fn written(
+        file: &str,
+        text: &str,
+        number: u32,
+        written: &Spanned<WrittenTool>,
+    ) -> Result<Self> {
+        Source { file, text }.entry(number, written.clone(), None)
     }
 }
 
@@ -207,7 +234,15 @@ pub(crate) fn read(
     let mut lines: BTreeMap<u32, usize> = BTreeMap::new();
     let mut entries = BTreeMap::new();
     for spanned in read.tool {
-        let written = &spanned.get_ref().number;
+        let Some(written) = &spanned.get_ref().number else {
+            let expected = "a line `number = ...` under this [[tool]]".to_owned();
+            return Err(source.error(
+                spanned.span().start,
+                "tool",
+                "no `number`".to_owned(),
+                expected,
+            ));
+        };
         let (number, byte) = (*written.get_ref(), written.span().start);
         if let Some(line) = lines.insert(number, source.line(byte)) {
             let found = format!("{number}, which is the tool of line {line}");
@@ -215,7 +250,7 @@ pub(crate) fn read(
             return Err(source.error(byte, "number", found, expected));
         }
         let known = machine.and_then(|table| Some((table.file(), table.get(number)?)));
-        entries.insert(number, source.entry(spanned, known)?);
+        entries.insert(number, source.entry(number, spanned, known)?);
     }
     Ok(entries)
 }

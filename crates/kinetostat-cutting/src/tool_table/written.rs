@@ -7,10 +7,10 @@ use serde_spanned::Spanned;
 #[serde(deny_unknown_fields)]
 pub(crate) struct File {
     #[serde(default)]
-    pub(crate) tool: Vec<Spanned<Entry>>,
+    pub(crate) tool: Vec<Spanned<WrittenTool>>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ShapeName {
     Flat,
@@ -19,11 +19,13 @@ pub(crate) enum ShapeName {
     Face,
 }
 
-/// A tool as it is written.
-#[derive(Deserialize)]
+/// A tool as it is written in TOML, with the keys of a table of tools: for files that hold one among other things.
+///
+/// [`crate::ToolEntry::written`] makes a tool of it.
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Entry {
-    pub(crate) number: Spanned<u32>,
+pub struct WrittenTool {
+    pub(crate) number: Option<Spanned<u32>>,
     #[serde(default)]
     pub(crate) name: String,
     pub(crate) shape: Spanned<ShapeName>,

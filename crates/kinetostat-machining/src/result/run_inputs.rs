@@ -30,6 +30,9 @@ pub struct RunInputs {
     pub tool_orientation: String,
     /// The load in words.
     pub load: String,
+    /// What was assumed of a load that is computed from the cut, one sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut: Vec<String>,
     /// Where the program lies, in words.
     pub placement: String,
     /// The tool in words.

@@ -313,6 +313,7 @@ pub(crate) fn inputs_of_run(result: &Shown<'_>) -> Vec<Value> {
             &run_inputs.files.iter().map(file).collect::<Vec<_>>(),
         ),
         fact("Load", or_unknown(&run_inputs.load)),
+        list("Cutting force", &run_inputs.cut),
         fact("Where the program lies", or_unknown(&run_inputs.placement)),
         fact("Tool", or_unknown(&run_inputs.tool)),
         fact(

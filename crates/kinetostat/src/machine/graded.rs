@@ -24,7 +24,7 @@ const UNEVEN: f64 = 1e6;
 /// Of more platforms only stiffnesses that differ by more than [`UNEVEN_OF_MANY`] are kept apart: rows of all limbs cost the
 /// cube of the number of platforms (a minute and more for 240), and legs under load have a stiffness of `F/L` across them
 /// that a platform on six legs does not feel.
-const MANY: usize = 40;
+const MANY: usize = 12;
 
 /// Leaves four digits of the soft ones in a sum.
 const UNEVEN_OF_MANY: f64 = 1e11;

@@ -1,0 +1,131 @@
+//! The tables of a job that say what is cut.
+
+use kinetostat_cutting::{Coolant, CuttingMaterial, Rotation};
+use kinetostat_machining::ForceChoice;
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+/// What is cut: `[material]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MaterialTable {
+    /// Name in the library, or in the file.
+    pub name: Spanned<String>,
+    /// A file of materials beside the library.
+    pub file: Option<Spanned<String>>,
+    /// Factor for milling with coefficients of turning tests.
+    pub process_factor: Option<f64>,
+    /// Cutting speed for the factor of the speed, m/min.
+    pub cutting_speed_m_per_min: Option<f64>,
+    /// Rake angle of the edge.
+    pub rake_deg: Option<f64>,
+    /// What the edge is made of.
+    #[serde(default)]
+    pub cutting_material: CuttingMaterial,
+    /// 1 for a sharp edge, 1.3 to 1.5 for a worn one.
+    pub wear_factor: Option<f64>,
+    /// How the cut is cooled.
+    #[serde(default)]
+    pub coolant: Coolant,
+}
+
+/// The stock before the program: `[stock]`. One of block, cylinder, stl, height_map.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StockTable {
+    /// Two opposite corners, program coordinates, mm.
+    pub block_mm: Option<Spanned<[[f64; 3]; 2]>>,
+    /// A cylinder that stands along z.
+    pub cylinder: Option<Spanned<CylinderTable>>,
+    /// A mesh; its greatest heights count.
+    pub stl: Option<Spanned<String>>,
+    /// Heights in rows of a CSV file.
+    pub height_map: Option<Spanned<HeightMapTable>>,
+    /// Size of a cell; a twentieth of the smallest tool's diameter without it.
+    pub cell_mm: Option<Spanned<f64>>,
+    /// Memory that the stock may take, MB; 500 without it.
+    pub memory_mb: Option<Spanned<f64>>,
+}
+
+/// A cylinder that stands along z.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CylinderTable {
+    /// Middle of its foot, mm.
+    pub foot_mm: [f64; 3],
+    /// Radius, mm.
+    pub radius_mm: f64,
+    /// Height, mm.
+    pub height_mm: f64,
+}
+
+/// Heights over a grid.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HeightMapTable {
+    /// CSV of heights, mm: a row along x, rows along y.
+    pub file: String,
+    /// Where the first number stands, and the bottom, mm.
+    pub corner_mm: [f64; 3],
+    /// From number to number, mm.
+    pub spacing_mm: f64,
+}
+
+/// The same engagement everywhere, or by lines: `[engagement]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct EngagementTable {
+    /// Width of cut across the feed; the diameter is a slot.
+    pub width_mm: Option<Spanned<f64>>,
+    /// Depth of cut along the axis.
+    pub depth_mm: Option<Spanned<f64>>,
+    /// On which side of the feed the part is.
+    pub part: Option<PartWord>,
+    /// Cuts of lines of the program; air on all others.
+    #[serde(default)]
+    pub lines: Vec<Spanned<LinesTable>>,
+}
+
+/// The cut on some lines of the program.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LinesTable {
+    /// First line, from 1.
+    pub from: usize,
+    /// Last line.
+    pub to: usize,
+    /// Width of cut across the feed.
+    pub width_mm: f64,
+    /// Depth of cut along the axis.
+    pub depth_mm: f64,
+    /// On which side of the feed the part is.
+    pub part: Option<PartWord>,
+}
+
+/// On which side of the feed the part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum PartWord {
+    /// Left: conventional milling with a spindle that turns clockwise.
+    Left,
+    /// Right: climb milling with a spindle that turns clockwise.
+    Right,
+}
+
+/// The spindle: `[spindle]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SpindleTable {
+    /// Speed instead of the program's S.
+    pub rpm: Option<Spanned<f64>>,
+    /// Sense instead of the program's M3 and M4.
+    pub rotation: Option<Rotation>,
+    /// Rated power, W.
+    pub power_w: Option<Spanned<f64>>,
+    /// Speed from which on the power is there.
+    pub base_rpm: Option<f64>,
+    /// Largest speed.
+    pub most_rpm: Option<f64>,
+    /// Which force of the revolution bends the machine.
+    pub force: Option<ForceChoice>,
+}

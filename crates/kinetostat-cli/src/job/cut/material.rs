@@ -1,0 +1,71 @@
+//! The material of a job.
+
+use std::sync::Arc;
+
+use kinetostat_cutting::{Applied, Correction, Materials};
+
+use crate::files::input_files::InputFiles;
+use crate::job::cut::format::MaterialTable;
+use crate::job::job_file::JobFile;
+use crate::ui::failure::{Answer, Failure};
+
+/// The law of the material with its factors, and what was assumed.
+pub(super) struct MaterialSetup {
+    pub(super) applied: Arc<Applied>,
+    pub(super) words: Vec<String>,
+}
+
+pub(super) fn material(
+    files: &InputFiles,
+    job: &JobFile,
+    table: &MaterialTable,
+) -> Answer<MaterialSetup> {
+    let mut known = Materials::library();
+    if let Some(file) = &table.file {
+        let path = job.base().join(file.get_ref());
+        let bytes = files.bytes("file of materials", &path)?;
+        let name = path.display().to_string();
+        let text = String::from_utf8(bytes).map_err(|_| {
+            Failure::input(format!("the file of materials '{name}' is not UTF-8 text"))
+        })?;
+        known.with(Materials::read(&name, &text).map_err(Failure::input)?);
+    }
+    let found = known.find(table.name.get_ref());
+    let found = found.map_err(|error| {
+        job.error(
+            &table.name,
+            &format!("{} {}", error.quantity, error.found),
+            &error.expected,
+        )
+    })?;
+    let correction = Correction {
+        process: table.process_factor,
+        cutting_speed_m_per_min: table.cutting_speed_m_per_min,
+        rake_deg: table.rake_deg,
+        cutting_material: table.cutting_material,
+        wear: table.wear_factor,
+        coolant: table.coolant,
+        ..Correction::default()
+    };
+    let applied = found.for_milling(&correction).map_err(|error| {
+        job.error(
+            &table.name,
+            &format!("{}: {}", error.quantity, error.found),
+            &format!("expected {}", error.expected),
+        )
+    })?;
+    let mut words = vec![
+        format!("material {}: {}", found.name, found.law.description()),
+        format!("source: {}", found.source),
+    ];
+    words.extend(found.assumptions.iter().map(|a| format!("assumed: {a}")));
+    words.extend(applied.factors.iter().map(|f| format!("factor {f}")));
+    words.push(format!(
+        "the force may be {:.0} % more or less than stated",
+        100.0 * applied.spread
+    ));
+    Ok(MaterialSetup {
+        applied: Arc::new(applied),
+        words,
+    })
+}

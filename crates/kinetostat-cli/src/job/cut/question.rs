@@ -1,0 +1,200 @@
+//! What a job says about its cuts, as one question.
+
+use std::sync::Arc;
+
+use kinetostat_cutting::{SpindleCurve, Tool, ToolEntry, WrittenTool};
+use kinetostat_machining::{CutQuestion, CuttingTool};
+use serde_spanned::Spanned;
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::ProgramArgs;
+use crate::job::cut::engagement::engagement;
+use crate::job::cut::format::{MaterialTable, SpindleTable};
+use crate::job::cut::material::{MaterialSetup, material};
+use crate::job::cut::stock::stock;
+use crate::job::format::LoadTable;
+use crate::job::job_file::JobFile;
+use crate::ui::failure::{Answer, Failure};
+
+/// The cuts of a job.
+pub(crate) struct CutSetup {
+    pub(crate) question: CutQuestion,
+    /// What was assumed, one sentence each.
+    pub(crate) words: Vec<String>,
+}
+
+/// The cuts of a job that names a material; `None` where it names none.
+pub(crate) fn cut_setup(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+) -> Answer<Option<CutSetup>> {
+    let Some(j) = job else {
+        return Ok(None);
+    };
+    let Some(table) = &j.job.material else {
+        return no_material(j).map(|()| None);
+    };
+    typed_force(j, flags, table)?;
+    let MaterialSetup { applied, mut words } = material(files, j, table.get_ref())?;
+    let mut tools = Vec::new();
+    let entries = cutters(j)?;
+    for (number, entry) in entries {
+        tools.push(CuttingTool {
+            number,
+            tool: entry.tool,
+            law: Arc::new(applied.law.clone()),
+            spread: applied.spread,
+            max_chip_mm: entry.max_chip_mm,
+            flute_length_mm: entry.flute_length_mm,
+        });
+    }
+    let smallest =
+        tools
+            .iter()
+            .map(|tool| tool.tool)
+            .reduce(|a, b| match b.diameter_mm() < a.diameter_mm() {
+                true => b,
+                false => a,
+            });
+    let Some(smallest) = smallest else {
+        return Err(j.error(
+            table,
+            "a material is named, and no tool has a cutter",
+            "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]])",
+        ));
+    };
+    let (source, source_words) = where_it_cuts(files, j, table, &smallest)?;
+    words.push(source_words);
+    let spindle = j.job.spindle.clone().unwrap_or_default();
+    let rpm = spindle_speed(j, &spindle)?;
+    let choice = spindle.force.unwrap_or_default();
+    words.push(format!("force that counts: {}", choice.description()));
+    Ok(Some(CutSetup {
+        question: CutQuestion {
+            tools,
+            engagement: source,
+            choice,
+            rpm,
+            rotation: spindle.rotation,
+            spindle: curve(j, &spindle)?,
+        },
+        words,
+    }))
+}
+
+/// Tables that mean nothing without a material.
+fn no_material(j: &JobFile) -> Answer<()> {
+    let help = "name the material: [material] name = \"AlMg4.5Mn\" (`kinetostat force --list-materials` lists them)";
+    if let Some(stock) = &j.job.stock {
+        return Err(j.error(stock, "there is a stock, and no material to be cut", help));
+    }
+    if let Some(engagement) = &j.job.engagement {
+        return Err(j.error(
+            engagement,
+            "there is an engagement, and no material to be cut",
+            help,
+        ));
+    }
+    Ok(())
+}
+
+/// A force that is typed in stands against one that is computed.
+fn typed_force(j: &JobFile, flags: &ProgramArgs, table: &Spanned<MaterialTable>) -> Answer<()> {
+    let typed = |load: &LoadTable| {
+        load.force_n.is_some() || load.moment_n_m.is_some() || load.milling.is_some()
+    };
+    let of_tools = j
+        .job
+        .tools
+        .iter()
+        .filter_map(|tool| tool.get_ref().load.as_ref());
+    if typed(&j.job.load) || of_tools.into_iter().any(typed) {
+        return Err(j.error(
+            table,
+            "the load is given twice: a force, and a material to compute it from",
+            "keep [load] or [material]",
+        ));
+    }
+    if flags.force.is_some() || flags.moment.is_some() || flags.milling.is_some() {
+        return Err(Failure::input(
+            "the load is given twice: on the command line, and by the material of the job file; keep one of them",
+        ));
+    }
+    Ok(())
+}
+
+/// The cutters of a job, by the numbers of the tools.
+fn cutters(j: &JobFile) -> Answer<Vec<(Option<u32>, ToolEntry)>> {
+    let file = j.path.display().to_string();
+    let read = |number: Option<u32>, cutter: &Spanned<WrittenTool>| {
+        let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
+        entry.map(|entry| (number, entry)).map_err(Failure::input)
+    };
+    let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
+    let numbered = j.job.tools.iter().filter_map(|tool| {
+        let tool = tool.get_ref();
+        tool.cutter
+            .as_ref()
+            .map(|cutter| read(Some(tool.number), cutter))
+    });
+    one.chain(numbered).collect()
+}
+
+fn where_it_cuts(
+    files: &InputFiles,
+    j: &JobFile,
+    table: &Spanned<MaterialTable>,
+    smallest: &Tool,
+) -> Answer<(kinetostat_machining::EngagementSource, String)> {
+    match (&j.job.stock, &j.job.engagement) {
+        (Some(table), None) => {
+            let (stock, words) = stock(files, j, table, smallest)?;
+            let source = kinetostat_machining::EngagementSource::Stock(Box::new(stock));
+            Ok((source, words))
+        }
+        (None, Some(table)) => engagement(j, table, smallest),
+        (Some(stock), Some(_)) => Err(j.error(
+            stock,
+            "the engagement is given twice: by a stock, and as stated",
+            "keep [stock] or [engagement]",
+        )),
+        (None, None) => Err(j.error(
+            table,
+            "it is not said where the tool is in the material",
+            "write [stock] block_mm = [[x, y, z], [x, y, z]], or [engagement] width_mm = ..., depth_mm = ..., part = \"right\"",
+        )),
+    }
+}
+
+fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
+    let Some(rpm) = &table.rpm else {
+        return Ok(None);
+    };
+    match *rpm.get_ref() > 0.0 && *rpm.get_ref() <= 1e6 {
+        true => Ok(Some(*rpm.get_ref())),
+        false => Err(j.error(
+            rpm,
+            "a spindle turns with more than 0 and at most 1000000 rpm",
+            "correct the speed",
+        )),
+    }
+}
+
+fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
+    let Some(power) = &table.power_w else {
+        return Ok(None);
+    };
+    let (Some(base), Some(most)) = (table.base_rpm, table.most_rpm) else {
+        return Err(j.error(
+            power,
+            "a power alone does not say what the spindle can",
+            "write base_rpm and most_rpm beside it",
+        ));
+    };
+    let curve = SpindleCurve::rated(*power.get_ref(), base, most);
+    curve.map(Some).map_err(|error| {
+        let message = format!("{}: {}", error.quantity, error.found);
+        j.error(power, &message, &format!("expected {}", error.expected))
+    })
+}

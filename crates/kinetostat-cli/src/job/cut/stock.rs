@@ -1,0 +1,89 @@
+//! The stock of a job.
+
+use kinetostat_cutting::{CutError, Stock, StockSettings, Tool};
+use serde_spanned::Spanned;
+
+use crate::files::input_files::InputFiles;
+use crate::job::cut::format::StockTable;
+use crate::job::job_file::JobFile;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
+
+/// The stock, and its resolution in words; `smallest` is the tool with the smallest diameter.
+pub(super) fn stock(
+    files: &InputFiles,
+    job: &JobFile,
+    table: &Spanned<StockTable>,
+    smallest: &Tool,
+) -> Answer<(Stock, String)> {
+    let wrong = |error: CutError| match error.file {
+        Some(_) => Failure::input(error),
+        None => job.error(
+            table,
+            &format!("{}: {}", error.quantity, error.found),
+            &format!("expected {}", error.expected),
+        ),
+    };
+    let t = table.get_ref();
+    let mut settings = match &t.cell_mm {
+        Some(cell) => StockSettings::with_cell_mm(*cell.get_ref()).map_err(wrong)?,
+        None => StockSettings::for_tool(smallest).coarser_if_needed(),
+    };
+    if let Some(mb) = &t.memory_mb {
+        if !(1.0..=1e5).contains(mb.get_ref()) {
+            return Err(job.error(
+                mb,
+                "1 to 100000 MB can be given to a stock",
+                "correct the number",
+            ));
+        }
+        settings = settings.with_memory_bytes((1e6 * mb.get_ref()) as u64);
+    }
+    let shapes = [
+        t.block_mm.is_some(),
+        t.cylinder.is_some(),
+        t.stl.is_some(),
+        t.height_map.is_some(),
+    ];
+    if shapes.iter().filter(|given| **given).count() != 1 {
+        return Err(job.error(
+            table,
+            "a stock is one of 'block_mm', 'cylinder', 'stl' and 'height_map'",
+            "write block_mm = [[x, y, z], [x, y, z]], for instance",
+        ));
+    }
+    let read = |what: &str, name: &str| {
+        let path = job.base().join(name);
+        Ok::<_, Failure>((files.bytes(what, &path)?, path.display().to_string()))
+    };
+    let stock = if let Some(corners) = &t.block_mm {
+        let [a, b] = *corners.get_ref();
+        Stock::block(a, b, &settings)
+    } else if let Some(cylinder) = &t.cylinder {
+        let c = cylinder.get_ref();
+        Stock::cylinder(c.foot_mm, c.radius_mm, c.height_mm, &settings)
+    } else if let Some(stl) = &t.stl {
+        let (bytes, name) = read("mesh of the stock", stl.get_ref())?;
+        Stock::stl(&bytes, &name, &settings)
+    } else if let Some(map) = &t.height_map {
+        let m = map.get_ref();
+        let (bytes, name) = read("height map of the stock", &m.file)?;
+        Stock::height_map(&bytes, &name, m.corner_mm, m.spacing_mm, &settings)
+    } else {
+        return Err(job.error(
+            table,
+            "the stock has no shape",
+            "write block_mm = [[x, y, z], [x, y, z]]",
+        ));
+    };
+    let stock = stock.map_err(wrong)?;
+    let coarser = match stock.coarsened_from_mm() {
+        Some(asked) => format!(" ({} mm need more memory than memory_mb)", short(asked)),
+        None => String::new(),
+    };
+    let words = format!(
+        "engagement from the stock, a height field of cells of {} mm{coarser}: no undercuts, tool along z of the part",
+        short(stock.cell_mm())
+    );
+    Ok((stock, words))
+}

@@ -1,0 +1,265 @@
+//! Loads that are computed from the cut: job tables, corrections that follow the engagement, what is refused.
+
+use std::path::Path;
+
+use crate::common::{Said, contents, gcode, run};
+
+/// A pass into a block and out of it again, on the small Orthoglide: climb milling, half the tool in the material.
+const PASS: &str = "G21 G90\nS12000 M3\nG0 X-30 Y0 Z5\nG1 Z-2 F300\nG1 X30 F600\nG0 Z5\nM30\n";
+
+const JOB: &str = r#"schema = 1
+model = "orthoglide"
+program = "pass.ngc"
+[placement]
+part_origin_mm = [0, 0, 100]
+[tool]
+length_mm = 0
+cutter = { shape = "flat", diameter_mm = 6, teeth = 2, helix_deg = 30 }
+[material]
+name = "AlMg4.5Mn"
+[stock]
+block_mm = [[0, -20, -12], [20, 0, 0]]
+[output]
+program = "out.ngc"
+report = "report.html"
+json = "result.json"
+points = "points.csv"
+"#;
+
+fn place(job: &str, program: &str) -> tempfile::TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("pass.ngc"), program).unwrap();
+    std::fs::write(directory.path().join("job.toml"), job).unwrap();
+    directory
+}
+
+/// Tool and correction of the written program where it passes an x, mm: from its words, read here.
+fn written_y_at(here: &Path, x: f64) -> f64 {
+    let text = std::fs::read_to_string(here.join("out.ngc")).unwrap();
+    let word = |line: &str, letter: char| -> Option<f64> {
+        let after = line.split_whitespace().find(|w| w.starts_with(letter))?;
+        after[1..].parse().ok()
+    };
+    let (mut at, mut places) = ([-30.0, 0.0], Vec::new());
+    for line in text
+        .lines()
+        .filter(|line| line.starts_with('G') || line.starts_with('X'))
+    {
+        at = [
+            word(line, 'X').unwrap_or(at[0]),
+            word(line, 'Y').unwrap_or(at[1]),
+        ];
+        places.push(at);
+    }
+    let pair = places
+        .windows(2)
+        .find(|p| p[0][0] <= x && x <= p[1][0] && p[1][0] > p[0][0]);
+    let [a, b] = [pair.unwrap()[0], pair.unwrap()[1]];
+    a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1])
+}
+
+#[test]
+fn the_correction_follows_the_engagement() {
+    let here = place(JOB, PASS);
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    // In air before and behind the block nothing is corrected; in it the tool is held against the force across the feed.
+    for x in [-25.0, -10.0, 25.0, 29.0] {
+        assert!(written_y_at(here.path(), x).abs() < 2e-3, "{x}");
+    }
+    let inside = written_y_at(here.path(), 10.0);
+    assert!(inside.abs() > 5e-3, "{inside}");
+    let result: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(here.path().join("result.json")).unwrap()).unwrap();
+    let words = result["question"]["cut"].as_array().unwrap();
+    let all: Vec<&str> = words.iter().filter_map(|w| w.as_str()).collect();
+    for part in [
+        "AlMg4.5Mn",
+        "source:",
+        "assumed:",
+        "K_PRO",
+        "%",
+        "height field",
+        "mean over",
+    ] {
+        assert!(all.iter().any(|w| w.contains(part)), "{part}: {all:?}");
+    }
+    assert!(
+        result["question"]["load"]
+            .as_str()
+            .unwrap()
+            .contains("computed from the cut")
+    );
+    let report = std::fs::read_to_string(here.path().join("report.html")).unwrap();
+    assert!(report.contains("Cutting force") && report.contains("AlMg4.5Mn"));
+    assert!(
+        result["summary"]["max_position_error_after_mm"]
+            .as_f64()
+            .unwrap()
+            < 1e-3
+    );
+}
+
+/// The same program beside the block: nothing is cut and nothing corrected.
+#[test]
+fn air_needs_no_correction() {
+    let here = place(
+        &JOB.replace(
+            "[[0, -20, -12], [20, 0, 0]]",
+            "[[0, -60, -12], [20, -40, 0]]",
+        ),
+        PASS,
+    );
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    for x in [-25.0, 0.0, 10.0, 25.0] {
+        assert!(written_y_at(here.path(), x).abs() < 1e-9, "{x}");
+    }
+}
+
+fn refused(job: &str, program: &str, words: &[&str]) {
+    let here = place(job, program);
+    let before = contents(here.path());
+    let said: Said = run(here.path(), &["compensate", "job.toml"]);
+    assert_eq!(said.code, 1, "{said:?}");
+    for word in words {
+        assert!(said.err.contains(word), "{word}: {}", said.err);
+    }
+    assert_eq!(contents(here.path()), before, "something was written");
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_line() {
+    let job = |from: &str, to: &str| JOB.replace(from, to);
+    refused(
+        &job("\"AlMg4.5Mn\"", "\"AlMg4.5Mm\""),
+        PASS,
+        &["job.toml", ":11", "AlMg4.5Mn"],
+    );
+    refused(
+        &job("diameter_mm = 6", "diameter_mm = -6"),
+        PASS,
+        &["job.toml:9", "diameter"],
+    );
+    refused(
+        &job("shape = \"flat\"", "shape = \"round\""),
+        PASS,
+        &["job.toml", "flat"],
+    );
+    refused(
+        &job("teeth = 2", "teeth = 0"),
+        PASS,
+        &["job.toml:9", "teeth"],
+    );
+    refused(
+        &job("[[0, -20, -12], [20, 0, 0]]", "[[0, -20, 0], [20, 0, 0]]"),
+        PASS,
+        &["job.toml", ":13"],
+    );
+    refused(&job("block_mm", "blok_mm"), PASS, &["job.toml", "block_mm"]);
+    refused(&job("cutter = {", "#"), PASS, &["job.toml", "cutter"]);
+    refused(
+        &job("[stock]\nblock_mm = [[0, -20, -12], [20, 0, 0]]", ""),
+        PASS,
+        &["[stock]", "[engagement]"],
+    );
+    refused(
+        &job("[material]\nname = \"AlMg4.5Mn\"", ""),
+        PASS,
+        &["material"],
+    );
+    refused(
+        &job(
+            "[output]",
+            "[load]\nmilling = { radial_n = 1, tangential_n = 2, axial_n = 3 }\n[output]",
+        ),
+        PASS,
+        &["twice"],
+    );
+    refused(
+        &job(
+            "[output]",
+            "[engagement]\nwidth_mm = 2\ndepth_mm = 1\n[output]",
+        ),
+        PASS,
+        &["twice"],
+    );
+    let constant = job(
+        "[stock]\nblock_mm = [[0, -20, -12], [20, 0, 0]]",
+        "[engagement]\nwidth_mm = 7\ndepth_mm = 1\npart = \"left\"",
+    );
+    refused(&constant, PASS, &["width of cut", "7 mm", "6 mm"]);
+    // What the program does not say.
+    refused(
+        JOB,
+        &PASS.replace(" M3", ""),
+        &["pass.ngc", "line 5", "M3 or M4"],
+    );
+    refused(
+        JOB,
+        &PASS.replace("S12000 ", ""),
+        &["pass.ngc", "line 5", "(S with G97)"],
+    );
+    refused(
+        JOB,
+        &PASS.replace(" F300", "").replace(" F600", ""),
+        &["pass.ngc", "line 5", "(F)"],
+    );
+}
+
+#[test]
+fn the_spindle_may_be_too_weak() {
+    let job = JOB.replace(
+        "[output]",
+        "[spindle]\npower_w = 20\nbase_rpm = 10000\nmost_rpm = 24000\n[output]",
+    );
+    let here = place(&job, PASS);
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    let result: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(here.path().join("result.json")).unwrap()).unwrap();
+    let list = result["warnings"].as_array().unwrap();
+    let found = list
+        .iter()
+        .find(|w| w["code"] == "cut")
+        .unwrap_or_else(|| panic!("{list:?}"));
+    assert_eq!(found["line"], 5, "{found}");
+}
+
+/// A real program: every block cut out of a block of aluminium.
+#[test]
+fn a_real_pocket() {
+    let Some(data) = gcode() else {
+        println!("skipped: shared/data/gcode is not here");
+        return;
+    };
+    let program = std::fs::read_to_string(data.join("tball-pocket.gcode")).unwrap();
+    let first: String = program
+        .lines()
+        .take(600)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let job = JOB
+        .replace(
+            "[[0, -20, -12], [20, 0, 0]]",
+            "[[0, -140, -12], [140, 5, 0]]",
+        )
+        .replace(
+            "part_origin_mm = [0, 0, 100]",
+            "part_origin_mm = [-70, 70, 100]",
+        )
+        .replace(
+            "[output]",
+            "[spindle]\nrpm = 12000\nrotation = \"clockwise\"\n[output]",
+        );
+    let here = place(&job, &first);
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    let result: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(here.path().join("result.json")).unwrap()).unwrap();
+    let summary = &result["summary"];
+    assert!(
+        summary["max_position_error_before_mm"].as_f64().unwrap() > 0.02,
+        "{summary}"
+    );
+    assert!(
+        summary["max_position_error_after_mm"].as_f64().unwrap() < 2e-3,
+        "{summary}"
+    );
+}
