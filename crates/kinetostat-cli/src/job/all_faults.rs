@@ -55,9 +55,20 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
         add(&mut found, source.not_finite_number(span.clone()));
         take(tree.get_mut(), span, &mut taken);
     }
-    while read(&tree)
-        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
-    {}
+    let mut put = Vec::new();
+    // Each turn takes something out or puts something in that was not there before; the bound is for what nobody thought of.
+    for _ in 0..10 * MOST {
+        let Err(error) = read(&tree) else { break };
+        if !put_right(
+            &source,
+            &mut tree,
+            &error,
+            &mut found,
+            (&mut taken, &mut put),
+        ) {
+            break;
+        }
+    }
     // What has no meaning: each part of the question as far as it can be read.
     if let Ok(job) = read(&tree)
         && let Err(failure) = Job::version(source, &job)
@@ -151,7 +162,10 @@ fn put_right(
     tree: &mut Spanned<DeTable<'_>>,
     error: &toml::de::Error,
     found: &mut Vec<Failure>,
-    taken: &mut Vec<(String, Range<usize>)>,
+    (taken, put): (
+        &mut Vec<(String, Range<usize>)>,
+        &mut Vec<(String, Range<usize>)>,
+    ),
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
     let missing = Source::missing(error);
@@ -170,6 +184,12 @@ fn put_right(
         }
     }
     if let Some(key) = missing {
+        // What was put in and was not accepted is no number: the table goes as a whole.
+        let own = (key.to_owned(), span.clone());
+        if put.contains(&own) {
+            return take(tree.get_mut(), span, taken);
+        }
+        put.push(own);
         // Version 1, and any number for a number.
         let Ok(value) = DeValue::parse("1") else {
             return false;

@@ -132,12 +132,12 @@ fn what_is_wrong_is_named_with_its_line() {
     refused(
         &job("\"AlMg4.5Mn\"", "\"AlMg4.5Mm\""),
         PASS,
-        &["job.toml", ":11", "AlMg4.5Mn"],
+        &["job.toml:10:8", "AlMg4.5Mn"],
     );
     refused(
         &job("diameter_mm = 6", "diameter_mm = -6"),
         PASS,
-        &["job.toml:9", "diameter"],
+        &["job.toml:8", "diameter"],
     );
     refused(
         &job("shape = \"flat\"", "shape = \"round\""),
@@ -147,12 +147,12 @@ fn what_is_wrong_is_named_with_its_line() {
     refused(
         &job("teeth = 2", "teeth = 0"),
         PASS,
-        &["job.toml:9", "teeth"],
+        &["job.toml:8", "teeth"],
     );
     refused(
         &job("[[0, -20, -12], [20, 0, 0]]", "[[0, -20, 0], [20, 0, 0]]"),
         PASS,
-        &["job.toml", ":13"],
+        &["job.toml:11"],
     );
     refused(&job("block_mm", "blok_mm"), PASS, &["job.toml", "block_mm"]);
     refused(&job("cutter = {", "#"), PASS, &["job.toml", "cutter"]);
