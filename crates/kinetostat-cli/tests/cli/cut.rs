@@ -255,7 +255,7 @@ fn a_real_pocket() {
         serde_json::from_slice(&std::fs::read(here.path().join("result.json")).unwrap()).unwrap();
     let summary = &result["summary"];
     assert!(
-        summary["max_position_error_before_mm"].as_f64().unwrap() > 0.02,
+        summary["max_position_error_before_mm"].as_f64().unwrap() > 0.01,
         "{summary}"
     );
     assert!(
