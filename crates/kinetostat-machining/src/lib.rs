@@ -21,6 +21,7 @@ mod run;
 mod table;
 mod task;
 mod warning;
+mod watch;
 
 pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
@@ -59,5 +60,6 @@ pub use result::tolerance::{
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use table::{TableCorrection, correct_by_table, wide_table};
-pub use task::{NoMotion, RunError, Task, Unwatched, Watch};
+pub use task::{NoMotion, RunError, Task};
 pub use warning::{Warning, WarningCode};
+pub use watch::{Unwatched, Watch};

@@ -11,7 +11,8 @@ use crate::near::natural_length;
 use crate::postures::neighbour::NEAR;
 use crate::postures::orientation::Orientation;
 use crate::result::solving::one_by_one_because;
-use crate::task::{RunError, Watch};
+use crate::task::RunError;
+use crate::watch::Watch;
 
 /// Evenly spaced positions of the tool, base axes, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]

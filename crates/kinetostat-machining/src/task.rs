@@ -1,4 +1,4 @@
-//! The task of a run, who watches it, and why it may have no answer.
+//! The task of a run, and why it may have no answer.
 
 use kinetostat::{Error, Mechanism, MotionKind, number};
 use kinetostat_program::{Path, Program, ReadOptions, WriteError, WriteOptions};
@@ -48,28 +48,6 @@ impl<'a> Task<'a> {
     /// What acts on the tool that the block on a line is made with.
     pub(crate) fn load_on(&self, line: usize) -> &ProgramLoad {
         tool_on(self.tools, self.path, line).map_or(&self.load, |tool| &tool.load)
-    }
-}
-
-/// Who watches a run and may stop it.
-pub trait Watch: Sync {
-    /// A stage begins; `total` points, 0 where nobody knows how many there will be.
-    fn stage(&self, name: &str, total: usize);
-    /// Points done in this stage.
-    fn advance(&self, done: usize);
-    /// Whether to stop.
-    fn cancelled(&self) -> bool;
-}
-
-/// Watches nothing.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn stage(&self, _: &str, _: usize) {}
-    fn advance(&self, _: usize) {}
-    fn cancelled(&self) -> bool {
-        false
     }
 }
 

@@ -162,10 +162,7 @@ fn put_right(
     tree: &mut Spanned<DeTable<'_>>,
     error: &toml::de::Error,
     found: &mut Vec<Failure>,
-    (taken, put): (
-        &mut Vec<(String, Range<usize>)>,
-        &mut Vec<(String, Range<usize>)>,
-    ),
+    (taken, put): (&mut Places, &mut Places),
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
     let missing = Source::missing(error);
@@ -204,6 +201,9 @@ fn put_right(
     }
     take(tree.get_mut(), span, taken)
 }
+
+/// Keys with the places of what belongs to them.
+type Places = Vec<(String, Range<usize>)>;
 
 /// Reads a part of the question from a job.
 type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;

@@ -8,7 +8,7 @@ use kinetostat_model::schema::{Deviation, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::cut::format::{EngagementTable, MaterialTable, SpindleTable, StockTable};
+use crate::job::cut_tables::{EngagementTable, MaterialTable, SpindleTable, StockTable};
 use crate::job::source::Source;
 use crate::ui::failure::Failure;
 

@@ -7,6 +7,7 @@
 pub(crate) mod all_faults;
 pub(crate) mod arguments;
 pub(crate) mod cut;
+mod cut_tables;
 pub(crate) mod format;
 pub(crate) mod job_file;
 mod limits;

@@ -16,7 +16,7 @@ use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::station::CutStation;
 use crate::cut::walk::Walk;
-use crate::task::Watch;
+use crate::watch::Watch;
 
 /// The question: which tools cut what, where.
 #[derive(Clone, Debug)]

@@ -24,7 +24,8 @@ use crate::run::following::jump;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
-use crate::task::{RunError, Task, Watch};
+use crate::task::{RunError, Task};
+use crate::watch::Watch;
 
 /// Refuses what is beyond its limits.
 fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {

@@ -7,7 +7,8 @@ use crate::postures::neighbour::in_chunks;
 use crate::run::machines::Machines;
 use crate::run::points::BATCH;
 use crate::run::sites::Site;
-use crate::task::{RunError, Task, Watch};
+use crate::task::{RunError, Task};
+use crate::watch::Watch;
 
 /// Largest distance of the tool from its place on the corner steps that were read the other way, if the load
 /// there is by `reading` ([`Site::other_wrench`]), mm. None without such steps; infinite where a step has no

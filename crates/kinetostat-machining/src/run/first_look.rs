@@ -10,7 +10,8 @@ use crate::result::point::PointResult;
 use crate::run::machines::Machines;
 use crate::run::points::chunk;
 use crate::run::sites::{of_path, spacing_mm};
-use crate::task::{RunError, Task, Watch};
+use crate::task::{RunError, Task};
+use crate::watch::Watch;
 
 /// Places of a program at which figures are compared with their limits before anything is divided.
 const FIRST_LOOKS: usize = 8;

@@ -13,7 +13,8 @@ use crate::result::point::{PointResult, size};
 use crate::run::following::turn_deg;
 use crate::run::machines::Machines;
 use crate::run::sites::Site;
-use crate::task::{NoMotion, RunError, Task, Watch, kinds};
+use crate::task::{NoMotion, RunError, Task, kinds};
+use crate::watch::Watch;
 use kinetostat::batch::AlongPath;
 
 /// Points between two questions to the watch whether to stop.

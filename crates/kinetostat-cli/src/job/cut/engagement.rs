@@ -4,7 +4,7 @@ use kinetostat_cutting::{Engagement, Side, Tool};
 use kinetostat_machining::EngagementSource;
 use serde_spanned::Spanned;
 
-use crate::job::cut::format::{EngagementTable, PartWord};
+use crate::job::cut_tables::{EngagementTable, PartWord};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;

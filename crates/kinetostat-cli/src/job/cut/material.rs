@@ -5,7 +5,7 @@ use std::sync::Arc;
 use kinetostat_cutting::{Applied, Correction, Materials};
 
 use crate::files::input_files::InputFiles;
-use crate::job::cut::format::MaterialTable;
+use crate::job::cut_tables::MaterialTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 

@@ -4,7 +4,6 @@
 
 pub(crate) mod along;
 mod engagement;
-pub(crate) mod format;
 mod material;
 mod question;
 mod stock;

@@ -4,7 +4,7 @@ use kinetostat_cutting::{CutError, Stock, StockSettings, Tool};
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
-use crate::job::cut::format::StockTable;
+use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;

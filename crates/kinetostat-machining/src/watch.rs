@@ -1,0 +1,23 @@
+//! Who watches a run and may stop it.
+
+/// Who watches a run and may stop it.
+pub trait Watch: Sync {
+    /// A stage begins; `total` points, 0 where nobody knows how many there will be.
+    fn stage(&self, name: &str, total: usize);
+    /// Points done in this stage.
+    fn advance(&self, done: usize);
+    /// Whether to stop.
+    fn cancelled(&self) -> bool;
+}
+
+/// Watches nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn stage(&self, _: &str, _: usize) {}
+    fn advance(&self, _: usize) {}
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
