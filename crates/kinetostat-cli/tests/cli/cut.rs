@@ -1,5 +1,7 @@
 //! Loads that are computed from the cut: job tables, corrections that follow the engagement, what is refused.
 
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
 use std::path::Path;
 
 use crate::common::{Said, contents, gcode, run};
