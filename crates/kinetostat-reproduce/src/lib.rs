@@ -41,6 +41,9 @@ pub enum Cause {
     /// A preset could not be read.
     #[error(transparent)]
     Model(#[from] kinetostat_model::ModelError),
+    /// A material, a tool or a cut was refused.
+    #[error(transparent)]
+    Cutting(#[from] kinetostat_cutting::CutError),
     /// An equilibrium, a point or a factor that the entry is about was not found.
     #[error("{0} was not found")]
     Missing(String),
