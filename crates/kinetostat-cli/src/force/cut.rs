@@ -80,21 +80,23 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         Shape::Face { .. } => widest_mm,
         _ => tool.diameter_mm(),
     };
+    if width_mm > across_mm * (1.0 + 1e-9) {
+        return Err(Failure::input(format!(
+            "--width-mm: width of cut of {width_mm} mm; expected at most the {across_mm} mm of the tool, which is a slot"
+        )));
+    }
+    within("width of cut", width_mm, 1e-6..=2.0 * across_mm, "mm")?;
     let rotation = match args.counter_clockwise {
         true => Rotation::CounterClockwise,
         false => Rotation::Clockwise,
     };
-    let (part, way) = match (width_mm - across_mm).abs() <= 1e-9 * across_mm {
+    let (part, way) = match width_mm >= across_mm * (1.0 - 1e-9) {
         true => (Part::Slot, Way::Slot),
         false => side(args, rotation)?,
     };
-    let seen_as = match part {
-        Part::Side(side) => side,
-        Part::Slot => Side::Left,
-    };
-    let width = match part {
-        Part::Slot => across_mm,
-        Part::Side(_) => within("width of cut", width_mm, 1e-6..=across_mm, "mm (a slot)")?,
+    let (width, seen_as) = match part {
+        Part::Side(side) => (width_mm, side),
+        Part::Slot => (across_mm, Side::Left),
     };
     let mut engagement = Engagement::straight(0.5 * across_mm, width, depth_mm, seen_as)
         .map_err(|error| refused(&error))?;

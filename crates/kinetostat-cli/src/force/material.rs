@@ -44,10 +44,10 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
     let found = materials.find(name).map_err(|error| {
         let near = match error.expected.starts_with("did you mean") {
             true => format!("; {}", error.expected),
-            false => String::new(),
+            false => ";".to_owned(),
         };
         Failure::input(format!(
-            "--material: {}{near}; `kinetostat force --list-materials` shows all, and --materials FILE.toml takes your own",
+            "--material: {}{near} `kinetostat force --list-materials` shows them, and --materials FILE.toml takes your own",
             error.found
         ))
     })?;

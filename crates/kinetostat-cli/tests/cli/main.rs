@@ -19,6 +19,7 @@ mod curves_warned;
 mod demo;
 mod draw;
 mod figures;
+mod force;
 mod identical;
 mod implausible;
 mod import;

@@ -5,8 +5,7 @@ use kinetostat_cutting::{Coolant, Correction, CutError, CuttingMaterial, RakeRef
 use crate::chapter_2::library::material;
 use crate::{Cause, Contents, Item};
 
-const SLOPE: &str =
-    "The slope of 0.012 is as printed; 0.015 would fit the usual reference angles better, which the report cannot prove.";
+const SLOPE: &str = "The slope of 0.012 is as printed; 0.015 would fit the usual reference angles better, which the report cannot prove.";
 
 /// A range is no number: what is computed is the middle, and the note says so.
 const MIDDLE: &str = "The middle of the printed range is taken where nobody gives another.";
