@@ -48,14 +48,7 @@ pub(crate) fn answer_of(
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         question,
-        material: MaterialAnswer {
-            name: material.name.clone(),
-            law: material.law.description(),
-            source: material.source.clone(),
-            spread_percent: 100.0 * applied.spread,
-            factor: applied.law.factor,
-            factors: factors(applied),
-        },
+        material: material_answer(material, applied),
         tool: tool_answer(of_tool),
         cut: CutAnswer {
             width_mm: cut.width_mm,
@@ -96,13 +89,21 @@ pub(crate) fn answer_of(
     Ok(answer)
 }
 
-fn factors(applied: &Applied) -> Vec<FactorAnswer> {
+/// Material and law as they were used.
+pub(crate) fn material_answer(material: &Material, applied: &Applied) -> MaterialAnswer {
     let of = |factor: &kinetostat_cutting::AppliedFactor| FactorAnswer {
         symbol: factor.symbol,
         value: factor.value,
         reason: factor.reason.clone(),
     };
-    applied.factors.iter().map(of).collect()
+    MaterialAnswer {
+        name: material.name.clone(),
+        law: material.law.description(),
+        source: material.source.clone(),
+        spread_percent: 100.0 * applied.spread,
+        factor: applied.law.factor,
+        factors: applied.factors.iter().map(of).collect(),
+    }
 }
 
 fn tool_answer(of: &CutTool) -> ToolAnswer {

@@ -27,6 +27,8 @@ pub(crate) struct ForceArgs {
     #[command(flatten)]
     pub(crate) spindle: SpindleArgs,
     #[command(flatten)]
+    pub(crate) steady: SteadyArgs,
+    #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
 }
 
@@ -221,6 +223,38 @@ pub(crate) struct SpindleArgs {
     pub(crate) spindle_most_rpm: Option<f64>,
 }
 
+/// Cuts whose force does not change over the turn.
+#[derive(Debug, Args)]
+pub(crate) struct SteadyArgs {
+    /// A drill instead of a milling tool: --diameter-mm, --feed-per-turn-mm, perhaps --rpm
+    #[arg(long, help_heading = "Drilling and turning", requires = "feed_per_turn_mm", conflicts_with_all = ["turning", "tool", "tool_table", "width_mm", "depth_mm", "part", "climb", "conventional", "feed_per_tooth_mm", "feed_mm_per_min", "csv", "plot", "spindle_power_w"])]
+    pub(crate) drill: bool,
+    /// A turning tool: --depth-mm, --feed-per-turn-mm, perhaps --speed-m-per-min
+    #[arg(long, help_heading = "Drilling and turning", requires = "feed_per_turn_mm", conflicts_with_all = ["tool", "tool_table", "diameter_mm", "teeth", "width_mm", "part", "climb", "conventional", "feed_per_tooth_mm", "feed_mm_per_min", "rpm", "csv", "plot", "spindle_power_w"])]
+    pub(crate) turning: bool,
+    /// Feed per turn, mm
+    #[arg(long, value_name = "F", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) feed_per_turn_mm: Option<f64>,
+    /// Lips of the drill [default: 2]
+    #[arg(long, value_name = "N", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = whole, requires = "drill")]
+    pub(crate) lips: Option<usize>,
+    /// Angle between the lips, degrees [default: 118]
+    #[arg(long, value_name = "ANGLE", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "drill")]
+    pub(crate) point_angle_deg: Option<f64>,
+    /// Diameter of the hole that is there already, mm [default: none]
+    #[arg(long, value_name = "D", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "drill")]
+    pub(crate) hole_mm: Option<f64>,
+    /// Thrust of lips and chisel together over that of the lips [default: 1, no chisel]
+    #[arg(long, value_name = "FACTOR", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "drill")]
+    pub(crate) chisel_factor: Option<f64>,
+    /// Angle between the edge and the feed of the turning tool, degrees [default: 90]
+    #[arg(long, value_name = "ANGLE", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "turning")]
+    pub(crate) approach_angle_deg: Option<f64>,
+    /// Cutting speed of turning, m/min: power and --correct-speed need it
+    #[arg(long, value_name = "V", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "turning")]
+    pub(crate) speed_m_per_min: Option<f64>,
+}
+
 const CODES: &str = "\
 Exit codes:
   0    answered
@@ -240,6 +274,10 @@ Examples:
   kinetostat force --material Ti-6Al-4V --tool-table tools.toml \\
       --tool-number 3 --width-mm 1 --depth-mm 6 --climb \\
       --feed-per-tooth-mm 0.05 --json
+  kinetostat force --drill --material C45 --diameter-mm 8 \\
+      --feed-per-turn-mm 0.2 --rpm 1200
+  kinetostat force --turning --material C45 --depth-mm 2 \\
+      --feed-per-turn-mm 0.3 --approach-angle-deg 75 --speed-m-per-min 150
   kinetostat force --list-materials
 
 Axes of the force, which is that on the tool: x along the feed of the tool over

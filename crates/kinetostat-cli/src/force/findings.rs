@@ -17,8 +17,10 @@ pub(crate) fn findings(
     let mut list = Vec::new();
     list.extend(of_tool(answer, tool, cut));
     list.extend(of_spindle(answer, cut));
-    list.extend(of_chip(answer, material));
-    list.extend(of_speed(answer, material));
+    let (mean, largest) = (answer.cut.mean_chip_mm, answer.cut.largest_chip_mm);
+    list.extend(of_chip(material, mean, largest));
+    let speed = answer.cut.cutting_speed_m_per_min;
+    list.extend(speed.and_then(|speed| of_speed(material, speed)));
     list
 }
 
@@ -93,9 +95,9 @@ fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
     Some(Warning::new(WarningCode::SpindleExceeded, message))
 }
 
-fn of_chip(answer: &ForceAnswer, material: &Material) -> Option<Warning> {
+/// Chips, mm, that the law does not know.
+pub(crate) fn of_chip(material: &Material, mean: f64, largest: f64) -> Option<Warning> {
     let (from, to) = material.chip_mm?;
-    let (mean, largest) = (answer.cut.mean_chip_mm, answer.cut.largest_chip_mm);
     let found = match (mean < from, largest > to) {
         (false, false) => return None,
         (true, _) => format!("the mean chip is {} mm thick", number(mean, 3)),
@@ -110,9 +112,9 @@ fn of_chip(answer: &ForceAnswer, material: &Material) -> Option<Warning> {
     Some(Warning::new(WarningCode::ChipsOutsideMeasured, message))
 }
 
-fn of_speed(answer: &ForceAnswer, material: &Material) -> Option<Warning> {
+/// A cutting speed, m/min, that the law does not know.
+pub(crate) fn of_speed(material: &Material, speed: f64) -> Option<Warning> {
     let (from, to) = material.speed_m_per_min?;
-    let speed = answer.cut.cutting_speed_m_per_min?;
     if (from..=to).contains(&speed) {
         return None;
     }

@@ -54,15 +54,27 @@ pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Mat
     Ok(found.clone())
 }
 
+/// How a cut is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Made {
+    Milled,
+    /// Drilled or turned: an edge that stays in the cut, as in a turning test.
+    Steadily,
+}
+
 /// Its law for this cut. `rake_deg`: of the table of tools; `speed_m_per_min`: where the speed is to be corrected for.
 pub(crate) fn applied(
     material: &Material,
     args: &MaterialArgs,
+    made: Made,
     rake_deg: Option<f64>,
     speed_m_per_min: Option<f64>,
 ) -> Answer<Applied> {
     let correction = Correction {
-        process: args.process_factor,
+        process: match made {
+            Made::Milled => args.process_factor,
+            Made::Steadily => args.process_factor.or(Some(1.0)),
+        },
         cutting_speed_m_per_min: speed_m_per_min,
         rake_deg: args.rake_deg.or(rake_deg),
         cutting_material: match args.edge {
@@ -79,5 +91,10 @@ pub(crate) fn applied(
         ..Correction::default()
     };
     let applied = material.for_milling(&correction);
-    applied.map_err(|error| refused(&error))
+    let mut applied = applied.map_err(|error| refused(&error))?;
+    if args.process_factor.is_none() && made == Made::Steadily {
+        // Nobody gave the 1 that keeps the factor of milling away.
+        applied.factors.retain(|factor| factor.symbol != "K_PRO");
+    }
+    Ok(applied)
 }

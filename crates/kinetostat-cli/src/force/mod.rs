@@ -1,4 +1,4 @@
-//! `kinetostat force`: the force of one cut, for somebody who knows material, tool, depth and feed.
+//! `kinetostat force`: the force of one cut (milling; drilling and turning in short), for somebody who knows material, tool, depth and feed.
 //!
 //! It takes options and perhaps files of materials and tools, and gives mean, peak and the force that makes the wall, torque,
 //! power and harmonics, as text, JSON, table and drawing. It knows no machine and no program.
@@ -9,6 +9,7 @@ pub(crate) mod arguments;
 mod assumed;
 mod csv;
 mod cut;
+mod drilling;
 mod findings;
 mod list;
 mod material;
@@ -16,6 +17,7 @@ mod plot;
 mod refusal;
 mod text;
 mod tool;
+mod turning;
 
 use std::path::PathBuf;
 
@@ -24,7 +26,7 @@ use crate::files::input_files::InputFiles;
 use crate::force::answer_of::answer_of;
 use crate::force::arguments::ForceArgs;
 use crate::force::cut::cut_of;
-use crate::force::material::{applied, material, materials};
+use crate::force::material::{Made, applied, material, materials};
 use crate::force::tool::tool_of;
 use crate::ui::failure::{Answer, Failure};
 
@@ -43,6 +45,13 @@ pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
         return claimed.finish(&shown, &list::list(&materials));
     }
     let material = material(&materials, &args.material)?;
+    if args.steady.drill || args.steady.turning {
+        let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+        return match args.steady.drill {
+            true => drilling::run(args, &material, claimed),
+            false => turning::run(args, &material, claimed),
+        };
+    }
     let tool = tool_of(&files, &args.tool)?;
     inputs.extend(tool.table.clone());
     let cut = cut_of(&tool.tool, &args.cut, &args.spindle)?;
@@ -52,7 +61,13 @@ pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
         })?),
         false => None,
     };
-    let applied = applied(&material, &args.material, tool.rake_deg, speed)?;
+    let applied = applied(
+        &material,
+        &args.material,
+        Made::Milled,
+        tool.rake_deg,
+        speed,
+    )?;
     let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let question = text::question(&material.name, &tool, &cut);
     let answer = answer_of(question, &material, &applied, &tool, &cut)?;

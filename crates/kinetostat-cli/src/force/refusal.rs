@@ -34,7 +34,7 @@ const OPTIONS: [(&str, &str); 29] = [
     ("hole", "--hole-mm"),
     ("chisel factor", "--chisel-factor"),
     ("approach angle", "--approach-angle-deg"),
-    ("feed per turn", "--feed-mm-per-turn"),
+    ("feed per turn", "--feed-per-turn-mm"),
 ];
 
 /// An error of the library as the command says it: with the option, or with file and line.

@@ -2,7 +2,7 @@
 
 use kinetostat::number::largest_size;
 
-use crate::force::answer::{CutAnswer, ForceAnswer, ToolAnswer, WallAnswer};
+use crate::force::answer::{CutAnswer, ForceAnswer, MaterialAnswer, ToolAnswer, WallAnswer};
 use crate::force::cut::{Cut, Way};
 use crate::force::tool::CutTool;
 use crate::ui::layout::{columns, item, listed, wrapped};
@@ -256,9 +256,19 @@ fn harmonics(a: &ForceAnswer) -> String {
 
 /// Law, source, band, factors, and what is assumed.
 fn trust(a: &ForceAnswer) -> Vec<String> {
-    let m = &a.material;
     let across = a.mean.across_tool_n;
-    let spread = 0.01 * m.spread_percent;
+    let spread = 0.01 * a.material.spread_percent;
+    let band = format!(
+        "{} to {} N across the tool in the mean, up to {} N at the peak",
+        number((1.0 - spread) * across, 3),
+        number((1.0 + spread) * across, 3),
+        number(a.peak.across_tool_high_n, 3)
+    );
+    trust_in(&a.material, &band, &a.assumed)
+}
+
+/// The same with a band in words.
+pub(crate) fn trust_in(m: &MaterialAnswer, band: &str, assumed: &[String]) -> Vec<String> {
     let mut list = vec![
         format!(
             "{}: {}. Source: {}.",
@@ -267,11 +277,8 @@ fn trust(a: &ForceAnswer) -> Vec<String> {
             m.source.trim_end_matches('.')
         ),
         format!(
-            "Another batch, tool or table may give {} % more or less: {} to {} N across the tool in the mean, up to {} N at the peak.",
-            number(m.spread_percent, 2),
-            number((1.0 - spread) * across, 3),
-            number((1.0 + spread) * across, 3),
-            number(a.peak.across_tool_high_n, 3)
+            "Another batch, tool or table may give {} % more or less: {band}.",
+            number(m.spread_percent, 2)
         ),
     ];
     if m.factors.is_empty() {
@@ -285,6 +292,6 @@ fn trust(a: &ForceAnswer) -> Vec<String> {
             factor.reason
         ));
     }
-    list.extend(a.assumed.iter().cloned());
+    list.extend(assumed.iter().cloned());
     list
 }

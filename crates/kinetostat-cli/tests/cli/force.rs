@@ -546,3 +546,59 @@ fn every_shape_answers() {
         assert!(!a["walls"].as_array().expect("walls").is_empty(), "{more}");
     }
 }
+
+/// Closed forms of drilling and turning with the law of C45 as it stands in the library.
+#[test]
+fn drills_and_turning_tools_have_their_closed_forms() {
+    let here = directory();
+    let list = json(here.path(), &["force", "--list-materials"]);
+    let all = list["materials"].as_array().expect("a list");
+    let steel = all.iter().find(|m| m["name"] == "C45").expect("C45");
+    let law = &steel["law"]["kienzle"];
+    let specific = number(&law["specific_n_per_mm2"][0]);
+    let exponent = number(&law["exponent"][0]);
+    // Two lips: torque k_c f d^2/8 with k_c at h = f/2 sin(59 degrees).
+    let a = answer(
+        here.path(),
+        "force --drill --material C45 --diameter-mm 8 --feed-per-turn-mm 0.4 --rpm 1200",
+    );
+    let chip = 0.2 * 59_f64.to_radians().sin();
+    let torque = specific * chip.powf(-exponent) * 0.4 * 64.0 / 8.0;
+    close(number(&a["torque_n_mm"]), torque, 1e-9 * torque, "torque");
+    let power = 1e-3 * torque * 40.0 * std::f64::consts::PI;
+    close(number(&a["power_w"]), power, 1e-9 * power, "power");
+    assert_eq!(a["material"]["factors"].as_array().map(Vec::len), Some(0));
+    // An edge across the feed: k_c f a_p.
+    let a = answer(
+        here.path(),
+        "force --turning --material C45 --depth-mm 2 --feed-per-turn-mm 0.3 --speed-m-per-min 150",
+    );
+    let cutting = specific * 0.3_f64.powf(1.0 - exponent) * 2.0;
+    close(number(&a["cutting_n"]), cutting, 1e-9 * cutting, "cutting");
+    let power = cutting * 2.5;
+    close(number(&a["power_w"]), power, 1e-9 * power, "power");
+    for (line, needle) in [
+        (
+            "force --drill --material C45 --feed-per-turn-mm 0.4",
+            "--diameter-mm",
+        ),
+        (
+            "force --drill --material C45 --diameter-mm 8",
+            "--feed-per-turn-mm",
+        ),
+        (
+            "force --drill --material C45 --diameter-mm 8 --feed-per-turn-mm 0.4 --hole-mm 8",
+            "--hole-mm: hole of 8 mm",
+        ),
+        (
+            "force --turning --material C45 --depth-mm -2 --feed-per-turn-mm 0.3",
+            "--depth-mm: depth of cut of -2 mm",
+        ),
+        (
+            "force --turning --drill --material C45 --depth-mm 2 --feed-per-turn-mm 0.3",
+            "--drill",
+        ),
+    ] {
+        refused(here.path(), line, needle);
+    }
+}
