@@ -17,6 +17,7 @@ mod plot;
 mod refusal;
 mod text;
 mod tool;
+mod trust;
 mod turning;
 
 use std::path::PathBuf;

@@ -2,9 +2,10 @@
 
 use kinetostat::number::largest_size;
 
-use crate::force::answer::{CutAnswer, ForceAnswer, MaterialAnswer, ToolAnswer, WallAnswer};
+use crate::force::answer::{CutAnswer, ForceAnswer, ToolAnswer, WallAnswer};
 use crate::force::cut::{Cut, Way};
 use crate::force::tool::CutTool;
+use crate::force::trust::trust;
 use crate::ui::layout::{columns, item, listed, wrapped};
 use crate::ui::numbers::{number, triple};
 use crate::ui::warnings;
@@ -252,46 +253,4 @@ fn harmonics(a: &ForceAnswer) -> String {
         rows.push(row);
     }
     columns(&rows, 2)
-}
-
-/// Law, source, band, factors, and what is assumed.
-fn trust(a: &ForceAnswer) -> Vec<String> {
-    let across = a.mean.across_tool_n;
-    let spread = 0.01 * a.material.spread_percent;
-    let band = format!(
-        "{} to {} N across the tool in the mean, up to {} N at the peak",
-        number((1.0 - spread) * across, 3),
-        number((1.0 + spread) * across, 3),
-        number(a.peak.across_tool_high_n, 3)
-    );
-    trust_in(&a.material, &band, &a.assumed)
-}
-
-/// The same with a band in words.
-pub(crate) fn trust_in(m: &MaterialAnswer, band: &str, assumed: &[String]) -> Vec<String> {
-    let mut list = vec![
-        format!(
-            "{}: {}. Source: {}.",
-            m.name,
-            m.law,
-            m.source.trim_end_matches('.')
-        ),
-        format!(
-            "Another batch, tool or table may give {} % more or less: {band}.",
-            number(m.spread_percent, 2)
-        ),
-    ];
-    if m.factors.is_empty() {
-        list.push("No correction: the coefficients hold as they were measured.".to_owned());
-    }
-    for factor in &m.factors {
-        list.push(format!(
-            "{} = {}: {}.",
-            factor.symbol,
-            number(factor.value, 4),
-            factor.reason
-        ));
-    }
-    list.extend(assumed.iter().cloned());
-    list
 }

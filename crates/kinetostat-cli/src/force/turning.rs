@@ -11,7 +11,7 @@ use crate::force::arguments::ForceArgs;
 use crate::force::findings::{of_chip, of_speed};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
-use crate::force::text::trust_in;
+use crate::force::trust::trust_in;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::number;
