@@ -11,5 +11,6 @@ mod milling_plain;
 mod milling_reference;
 mod plain;
 mod spindle;
+mod thickness;
 mod tool_tables;
 mod turning;

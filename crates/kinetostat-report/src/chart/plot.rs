@@ -369,6 +369,27 @@ mod tests {
     }
 
     #[test]
+    fn plots_below_each_other_have_their_frames_in_line() {
+        let plot = |title: &str, high: f64| Plot {
+            title: title.into(),
+            lines: vec![PlotLine {
+                points: vec![(0.0, 0.0), (360.0, high)],
+                ..PlotLine::default()
+            }],
+            ..Plot::default()
+        };
+        let svg = plot("above", 2.0).svg_above(&[plot("below", 123_456.0)]);
+        assert!(svg.contains(">above<") && svg.contains(">below<"));
+        let left: Vec<&str> = svg
+            .split("class=\"ground\" x=\"")
+            .skip(1)
+            .filter_map(|rest| rest.split('"').next())
+            .collect();
+        assert_eq!(left.len(), 2);
+        assert_eq!(left[0], left[1]);
+    }
+
+    #[test]
     fn a_shape_is_as_long_both_ways() {
         let plot = Plot {
             lines: vec![PlotLine {
