@@ -8,6 +8,9 @@ use crate::force::tool::CutTool;
 pub(crate) fn assumed(material: &Material, tool: &CutTool, cut: &Cut) -> Vec<String> {
     let mut list = material.assumptions.clone();
     let mut say = |text: &str| list.push(text.to_owned());
+    if material.chip_mm.is_none() {
+        say("At which thicknesses of chip its law was measured is not known.");
+    }
     say("Tool and part are rigid: the cut is as wide and as deep as it was asked.");
     match cut.part {
         Part::Slot => {}

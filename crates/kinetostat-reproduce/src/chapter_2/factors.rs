@@ -13,8 +13,8 @@ const MIDDLE: &str = "The middle of the printed range is taken where nobody give
 const GIVEN: &str = "Whoever knows the wear gives the factor; here the middle of the range.";
 
 pub(crate) fn table_2_1() -> Result<Contents, Cause> {
-    let mut items = speed();
-    items.splice(0..0, [process()?]);
+    let mut items = vec![process()?];
+    items.extend(speed());
     items.extend(rake());
     items.extend(others()?);
     Ok(Contents {
