@@ -16,7 +16,7 @@ use crate::force::refusal::{refused, within};
 use crate::force::trust::trust_in;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
-use crate::ui::numbers::number;
+use crate::ui::numbers::{given, number};
 use crate::ui::warnings;
 
 #[derive(Serialize)]
@@ -126,12 +126,12 @@ fn text(a: &DrillAnswer) -> String {
     let mut out = wrapped(&a.question, 0);
     let mut tool = format!(
         "{} mm, {} lips, point angle {} deg",
-        number(a.diameter_mm, 5),
+        given(a.diameter_mm),
         a.lips,
-        number(a.point_angle_deg, 4)
+        given(a.point_angle_deg)
     );
     if a.hole_mm > 0.0 {
-        tool.push_str(&format!(", in a hole of {} mm", number(a.hole_mm, 5)));
+        tool.push_str(&format!(", in a hole of {} mm", given(a.hole_mm)));
     }
     let power = match (a.power_w, a.cutting_speed_m_per_min) {
         (Some(power), Some(speed)) => {
@@ -145,7 +145,7 @@ fn text(a: &DrillAnswer) -> String {
             "feed",
             format!(
                 "{} mm per turn, chips of {} mm",
-                number(a.feed_per_turn_mm, 4),
+                given(a.feed_per_turn_mm),
                 number(a.chip_mm, 3)
             ),
         ),

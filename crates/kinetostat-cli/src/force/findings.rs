@@ -6,7 +6,7 @@ use kinetostat_machining::{Warning, WarningCode};
 use crate::force::answer::ForceAnswer;
 use crate::force::cut::Cut;
 use crate::force::tool::CutTool;
-use crate::ui::numbers::number;
+use crate::ui::numbers::{given, number};
 
 pub(crate) fn findings(
     answer: &ForceAnswer,
@@ -34,8 +34,8 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
                 WarningCode::ChipOverLimit,
                 format!(
                     "the feed of {} mm per tooth is more than the {} mm that the tool allows",
-                    number(feed, 3),
-                    number(most, 3)
+                    given(feed),
+                    given(most)
                 ),
             );
         } else if chip > most {
@@ -44,18 +44,18 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
                 format!(
                     "with the run-out a tooth cuts chips of {} mm, more than the {} mm that the tool allows",
                     number(chip, 3),
-                    number(most, 3)
+                    given(most)
                 ),
             );
         }
     }
-    let depth = number(cut.depth_mm, 4);
+    let depth = given(cut.depth_mm);
     if let Some(flutes) = tool.flute_length_mm.filter(|flutes| cut.depth_mm > *flutes) {
         say(
             WarningCode::ToolTooShort,
             format!(
                 "the cut is {depth} mm deep and the edges are {} mm long: above them the shank rubs, and the force is not this one",
-                number(flutes, 4)
+                given(flutes)
             ),
         );
     }
@@ -64,7 +64,7 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
             WarningCode::ToolTooShort,
             format!(
                 "the cut is {depth} mm deep and the tool stands {} mm out of its holder: the holder runs into the part",
-                number(out, 4)
+                given(out)
             ),
         );
     }
@@ -77,8 +77,8 @@ fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
     let message = match curve.exceeded_by(rpm, answer.mean.torque_n_mm)? {
         SpindleFinding::Speed { most_rpm, .. } => format!(
             "the cut needs {} turns per minute, and the spindle turns up to {}",
-            number(rpm, 5),
-            number(most_rpm, 5)
+            given(rpm),
+            given(most_rpm)
         ),
         SpindleFinding::Torque {
             torque_n_m, limit, ..
@@ -86,7 +86,7 @@ fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
             "the cut needs {} N m ({} W) in the mean, and at {} turns per minute the spindle gives {} N m ({} W): it slows down or stops",
             number(torque_n_m, 3),
             number(answer.mean.power_w.unwrap_or(f64::NAN), 3),
-            number(rpm, 5),
+            given(rpm),
             number(limit.torque_n_m, 3),
             number(limit.power_w, 3)
         ),
@@ -106,8 +106,8 @@ pub(crate) fn of_chip(material: &Material, mean: f64, largest: f64) -> Option<Wa
     let message = format!(
         "{found}, and the law of {} was measured from {} to {} mm: beyond, it is a guess, and the spread does not count that",
         material.name,
-        number(from, 3),
-        number(to, 3)
+        given(from),
+        given(to)
     );
     Some(Warning::new(WarningCode::ChipsOutsideMeasured, message))
 }
@@ -122,8 +122,8 @@ pub(crate) fn of_speed(material: &Material, speed: f64) -> Option<Warning> {
         "the cutting speed is {} m/min, and the law of {} was measured from {} to {} m/min",
         number(speed, 4),
         material.name,
-        number(from, 4),
-        number(to, 4)
+        given(from),
+        given(to)
     );
     Some(Warning::new(WarningCode::SpeedOutsideMeasured, message))
 }

@@ -4,7 +4,7 @@ use kinetostat_cutting::{ForceLaw, Law, Material, Materials};
 
 use crate::force::answer::{ListedMaterial, MaterialList};
 use crate::ui::layout::{listed, wrapped};
-use crate::ui::numbers::number;
+use crate::ui::numbers::{given, number};
 
 /// Chip with which the materials are compared, mm.
 const CHIP_MM: f64 = 0.1;
@@ -71,7 +71,7 @@ fn row(material: &Material) -> Vec<String> {
     vec![
         material.name.clone(),
         law.to_owned(),
-        format!("{} %", number(100.0 * material.spread, 3)),
+        format!("{} %", given(100.0 * material.spread)),
         number(material.edge_force(CHIP_MM).tangential / CHIP_MM, 4),
         process.to_owned(),
     ]

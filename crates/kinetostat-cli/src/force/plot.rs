@@ -4,7 +4,7 @@ use kinetostat_report::{Plot, PlotLine};
 
 use crate::force::answer::{AtAngle, ForceAnswer};
 use crate::force::text::milling;
-use crate::ui::numbers::number;
+use crate::ui::numbers::given;
 
 pub(crate) fn drawing(a: &ForceAnswer) -> String {
     let names = [
@@ -43,9 +43,9 @@ fn title(a: &ForceAnswer) -> String {
     format!(
         "{}: {} mm wide, {} mm deep, {} mm per tooth in {}",
         milling(c.milling),
-        number(c.width_mm, 4),
-        number(c.depth_mm, 4),
-        number(c.feed_per_tooth_mm, 3),
+        given(c.width_mm),
+        given(c.depth_mm),
+        given(c.feed_per_tooth_mm),
         a.material.name
     )
 }

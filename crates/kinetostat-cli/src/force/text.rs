@@ -6,8 +6,8 @@ use crate::force::answer::{CutAnswer, ForceAnswer, ToolAnswer, WallAnswer};
 use crate::force::cut::{Cut, Way};
 use crate::force::tool::CutTool;
 use crate::force::trust::trust;
-use crate::ui::layout::{columns, item, listed, wrapped};
-use crate::ui::numbers::{number, triple};
+use crate::ui::layout::{columns, item, named, wrapped};
+use crate::ui::numbers::{given, number, triple};
 use crate::ui::warnings;
 
 /// What is asked, in one sentence.
@@ -36,7 +36,9 @@ pub(crate) fn milling(word: &str) -> &'static str {
 
 pub(crate) fn answer_text(a: &ForceAnswer) -> String {
     let mut out = wrapped(&a.question, 0);
-    out.push_str(&listed(&what_is_cut(a), 2));
+    for (name, text) in what_is_cut(a) {
+        out.push_str(&named(name, 5, &text));
+    }
     out.push_str("\nForce on the tool, N\n");
     out.push_str(&forces(a));
     out.push_str(&wrapped(
@@ -46,9 +48,7 @@ pub(crate) fn answer_text(a: &ForceAnswer) -> String {
     out.push_str("\nTorque of the spindle\n");
     out.push_str(&torques(a));
     out.push_str("\nWhat bends the machine, and what prints into the wall\n");
-    for text in meaning(a) {
-        out.push_str(&item(&text));
-    }
+    out.push_str(&meaning(a));
     out.push_str("\nWhat shakes it: harmonics, amplitudes in N\n");
     out.push_str(&harmonics(a));
     out.push_str("\nHow far to trust it\n");
@@ -67,19 +67,19 @@ fn figure(value: f64, size: f64) -> String {
     }
 }
 
-fn what_is_cut(a: &ForceAnswer) -> Vec<Vec<String>> {
+fn what_is_cut(a: &ForceAnswer) -> Vec<(&'static str, String)> {
     let c = &a.cut;
     let mut rows = vec![
         ("tool", tool_text(&a.tool)),
         ("cut", cut_text(c, a.tool.diameter_mm)),
     ];
-    let mut feed = format!("{} mm per tooth", number(c.feed_per_tooth_mm, 4));
+    let mut feed = format!("{} mm per tooth", given(c.feed_per_tooth_mm));
     if c.down_feed_per_tooth_mm != 0.0 {
-        let down = number(c.down_feed_per_tooth_mm, 4);
+        let down = given(c.down_feed_per_tooth_mm);
         feed.push_str(&format!(", {down} mm down the tool"));
     }
     if let (Some(per_min), Some(rpm)) = (c.feed_mm_per_min, c.rpm) {
-        let (per_min, rpm) = (number(per_min, 5), number(rpm, 6));
+        let (per_min, rpm) = (given(per_min), given(rpm));
         feed.push_str(&format!(", {per_min} mm/min at {rpm} turns per minute"));
     }
     rows.push(("feed", feed));
@@ -99,31 +99,29 @@ fn what_is_cut(a: &ForceAnswer) -> Vec<Vec<String>> {
         number(c.arc_to_deg, 4)
     );
     rows.push(("chip", chip));
-    rows.into_iter()
-        .map(|(name, text)| vec![name.to_owned(), text])
-        .collect()
+    rows
 }
 
 fn tool_text(t: &ToolAnswer) -> String {
     let mut text = format!(
         "{}, {} mm, {} {}, helix {} deg",
         t.shape,
-        number(t.diameter_mm, 5),
+        given(t.diameter_mm),
         t.teeth,
         match t.teeth {
             1 => "tooth",
             _ => "teeth",
         },
-        number(t.helix_deg, 4)
+        given(t.helix_deg)
     );
     if let Some(corner) = t.corner_radius_mm {
-        text.push_str(&format!(", corner {} mm", number(corner, 4)));
+        text.push_str(&format!(", corner {} mm", given(corner)));
     }
     if let Some(lead) = t.lead_angle_deg {
-        text.push_str(&format!(", lead angle {} deg", number(lead, 4)));
+        text.push_str(&format!(", lead angle {} deg", given(lead)));
     }
     if t.run_out_um > 0.0 {
-        text.push_str(&format!(", run-out {} um", number(t.run_out_um, 3)));
+        text.push_str(&format!(", run-out {} um", given(t.run_out_um)));
     }
     text
 }
@@ -138,10 +136,10 @@ fn cut_text(c: &CutAnswer, diameter_mm: f64) -> String {
         false => "",
     };
     format!(
-        "{} mm wide ({} % of the diameter), {} mm deep{part}{turning}",
-        number(c.width_mm, 4),
+        "{} mm wide, {} % of the diameter, {} mm deep{part}{turning}",
+        given(c.width_mm),
         number(100.0 * c.width_mm / diameter_mm, 3),
-        number(c.depth_mm, 4)
+        given(c.depth_mm)
     )
 }
 
@@ -194,17 +192,23 @@ fn torques(a: &ForceAnswer) -> String {
 }
 
 /// Which force does what.
-fn meaning(a: &ForceAnswer) -> Vec<String> {
+fn meaning(a: &ForceAnswer) -> String {
     let load = &a.mean.job_load;
     let size = largest_size(a.mean.force_n);
-    let mut list = vec![format!(
-        "The mean bends the machine: its drives and links are too heavy to follow single teeth. As load of a job: milling = {{ radial_n = {}, tangential_n = {}, axial_n = {} }}.",
+    let mut out = item(
+        "The mean bends the machine: its drives and links are too heavy to follow single teeth. As load of a job:",
+    );
+    // A line that can be copied.
+    out.push_str(&format!(
+        "    milling = {{ radial_n = {}, tangential_n = {}, axial_n = {} }}\n",
         figure(load.radial_n, size),
         figure(load.tangential_n, size),
         figure(load.axial_n, size)
-    )];
-    list.extend(a.walls.iter().map(|wall| wall_text(wall, a)));
-    list
+    ));
+    for wall in &a.walls {
+        out.push_str(&item(&wall_text(wall, a)));
+    }
+    out
 }
 
 fn wall_text(wall: &WallAnswer, a: &ForceAnswer) -> String {
@@ -232,7 +236,7 @@ fn wall_text(wall: &WallAnswer, a: &ForceAnswer) -> String {
         wall.wall,
         say(wall.away_from_wall_n),
         say(away(a.mean.force_n)),
-        number(last, 4),
+        given(last),
         heights.join(", ")
     )
 }

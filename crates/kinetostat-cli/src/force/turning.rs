@@ -14,7 +14,7 @@ use crate::force::refusal::{refused, within};
 use crate::force::trust::trust_in;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
-use crate::ui::numbers::number;
+use crate::ui::numbers::{given, number};
 use crate::ui::warnings;
 
 #[derive(Serialize)]
@@ -121,9 +121,9 @@ fn text(a: &TurningAnswer) -> String {
             "cut",
             format!(
                 "{} mm deep, {} mm per turn, edge at {} deg to the feed",
-                number(a.depth_mm, 4),
-                number(a.feed_per_turn_mm, 4),
-                number(a.approach_angle_deg, 4)
+                given(a.depth_mm),
+                given(a.feed_per_turn_mm),
+                given(a.approach_angle_deg)
             ),
         ),
         (

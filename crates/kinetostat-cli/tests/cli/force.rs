@@ -244,7 +244,7 @@ fn what_tool_and_spindle_cannot_bear_is_a_warning() {
             "turns up to 9000",
         ),
         // C45 was measured from 0.113 to 1.131 mm.
-        ("--rpm 3000", "chips_outside_measured", "0.113 to 1.13"),
+        ("--rpm 3000", "chips_outside_measured", "0.113 to 1.131"),
     ] {
         let a = answer(here.path(), &format!("{SHORT} {more}"));
         let list = a["warnings"].as_array().expect("a list");
@@ -459,9 +459,9 @@ fn files_and_text_say_the_same() {
     let text = flat(&said.out);
     for needle in [
         "58.79",
-        "131.2",
+        "131.3",
         "29.95",
-        "276.",
+        "275.",
         "812",
         "680",
         "linear law with edge force",
