@@ -221,24 +221,38 @@ fn wall_text(wall: &WallAnswer, a: &ForceAnswer) -> String {
         true => format!("{} N into it", figure(-force, size)),
         false => format!("{} N away from it", figure(force, size)),
     };
-    let heights: Vec<String> = wall
-        .heights
-        .iter()
-        .map(|at| figure(away(at.force_n), size))
-        .collect();
-    let last = wall.heights.last().map_or(0.0, |at| at.above_tip_mm);
     let effect = match wall.away_from_wall_n < 0.0 {
         true => "so too much comes off",
         false => "so material stays",
     };
     format!(
-        "The {} wall is made only at the moments at which an edge passes it. The force is then {}, {effect}; the mean over the turn is {}. The first one prints into the wall. From the tip to {} mm above it: {} N away from the wall.",
+        "The {} wall is made only at the moments at which an edge passes it. The force is then {}, {effect}; the mean over the turn is {}. The first one prints into the wall. {}",
         wall.wall,
         say(wall.away_from_wall_n),
         say(away(a.mean.force_n)),
-        given(last),
-        heights.join(", ")
+        along_the_wall(wall, away, size)
     )
+}
+
+/// How the force away from the wall changes from the tip upward.
+fn along_the_wall(wall: &WallAnswer, away: impl Fn([f64; 3]) -> f64, size: f64) -> String {
+    let forces: Vec<f64> = wall.heights.iter().map(|at| away(at.force_n)).collect();
+    let last = wall.heights.last().map_or(0.0, |at| at.above_tip_mm);
+    let first = forces.first().copied().unwrap_or(f64::NAN);
+    match forces
+        .iter()
+        .all(|force| (force - first).abs() <= 1e-3 * size)
+    {
+        true => "It is the same at all heights.".to_owned(),
+        false => {
+            let shown: Vec<String> = forces.iter().map(|force| figure(*force, size)).collect();
+            format!(
+                "From the tip to {} mm above it: {} N away from the wall.",
+                given(last),
+                shown.join(", ")
+            )
+        }
+    }
 }
 
 fn harmonics(a: &ForceAnswer) -> String {
