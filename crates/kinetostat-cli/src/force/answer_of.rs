@@ -1,6 +1,8 @@
 //! From tool, cut and law to the answer.
 
-use kinetostat_cutting::{Applied, CutForce, Material, Milling, Revolution, Shape, Side, Wall};
+use kinetostat_cutting::{
+    Applied, CutForce, Material, Milling, Revolution, Shape, Side, Tool, Wall,
+};
 
 use crate::force::answer::{
     AtAngle, AtHeight, CutAnswer, FactorAnswer, ForceAnswer, HarmonicAnswer, JobLoad,
@@ -12,9 +14,12 @@ use crate::force::findings::findings;
 use crate::force::tool::CutTool;
 use crate::ui::failure::{Answer, Failure};
 
-/// Angles of a revolution at which the force is computed, and per tooth at least and at most.
-const ANGLES: usize = 14_400;
-const ANGLES_PER_TOOTH: (usize, usize) = (36, 360);
+/// Angles per tooth at which the force is computed, at least and at most.
+const ANGLES_PER_TOOTH: (usize, usize) = (12, 360);
+
+/// Edges at angles that are computed: with run-out every tooth at every angle, and each piece of an edge that winds about the
+/// tool. A cutter of many teeth has fewer angles for each.
+const EDGES: f64 = 4e5;
 
 /// Harmonics of the teeth that are named.
 const HARMONICS: usize = 4;
@@ -36,9 +41,7 @@ pub(crate) fn answer_of(
     let chip = milling.chip_thickness().ok_or_else(|| {
         Failure::input("nothing is cut: the tool rises faster than it goes ahead")
     })?;
-    let (least, most) = ANGLES_PER_TOOTH;
-    let per_tooth = (ANGLES / tool.teeth()).clamp(least, most);
-    let revolution = milling.revolution_at(per_tooth);
+    let revolution = milling.revolution_at(angles_per_tooth(tool, cut));
     let mean = milling.mean();
     let peak = peak(&revolution, cut, applied.spread);
     let contact = cut.engagement.contacts.first();
@@ -87,6 +90,13 @@ pub(crate) fn answer_of(
     };
     answer.warnings = findings(&answer, material, of_tool, cut);
     Ok(answer)
+}
+
+fn angles_per_tooth(tool: &Tool, cut: &Cut) -> usize {
+    let teeth = tool.teeth() as f64;
+    let windings = 1.0 + (tool.lag_per_mm() * cut.depth_mm).abs() / std::f64::consts::TAU;
+    let each = (EDGES / (teeth * teeth * windings)) as usize;
+    each.clamp(ANGLES_PER_TOOTH.0, ANGLES_PER_TOOTH.1)
 }
 
 /// Material and law as they were used.

@@ -8,6 +8,9 @@ use crate::force::arguments::{CutArgs, PartWord, SpindleArgs};
 use crate::force::refusal::{refused, within};
 use crate::ui::failure::{Answer, Failure};
 
+/// Diameters of the tool: no cut is deeper.
+const DEEPEST: f64 = 50.0;
+
 /// Where the part is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
@@ -69,7 +72,8 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
     };
     let width_mm = given("--width-mm AE", args.width_mm, "its width across the feed")?;
     let depth_mm = given("--depth-mm AP", args.depth_mm, "its depth along the tool")?;
-    within("depth of cut", depth_mm, 1e-6..=1e4, "mm")?;
+    let deepest = f64::min(1e4, DEEPEST * tool.diameter_mm());
+    within("depth of cut", depth_mm, 1e-6..=deepest, "mm")?;
     let rpm = args
         .rpm
         .map(|rpm| within("speed of the spindle", rpm, 1e-3..=1e6, "turns per minute"))

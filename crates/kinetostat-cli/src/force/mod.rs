@@ -29,6 +29,7 @@ use crate::force::arguments::ForceArgs;
 use crate::force::cut::cut_of;
 use crate::force::material::{Made, applied, material, materials};
 use crate::force::tool::tool_of;
+use crate::ui::background::interruptible;
 use crate::ui::failure::{Answer, Failure};
 
 pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
@@ -71,7 +72,8 @@ pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
     )?;
     let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
     let question = text::question(&material.name, &tool, &cut);
-    let answer = answer_of(question, &material, &applied, &tool, &cut)?;
+    // A cutter of two hundred teeth may take seconds.
+    let answer = interruptible(move |_| answer_of(question, &material, &applied, &tool, &cut))?;
     let shown = Shown {
         text: text::answer_text(&answer),
         csv: csv::of_force(&answer)?,

@@ -381,6 +381,11 @@ fn wrong_input_names_its_option_and_writes_nothing() {
         ("--width-mm 2", "--width-mm inf", "--width-mm"),
         (
             "--depth-mm 4",
+            "--depth-mm 4000",
+            "--depth-mm: depth of cut of 4000 mm; expected 0.000001 to 500 mm",
+        ),
+        (
+            "--depth-mm 4",
             "--depth-mm -4",
             "--depth-mm: depth of cut of -4 mm",
         ),
