@@ -16,6 +16,7 @@ mod demo;
 mod end_condition;
 mod equilibria;
 mod files;
+mod force;
 mod import;
 mod job;
 mod machine;
@@ -77,6 +78,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),
+        Command::Force(args) => force::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),

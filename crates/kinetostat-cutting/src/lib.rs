@@ -31,7 +31,9 @@ pub use law::{
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
 pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
-pub use milling::{CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall};
+pub use milling::{
+    ChipThickness, CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall,
+};
 pub use spindle::{SpindleCurve, SpindleFinding, SpindleLimit, SpindlePoint};
 pub use stock::{Probe, Station, Stock, StockSettings};
 pub use tool::{RunOut, Shape, Tool};

@@ -50,8 +50,10 @@ pub enum WarningCode {
     LongLever,
     /// A force that pulls the tool into the part.
     PullingForce,
-    /// Something about a cut that no cut should be.
-    Cut,
+    /// A rapid goes through material.
+    RapidThroughStock,
+    /// The tool goes down into material with its whole end.
+    Plunge,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.
@@ -86,6 +88,16 @@ pub enum WarningCode {
     SearchEnds,
     /// Branches cross that are not followed.
     MoreBranches,
+    /// Chips of another thickness than those with which the material was measured.
+    ChipsOutsideMeasured,
+    /// A cutting speed at which the material was not measured.
+    SpeedOutsideMeasured,
+    /// A feed per tooth, or a chip, beyond what the tool bears.
+    ChipOverLimit,
+    /// A cut that asks more of the spindle than it has.
+    SpindleExceeded,
+    /// A cut that is deeper than the edges of its tool, or than the tool stands out of its holder.
+    ToolTooShort,
 }
 
 /// Something a person should know and did not ask for.

@@ -91,6 +91,16 @@ impl Svg {
         );
     }
 
+    /// Another drawing, so many pixels below the top of this one.
+    pub(crate) fn below(&mut self, down: f64, other: &Self) {
+        let _ = write!(
+            self.body,
+            "<g transform=\"translate(0 {})\">{}</g>",
+            pixel(down),
+            other.body
+        );
+    }
+
     /// The drawing as an element for a page.
     pub(crate) fn inline(&self, class: &str, size: (f64, f64), description: &str) -> String {
         format!(

@@ -41,9 +41,18 @@ pub enum Cause {
     /// A preset could not be read.
     #[error(transparent)]
     Model(#[from] kinetostat_model::ModelError),
+    /// A material, a tool or a cut was refused.
+    #[error(transparent)]
+    Cutting(Box<kinetostat_cutting::CutError>),
     /// An equilibrium, a point or a factor that the entry is about was not found.
     #[error("{0} was not found")]
     Missing(String),
+}
+
+impl From<kinetostat_cutting::CutError> for Cause {
+    fn from(error: kinetostat_cutting::CutError) -> Self {
+        Self::Cutting(Box::new(error))
+    }
 }
 
 /// Why an entry could not be computed.

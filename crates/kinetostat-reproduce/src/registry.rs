@@ -18,6 +18,16 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         chapter_2::text_2_2,
     ),
     (
+        "table-2.1",
+        "Correction factors of the cutting force",
+        chapter_2::table_2_1,
+    ),
+    (
+        "table-2.2",
+        "Specific cutting forces of high performance materials",
+        chapter_2::table_2_2,
+    ),
+    (
         "table-2.3",
         "Cutting forces for high performance materials",
         chapter_2::table_2_3,

@@ -13,6 +13,7 @@ use crate::curve::arguments::CurveArgs;
 use crate::deflect::arguments::DeflectArgs;
 use crate::demo::arguments::DemoArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
+use crate::force::arguments::ForceArgs;
 use crate::import::arguments::ImportArgs;
 use crate::map::arguments::MapArgs;
 use crate::model::arguments::ModelArgs;
@@ -41,6 +42,8 @@ use crate::stiffness::arguments::StiffnessArgs;
         "      write the program that cuts where it should\n",
         "  kinetostat curve three_link_z --direction -1 0 0 --displacement-mm 0 400\n",
         "      push a chain together: which force, and where does it buckle?\n",
+        "  kinetostat force --list-materials\n",
+        "      what can be cut: then the force of one cut, from tool, width, depth, feed\n",
         "  kinetostat check my_robot.toml\n",
         "      what does the model file say, in words?\n\n",
         "Exit codes:\n",
@@ -66,6 +69,7 @@ pub(crate) enum Command {
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),
+    Force(Box<ForceArgs>),
     Check(CheckArgs),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

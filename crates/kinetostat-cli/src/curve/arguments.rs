@@ -2,7 +2,8 @@
 
 use clap::{ArgAction, Args};
 
-use crate::end_condition::arguments::{CurveOutputs, EndArgs};
+use crate::end_condition::arguments::EndArgs;
+use crate::files::answer_files::AnswerFiles;
 use crate::options::{EXIT_CODES, number, whole};
 use crate::place::arguments::PlaceArgs;
 
@@ -62,7 +63,7 @@ pub(crate) struct CurveArgs {
     #[arg(long, help_heading = "Search")]
     pub(crate) all: bool,
     #[command(flatten)]
-    pub(crate) outputs: CurveOutputs,
+    pub(crate) outputs: AnswerFiles,
 }
 
 const CURVE_HELP: &str = "\

@@ -1,7 +1,8 @@
 //! All points of a curve as a table.
 
 use crate::curve::answer::{CurveAnswer, PointAnswer};
-use crate::end_condition::table::{WRENCH_AND_PLACE, cell, column, written, yes};
+use crate::end_condition::table::{WRENCH_AND_PLACE, column, yes};
+use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::Answer;
 
 pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {

@@ -26,10 +26,11 @@ use crate::curve::answer::CurveAnswer;
 use crate::curve::answer_of::answer_of;
 use crate::curve::arguments::CurveArgs;
 use crate::curve::query::curve_query;
-use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
+use crate::end_condition::answering::{CommandQuery, Work, answer_query};
 use crate::end_condition::chain::{moves_of, serial_chain};
 use crate::end_condition::loads::with_loads;
 use crate::end_condition::machine::CommandedMachine;
+use crate::files::answer_files::Shown;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::Answer;
 

@@ -1,6 +1,4 @@
-//! Options that `curve` and `equilibria` share: what holds the tool, what acts on it, and where the answer goes.
-
-use std::path::PathBuf;
+//! Options that `curve` and `equilibria` share: what holds the tool, and what acts on it.
 
 use clap::{ArgAction, Args};
 
@@ -34,21 +32,4 @@ pub(crate) struct EndArgs {
     /// of several limbs LIMB:NODE=FX,FY,FZ
     #[arg(long, value_name = "NODE=FX,FY,FZ", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Constant load")]
     pub(crate) load: Vec<String>,
-}
-
-/// Where the answer goes besides the screen.
-#[derive(Debug, Default, Args)]
-pub(crate) struct CurveOutputs {
-    /// Print the result as JSON (the text goes to the standard error), or write it to FILE
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-", help_heading = "Outputs")]
-    pub(crate) json: Option<PathBuf>,
-    /// All points as a table (CSV)
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    pub(crate) csv: Option<PathBuf>,
-    /// The drawing (SVG)
-    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
-    pub(crate) plot: Option<PathBuf>,
-    /// Overwrite outputs that exist (never an input)
-    #[arg(long, help_heading = "Outputs")]
-    pub(crate) force_overwrite: bool,
 }

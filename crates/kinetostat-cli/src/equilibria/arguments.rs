@@ -2,7 +2,8 @@
 
 use clap::Args;
 
-use crate::end_condition::arguments::{CurveOutputs, EndArgs};
+use crate::end_condition::arguments::EndArgs;
+use crate::files::answer_files::AnswerFiles;
 use crate::options::{EXIT_CODES, number, whole};
 use crate::place::arguments::PlaceArgs;
 
@@ -43,7 +44,7 @@ pub(crate) struct EquilibriaArgs {
     #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) fruitless: Option<usize>,
     #[command(flatten)]
-    pub(crate) outputs: CurveOutputs,
+    pub(crate) outputs: AnswerFiles,
 }
 
 const EQUILIBRIA_HELP: &str = "\

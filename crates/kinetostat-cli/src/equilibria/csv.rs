@@ -1,7 +1,8 @@
 //! All equilibria as a table.
 
-use crate::end_condition::table::{WRENCH_AND_PLACE, cell, column, written, yes};
+use crate::end_condition::table::{WRENCH_AND_PLACE, column, yes};
 use crate::equilibria::answer::EquilibriaAnswer;
+use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::Answer;
 
 pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {

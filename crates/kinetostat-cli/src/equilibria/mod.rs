@@ -14,7 +14,7 @@ mod text;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 
-use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
+use crate::end_condition::answering::{CommandQuery, Work, answer_query};
 use crate::end_condition::chain::{moves_of, serial_chain};
 use crate::end_condition::loads::with_loads;
 use crate::end_condition::machine::CommandedMachine;
@@ -22,6 +22,7 @@ use crate::equilibria::answer::EquilibriaAnswer;
 use crate::equilibria::answer_of::answer_of;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::equilibria::query::equilibria_query;
+use crate::files::answer_files::Shown;
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::Answer;
 

@@ -3,6 +3,7 @@
 //! It takes paths and gives bytes, models and refusals in words; outputs are written beside their targets and put
 //! in place together, or not at all ([`outputs`], [`journal`]). It knows nothing of what is in them.
 
+pub(crate) mod answer_files;
 pub(crate) mod hash;
 pub(crate) mod input_files;
 pub(crate) mod journal;

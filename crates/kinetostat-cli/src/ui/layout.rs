@@ -20,6 +20,19 @@ pub(crate) fn item(text: &str) -> String {
     out
 }
 
+/// A line of a list of names and texts: the name in so many characters, the lines of the text below each other.
+pub(crate) fn named(name: &str, width: usize, text: &str) -> String {
+    let mut out = String::new();
+    let name = safe(name);
+    wrap_into(
+        &mut out,
+        text,
+        &format!("  {name:<width$}  "),
+        &" ".repeat(width + 4),
+    );
+    out
+}
+
 fn wrap_into(out: &mut String, text: &str, first: &str, rest: &str) {
     let text = safe(text);
     let mut line = first.to_owned();

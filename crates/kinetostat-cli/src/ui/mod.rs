@@ -5,6 +5,7 @@
 
 pub(crate) mod background;
 pub(crate) mod csv_cell;
+pub(crate) mod csv_table;
 pub(crate) mod failure;
 pub(crate) mod fault_list;
 pub(crate) mod json;

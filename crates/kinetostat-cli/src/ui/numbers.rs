@@ -16,6 +16,11 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     formatter::fixed(value, decimals)
 }
 
+/// A number that was given, as short as it can be at six digits.
+pub(crate) fn given(value: f64) -> String {
+    without_zeros(&number(value, 6)).to_owned()
+}
+
 /// Components of a load in brackets, at four decimals, small ones with three digits; what is rounding beside the
 /// largest is zero.
 pub(crate) fn load_triple(v: [f64; 3]) -> String {

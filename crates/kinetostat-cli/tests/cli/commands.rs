@@ -347,6 +347,7 @@ fn help_completions_and_manual_pages() {
         &["deflect"],
         &["stiffness"],
         &["check"],
+        &["force"],
         &["model"],
         &["model", "show"],
     ] {

@@ -220,7 +220,7 @@ fn the_spindle_may_be_too_weak() {
     let list = result["warnings"].as_array().unwrap();
     let found = list
         .iter()
-        .find(|w| w["code"] == "cut")
+        .find(|w| w["code"] == "spindle_exceeded")
         .unwrap_or_else(|| panic!("{list:?}"));
     assert_eq!(found["line"], 5, "{found}");
 }

@@ -9,7 +9,7 @@ use kinetostat_testing::largest;
 use serde_json::Value;
 
 /// One of every kind of answer; files go to the working directory.
-const QUERIES: [&str; 13] = [
+const QUERIES: [&str; 14] = [
     "check heavy_6r",
     "stiffness orthoglide --json",
     "deflect heavy_6r --force 300 0 -500 --json",
@@ -18,6 +18,7 @@ const QUERIES: [&str; 13] = [
     "assemble orthoglide --at 0 0 0 --json",
     "curve three_link_z --direction -1 0 0 --displacement-mm 0 400 --free rz --plot z.svg --csv z.csv",
     "equilibria three_link_z --displaced-mm -200 0 0 --free rz --json",
+    "force --material C45 --tool ball --diameter-mm 8 --teeth 3 --helix-deg 30 --run-out-um 12 --width-mm 2 --depth-mm 5 --climb --feed-per-tooth-mm 0.05 --plot cut.svg --csv cut.csv --json",
     "reproduce table-5.2 --json",
     "model draw heavy_6r --force 300 0 -500 --out bent.svg",
     "model compare puu3 orthoglide",

@@ -20,6 +20,7 @@ mod cut;
 mod demo;
 mod draw;
 mod figures;
+mod force;
 mod identical;
 mod implausible;
 mod import;

@@ -36,6 +36,11 @@ fn every_json_says_its_version_and_who_wrote_it() {
             3,
         ),
         ("demo --json", 2),
+        ("force --list-materials --json", 1),
+        (
+            "force --material C45 --tool flat --diameter-mm 10 --teeth 2 --width-mm 10 --depth-mm 1 --feed-per-tooth-mm 0.1 --json",
+            1,
+        ),
     ] {
         let words: Vec<&str> = line.split(' ').collect();
         let said = run(here.path(), &words).answered();

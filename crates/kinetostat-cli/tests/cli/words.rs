@@ -353,6 +353,10 @@ fn examples_in_the_help_can_be_copied() {
         "forearm.csv",
         "stiffness_n_mm_rad,x,y,z,rx,ry,rz\nx,1e5,0,0,0,0,0\ny,0,1e4,0,0,0,-1e6\nz,0,0,1e4,0,1e6,0\nrx,0,0,0,1e8,0,0\nry,0,0,1e6,0,2e8,0\nrz,0,-1e6,0,0,0,2e8\n",
     );
+    put(
+        "tools.toml",
+        "[[tool]]\nnumber = 3\nshape = \"flat\"\ndiameter_mm = 12\nteeth = 4\n",
+    );
     let commands = [
         "",
         "compensate",
@@ -362,6 +366,7 @@ fn examples_in_the_help_can_be_copied() {
         "assemble",
         "curve",
         "equilibria",
+        "force",
         "check",
         "import",
         "import urdf",

@@ -14,6 +14,7 @@ mod instant;
 mod mean;
 mod revolution;
 mod table;
+mod thickness;
 mod wall;
 
 pub use cut::{Milling, Rotation};
@@ -21,4 +22,5 @@ pub use cut_force::CutForce;
 pub use feed::Feed;
 pub use revolution::{Harmonic, Revolution};
 pub use table::MeanTable;
+pub use thickness::ChipThickness;
 pub use wall::Wall;

@@ -17,5 +17,6 @@ mod stock_paths;
 mod stock_round;
 mod stock_support;
 mod stock_volume;
+mod thickness;
 mod tool_tables;
 mod turning;

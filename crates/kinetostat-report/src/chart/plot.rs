@@ -17,6 +17,9 @@ use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 480.0);
 
+/// Height of a plot below another.
+const LOWER_HEIGHT: f64 = 300.0;
+
 const STYLE: &str = concat!(
     include_str!("../template/palette.css"),
     include_str!("../template/plot.css")
@@ -69,19 +72,40 @@ impl Plot {
     /// The plot as an SVG document with its own style, right on light and on dark pages.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.draw(false).document(SIZE, &self.title, STYLE)
+        self.draw(false, SIZE, 0.0)
+            .document(SIZE, &self.title, STYLE)
+    }
+
+    /// This plot and, below it, others over the same horizontal quantity, less high and with their frames in line.
+    #[must_use]
+    pub fn svg_above(&self, others: &[Self]) -> String {
+        let all = || std::iter::once(self).chain(others);
+        let left = all()
+            .filter_map(|plot| plot.spans(false))
+            .map(|(_, y)| gutter(&y))
+            .fold(0.0, f64::max);
+        let mut svg = Svg::default();
+        let mut down = 0.0;
+        for (k, plot) in all().enumerate() {
+            let height = if k == 0 { SIZE.1 } else { LOWER_HEIGHT };
+            svg.below(down, &plot.draw(false, (SIZE.0, height), left));
+            down += height + 8.0;
+        }
+        svg.document((SIZE.0, down - 8.0), &self.title, STYLE)
     }
 
     /// As [`Plot::svg`] with one unit as long on both axes: for shapes.
     #[must_use]
     pub fn shape_svg(&self) -> String {
-        self.draw(true).document(SIZE, &self.title, STYLE)
+        self.draw(true, SIZE, 0.0)
+            .document(SIZE, &self.title, STYLE)
     }
 
     /// The plot as an element for a page that carries [`Plot::style`].
     #[must_use]
     pub fn element(&self) -> String {
-        self.draw(false).inline("plot", SIZE, &self.title)
+        self.draw(false, SIZE, 0.0)
+            .inline("plot", SIZE, &self.title)
     }
 
     /// The style sheet of elements.
@@ -141,35 +165,29 @@ impl Plot {
         base - 2.0
     }
 
-    fn draw(&self, shape: bool) -> Svg {
+    /// The plot in a size, its frame at least so far from the left edge.
+    fn draw(&self, shape: bool, size: (f64, f64), least_left: f64) -> Svg {
         let mut svg = Svg::default();
-        svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
+        svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
         let Some((mut x_span, mut y_span)) = self.spans(shape) else {
-            let middle = (0.5 * SIZE.0, 0.5 * SIZE.1);
+            let middle = (0.5 * size.0, 0.5 * size.1);
             svg.text("name", middle, Anchor::Middle, "no points to show");
             return svg;
         };
         let top = self.head(&mut svg);
-        let height = SIZE.1 - top - 54.0;
-        let gutter = |span: &Span| {
-            span.ticks(7)
-                .iter()
-                .map(|tick| text::width(&tick.label, TEXT_SIZE))
-                .fold(0.0, f64::max)
-                + 46.0
-        };
+        let height = size.1 - top - 54.0;
         if shape {
-            let width = SIZE.0 - gutter(&y_span) - 24.0;
+            let width = size.0 - gutter(&y_span) - 24.0;
             let unit = (x_span.length() / width).max(y_span.length() / height);
             x_span = about(&x_span, unit * width);
             y_span = about(&y_span, unit * height);
         }
         let y_ticks = y_span.ticks(7);
-        let left = gutter(&y_span);
+        let left = gutter(&y_span).max(least_left);
         let frame = Frame {
             x: left,
             y: top,
-            width: SIZE.0 - left - 24.0,
+            width: size.0 - left - 24.0,
             height,
         };
         if shape {
@@ -282,6 +300,15 @@ impl Plot {
     }
 }
 
+/// Room left of a frame for the numbers and the name of its vertical axis.
+fn gutter(span: &Span) -> f64 {
+    span.ticks(7)
+        .iter()
+        .map(|tick| text::width(&tick.label, TEXT_SIZE))
+        .fold(0.0, f64::max)
+        + 46.0
+}
+
 /// A little room at both ends, so that what runs along the axis can be seen.
 fn beyond(span: Span) -> Span {
     let room = 0.02 * span.length();
@@ -339,6 +366,27 @@ mod tests {
         assert!(!svg.contains("NaN") && !svg.contains("<and>"));
         assert!(plot.shape_svg().contains("limit point"));
         assert!(Plot::default().svg().contains("no points to show"));
+    }
+
+    #[test]
+    fn plots_below_each_other_have_their_frames_in_line() {
+        let plot = |title: &str, high: f64| Plot {
+            title: title.into(),
+            lines: vec![PlotLine {
+                points: vec![(0.0, 0.0), (360.0, high)],
+                ..PlotLine::default()
+            }],
+            ..Plot::default()
+        };
+        let svg = plot("above", 2.0).svg_above(&[plot("below", 123_456.0)]);
+        assert!(svg.contains(">above<") && svg.contains(">below<"));
+        let left: Vec<&str> = svg
+            .split("class=\"ground\" x=\"")
+            .skip(1)
+            .filter_map(|rest| rest.split('"').next())
+            .collect();
+        assert_eq!(left.len(), 2);
+        assert_eq!(left[0], left[1]);
     }
 
     #[test]

@@ -1,6 +1,10 @@
-//! Chapter 2: cutting forces.
+//! Chapter 2: cutting forces, by the laws of `kinetostat-cutting`.
 
-mod cutting;
+mod factors;
+mod library;
+mod materials;
 mod text_and_table;
 
+pub(crate) use factors::table_2_1;
+pub(crate) use materials::table_2_2;
 pub(crate) use text_and_table::{table_2_3, text_2_2};

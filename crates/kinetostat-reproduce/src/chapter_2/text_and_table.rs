@@ -1,12 +1,18 @@
 //! Cutting forces of chapter 2.
 
-use crate::chapter_2::cutting::{
-    AL_MG_4_5_MN, MONEL_400, Material, largest_force, printed_2_4, spindle_torque,
-};
+use kinetostat_cutting::{SpindlePoint, force_as_printed, largest_force};
+
+use crate::chapter_2::library::kienzle;
 use crate::{Cause, Contents, Item};
 
+/// A material as printed, and its name in the library.
+type Named = (&'static str, &'static str);
+
+const MONEL_400: Named = ("Monel 400", "Monel 400");
+const AL_MG_4_5_MN: Named = ("Al Mg 4.5 Mn", "AlMg4.5Mn");
+
 /// Table 2.3: material, chip thickness and width in mm, kN at 1000, 1500 and 2000 m/min.
-const TABLE_2_3: [(Material, f64, f64, [&str; 3]); 8] = [
+const TABLE_2_3: [(Named, f64, f64, [&str; 3]); 8] = [
     (MONEL_400, 0.2, 8.0, ["6.97", "6.77", "6.64"]),
     (MONEL_400, 0.2, 16.0, ["13.94", "13.54", "13.28"]),
     (MONEL_400, 1.0, 8.0, ["25.65", "24.93", "24.44"]),
@@ -23,10 +29,11 @@ const SPEEDS: [f64; 3] = [1000.0, 1500.0, 2000.0];
 
 pub(crate) fn table_2_3() -> Result<Contents, Cause> {
     let (mut items, mut doubled) = (Vec::new(), Vec::new());
-    for (material, thickness, width, printed) in &TABLE_2_3 {
+    for ((printed_name, name), thickness, width, printed) in &TABLE_2_3 {
+        let law = kienzle(name)?;
         for (speed, printed) in SPEEDS.iter().zip(printed) {
-            let name = format!("{}, {thickness} x {width} mm, {speed} m/min", material.name);
-            let force = 1e-3 * largest_force(material, *thickness, *width, *speed);
+            let name = format!("{printed_name}, {thickness} x {width} mm, {speed} m/min");
+            let force = 1e-3 * largest_force(&law, *thickness, *width, *speed);
             items.push(if *width > 8.0 {
                 // Half of it, rounded as the row above is, and doubled.
                 let half = (100.0 * 0.5 * force).round() / 100.0;
@@ -44,7 +51,7 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
         }
     }
     items.extend(doubled);
-    let literal = 1e-3 * printed_2_4(&MONEL_400, 0.2, 8.0);
+    let literal = 1e-3 * force_as_printed(&kienzle(MONEL_400.1)?, 0.2, 8.0);
     items.push(Item::erratum(
         "Monel 400, 0.2 x 8 mm, by equation 2.4 as printed",
         "6.97",
@@ -59,8 +66,10 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
 }
 
 pub(crate) fn text_2_2() -> Result<Contents, Cause> {
-    let soft = largest_force(&AL_MG_4_5_MN, 0.2, 8.0, 1000.0);
-    let hard = largest_force(&MONEL_400, 0.2, 8.0, 1000.0);
+    let soft = largest_force(&kienzle(AL_MG_4_5_MN.1)?, 0.2, 8.0, 1000.0);
+    let hard = largest_force(&kienzle(MONEL_400.1)?, 0.2, 8.0, 1000.0);
+    // Half of the rated power, at the spindle's nose.
+    let torque = SpindlePoint::of_power(1e4, 0.5 * 20e3).torque_n_m;
     let arm = "erratum 2.2 text: the force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
     let items = vec![
         Item::compared("force for Al Mg 4.5 Mn, about", "2", 1e-3 * soft, "kN", ""),
@@ -68,9 +77,15 @@ pub(crate) fn text_2_2() -> Result<Contents, Cause> {
         Item::compared(
             "torque of 20 kW at 10000 turns/min and 50 %, about",
             "10",
-            spindle_torque(20e3, 1e4, 0.5),
+            torque,
             "N m",
             "",
+        ),
+        Item::unprinted(
+            "power of that force for Monel 400 at 1000 m/min",
+            1e-3 * hard * 1000.0 / 60.0,
+            "kW",
+            "Nearly six times the 20 kW of that spindle: such a chip is cut at a lower speed.",
         ),
         Item::erratum(
             "lateral torque of 2 kN at 100 mm",

@@ -91,10 +91,15 @@ fn row<'i>(item: &'i Item, notes: &mut Vec<&'i str>) -> Value {
     }
 }
 
+fn is_greek(word: &str) -> bool {
+    formula::GREEK.iter().any(|(name, _)| *name == word)
+}
+
 /// What the report prints: formulas as such, numbers with true minus signs.
 fn printed(text: &str) -> String {
-    let formula =
-        text.contains(|c: char| c.is_ascii_alphabetic()) && text.contains(['/', '^', '(', '_']);
+    let letters = text.contains(|c: char| c.is_ascii_alphabetic());
+    let greek = text.split(|c: char| !c.is_ascii_alphabetic()).any(is_greek);
+    let formula = letters && (greek || text.contains(['/', '^', '(', '_']));
     let set = formula.then(|| mathml::math(text)).flatten();
     set.unwrap_or_else(|| formula::html(&text.replace('-', "\u{2212}")))
 }

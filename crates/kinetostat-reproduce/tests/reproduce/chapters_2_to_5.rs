@@ -1,7 +1,7 @@
 //! Chapters 2 to 5 against numbers of independent programs: computed there
 //! (energy minimisation, high-precision Newton) and held here digit by digit.
 
-use kinetostat_reproduce::{Entry, Item, one};
+use kinetostat_reproduce::{Entry, Item, Status, one};
 
 fn entry(id: &str) -> Entry {
     one(id).unwrap_or_else(|e| panic!("{e}"))
@@ -62,6 +62,46 @@ fn cutting_forces_of_table_2_3() {
             let newtons: f64 = force.parse().expect("force");
             let found = 1e3 * computed(&entry, &name);
             assert!((found - newtons).abs() < 6e-5, "{name}: {found}");
+        }
+    }
+}
+
+/// `k_c1.1` in N/mm^2 and `m_c` of Table 2.2; every number of Tables 2.1 and 2.2 agrees with its print.
+#[test]
+fn materials_and_factors_of_tables_2_1_and_2_2() {
+    let materials = entry("table-2.2");
+    for (name, specific, exponent) in [
+        ("Monel 400", 2600.0, 0.19),
+        ("Inconell 718", 2088.0, 0.29),
+        ("Ti Al 6 V 4", 1370.0, 0.21),
+        ("Al Mg 4.5 Mn", 780.0, 0.23),
+    ] {
+        let found = |of: &str| computed(&materials, &format!("{name}: {of}"));
+        assert!((found("k_c1.1") - specific).abs() < 1e-9, "{name}");
+        assert!((found("m_c") - exponent).abs() < 1e-12, "{name}");
+        let at_0_2 = specific * 0.2_f64.powf(-exponent);
+        let by_2_2 = found("k_c at h = 0.2 mm, by equation 2.2");
+        assert!((by_2_2 - at_0_2).abs() < 1e-9 * at_0_2, "{name}: {by_2_2}");
+    }
+    let factors = entry("table-2.1");
+    for (name, value) in [
+        ("K_PRO, milling with coefficients of turning tests", 1.3),
+        ("K_V at 50 m/min", 1.111_869),
+        ("K_V at 1000 m/min", 0.850_901),
+        ("K_gamma, steel, rake of 6 degrees", 1.018),
+        ("K_gamma, cast iron, rake of -6 degrees", 1.102),
+        ("K_CM, ceramic", 0.925),
+        ("K_TW, worn edge", 1.4),
+        ("K_CL, emulsion", 0.9),
+        ("K_WS, turning inside", 1.2),
+    ] {
+        let found = computed(&factors, name);
+        assert!((found - value).abs() < 6e-6, "{name}: {found}");
+    }
+    for entry in [&materials, &factors] {
+        for item in &entry.items {
+            let agrees = matches!(item.status, Status::Agrees | Status::NoPrint);
+            assert!(agrees, "{}, {}: {item:?}", entry.id, item.name);
         }
     }
 }

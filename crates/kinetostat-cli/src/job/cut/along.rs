@@ -1,6 +1,8 @@
 //! Forces of the cut along the program of a job.
 
-use kinetostat_machining::{CutFailure, ForceAlongPath, Warning, WarningCode, Watch};
+use kinetostat_machining::{
+    CutFailure, CutFindingKind, ForceAlongPath, Warning, WarningCode, Watch,
+};
 use kinetostat_program::Path as ToolPath;
 
 use crate::job::cut::question::CutSetup;
@@ -33,7 +35,21 @@ pub(crate) fn warnings(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
                 n => format!(" (the worst of {n} lines)"),
             };
             let text = format!("{}{more}", finding.text);
-            Warning::at_line(WarningCode::Cut, finding.line, text)
+            Warning::at_line(code(finding.kind), finding.line, text)
         })
         .collect()
+}
+
+/// The word for programs that read the JSON.
+fn code(kind: CutFindingKind) -> WarningCode {
+    match kind {
+        CutFindingKind::RapidThroughStock => WarningCode::RapidThroughStock,
+        CutFindingKind::ThickChip => WarningCode::ChipOverLimit,
+        CutFindingKind::OutsideTheLaw => WarningCode::ChipsOutsideMeasured,
+        CutFindingKind::Spindle => WarningCode::SpindleExceeded,
+        CutFindingKind::ShortEdges => WarningCode::ToolTooShort,
+        CutFindingKind::Plunge => WarningCode::Plunge,
+        // Kinds that this program does not know have no word of their own yet.
+        _ => WarningCode::Program,
+    }
 }

@@ -1,0 +1,129 @@
+//! What somebody who cuts like this should know.
+
+use kinetostat_cutting::{Material, SpindleFinding};
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::force::answer::ForceAnswer;
+use crate::force::cut::Cut;
+use crate::force::tool::CutTool;
+use crate::ui::numbers::{given, number};
+
+pub(crate) fn findings(
+    answer: &ForceAnswer,
+    material: &Material,
+    tool: &CutTool,
+    cut: &Cut,
+) -> Vec<Warning> {
+    let mut list = Vec::new();
+    list.extend(of_tool(answer, tool, cut));
+    list.extend(of_spindle(answer, cut));
+    let (mean, largest) = (answer.cut.mean_chip_mm, answer.cut.largest_chip_mm);
+    list.extend(of_chip(material, mean, largest));
+    let speed = answer.cut.cutting_speed_m_per_min;
+    list.extend(speed.and_then(|speed| of_speed(material, speed)));
+    list
+}
+
+fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let mut say = |code, text: String| list.push(Warning::new(code, text));
+    if let Some(most) = tool.max_chip_mm {
+        let (feed, chip) = (cut.feed.level_mm, answer.cut.largest_chip_mm);
+        if feed > most {
+            say(
+                WarningCode::ChipOverLimit,
+                format!(
+                    "the feed of {} mm per tooth is more than the {} mm that the tool allows",
+                    given(feed),
+                    given(most)
+                ),
+            );
+        } else if chip > most {
+            say(
+                WarningCode::ChipOverLimit,
+                format!(
+                    "with the run-out a tooth cuts chips of {} mm, more than the {} mm that the tool allows",
+                    number(chip, 3),
+                    given(most)
+                ),
+            );
+        }
+    }
+    let depth = given(cut.depth_mm);
+    if let Some(flutes) = tool.flute_length_mm.filter(|flutes| cut.depth_mm > *flutes) {
+        say(
+            WarningCode::ToolTooShort,
+            format!(
+                "the cut is {depth} mm deep and the edges are {} mm long: above them the shank rubs, and the force is not this one",
+                given(flutes)
+            ),
+        );
+    }
+    if let Some(out) = tool.stick_out_mm.filter(|out| cut.depth_mm > *out) {
+        say(
+            WarningCode::ToolTooShort,
+            format!(
+                "the cut is {depth} mm deep and the tool stands {} mm out of its holder: the holder runs into the part",
+                given(out)
+            ),
+        );
+    }
+    list
+}
+
+fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
+    let (curve, rpm) = (cut.spindle.as_ref()?, cut.rpm?);
+    // A spindle has inertia: the mean must be borne, a peak within a turn need not.
+    let message = match curve.exceeded_by(rpm, answer.mean.torque_n_mm)? {
+        SpindleFinding::Speed { most_rpm, .. } => format!(
+            "the cut needs {} turns per minute, and the spindle turns up to {}",
+            given(rpm),
+            given(most_rpm)
+        ),
+        SpindleFinding::Torque {
+            torque_n_m, limit, ..
+        } => format!(
+            "the cut needs {} N m ({} W) in the mean, and at {} turns per minute the spindle gives {} N m ({} W): it slows down or stops",
+            number(torque_n_m, 3),
+            number(answer.mean.power_w.unwrap_or(f64::NAN), 3),
+            given(rpm),
+            number(limit.torque_n_m, 3),
+            number(limit.power_w, 3)
+        ),
+        other => other.to_string(),
+    };
+    Some(Warning::new(WarningCode::SpindleExceeded, message))
+}
+
+/// Chips, mm, that the law does not know.
+pub(crate) fn of_chip(material: &Material, mean: f64, largest: f64) -> Option<Warning> {
+    let (from, to) = material.chip_mm?;
+    let found = match (mean < from, largest > to) {
+        (false, false) => return None,
+        (true, _) => format!("the mean chip is {} mm thick", number(mean, 3)),
+        (false, true) => format!("the thickest chip has {} mm", number(largest, 3)),
+    };
+    let message = format!(
+        "{found}, and the law of {} was measured from {} to {} mm: beyond, it is a guess, and the spread does not count that",
+        material.name,
+        given(from),
+        given(to)
+    );
+    Some(Warning::new(WarningCode::ChipsOutsideMeasured, message))
+}
+
+/// A cutting speed, m/min, that the law does not know.
+pub(crate) fn of_speed(material: &Material, speed: f64) -> Option<Warning> {
+    let (from, to) = material.speed_m_per_min?;
+    if (from..=to).contains(&speed) {
+        return None;
+    }
+    let message = format!(
+        "the cutting speed is {} m/min, and the law of {} was measured from {} to {} m/min",
+        number(speed, 4),
+        material.name,
+        given(from),
+        given(to)
+    );
+    Some(Warning::new(WarningCode::SpeedOutsideMeasured, message))
+}

@@ -1,0 +1,100 @@
+//! What is cut: the library and a file of the user's, and the factors by which the cut differs from the test.
+
+use std::path::Path;
+
+use kinetostat_cutting::{Applied, Coolant, Correction, CuttingMaterial, Material, Materials};
+
+use crate::files::input_files::InputFiles;
+use crate::force::arguments::{CoolantWord, EdgeWord, MaterialArgs};
+use crate::force::refusal::refused;
+use crate::ui::failure::{Answer, Failure};
+
+/// The materials of a file and of the library.
+pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materials> {
+    let mut all = Materials::library();
+    if let Some(path) = own {
+        let text = text_of(files, "file of materials", path)?;
+        let read = Materials::read(&path.display().to_string(), &text);
+        all.with(read.map_err(|error| refused(&error))?);
+    }
+    Ok(all)
+}
+
+/// A file of text.
+pub(crate) fn text_of(files: &InputFiles, what: &str, path: &Path) -> Answer<String> {
+    let bytes = files.bytes(what, path)?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        Failure::input(format!(
+            "the {what} '{}' is not UTF-8 text at line {line}; save it as UTF-8",
+            path.display()
+        ))
+    })?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned())
+}
+
+/// The material that was named.
+pub(crate) fn material(materials: &Materials, args: &MaterialArgs) -> Answer<Material> {
+    let Some(name) = &args.material else {
+        return Err(Failure::input(
+            "what is cut? Give --material NAME; `kinetostat force --list-materials` shows the names",
+        ));
+    };
+    let found = materials.find(name).map_err(|error| {
+        let near = match error.expected.starts_with("did you mean") {
+            true => format!("; {}", error.expected),
+            false => ";".to_owned(),
+        };
+        Failure::input(format!(
+            "--material: {}{near} `kinetostat force --list-materials` shows them, and --materials FILE.toml takes your own",
+            error.found
+        ))
+    })?;
+    Ok(found.clone())
+}
+
+/// How a cut is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Made {
+    Milled,
+    /// Drilled or turned: an edge that stays in the cut, as in a turning test.
+    Steadily,
+}
+
+/// Its law for this cut. `rake_deg`: of the table of tools; `speed_m_per_min`: where the speed is to be corrected for.
+pub(crate) fn applied(
+    material: &Material,
+    args: &MaterialArgs,
+    made: Made,
+    rake_deg: Option<f64>,
+    speed_m_per_min: Option<f64>,
+) -> Answer<Applied> {
+    let correction = Correction {
+        process: match made {
+            Made::Milled => args.process_factor,
+            Made::Steadily => args.process_factor.or(Some(1.0)),
+        },
+        cutting_speed_m_per_min: speed_m_per_min,
+        rake_deg: args.rake_deg.or(rake_deg),
+        cutting_material: match args.edge {
+            None | Some(EdgeWord::Carbide) => CuttingMaterial::Carbide,
+            Some(EdgeWord::HighSpeedSteel) => CuttingMaterial::HighSpeedSteel,
+            Some(EdgeWord::Ceramic) => CuttingMaterial::Ceramic,
+        },
+        wear: args.wear,
+        coolant: match args.coolant {
+            None | Some(CoolantWord::Dry) => Coolant::Dry,
+            Some(CoolantWord::Emulsion) => Coolant::Emulsion,
+            Some(CoolantWord::Oil) => Coolant::Oil,
+        },
+        ..Correction::default()
+    };
+    let applied = material.for_milling(&correction);
+    let mut applied = applied.map_err(|error| refused(&error))?;
+    if args.process_factor.is_none() && made == Made::Steadily {
+        // Nobody gave the 1 that keeps the factor of milling away.
+        applied.factors.retain(|factor| factor.symbol != "K_PRO");
+    }
+    Ok(applied)
+}

@@ -1,0 +1,84 @@
+//! `kinetostat force`: the force of one cut (milling; drilling and turning in short), for somebody who knows material, tool, depth and feed.
+//!
+//! It takes options and perhaps files of materials and tools, and gives mean, peak and the force that makes the wall, torque,
+//! power and harmonics, as text, JSON, table and drawing. It knows no machine and no program.
+
+mod answer;
+mod answer_of;
+pub(crate) mod arguments;
+mod assumed;
+mod csv;
+mod cut;
+mod drilling;
+mod findings;
+mod list;
+mod material;
+mod plot;
+mod refusal;
+mod text;
+mod tool;
+mod trust;
+mod turning;
+
+use std::path::PathBuf;
+
+use crate::files::answer_files::{ClaimedFiles, Shown};
+use crate::files::input_files::InputFiles;
+use crate::force::answer_of::answer_of;
+use crate::force::arguments::ForceArgs;
+use crate::force::cut::cut_of;
+use crate::force::material::{Made, applied, material, materials};
+use crate::force::tool::tool_of;
+use crate::ui::background::interruptible;
+use crate::ui::failure::{Answer, Failure};
+
+pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
+    let files = InputFiles::default();
+    let materials = materials(&files, args.material.materials.as_deref())?;
+    let mut inputs: Vec<PathBuf> = args.material.materials.iter().cloned().collect();
+    if args.list_materials {
+        let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+        let shown = Shown {
+            text: list::list_text(&materials),
+            csv: Vec::new(),
+            svg: String::new(),
+            failure: None,
+        };
+        return claimed.finish(&shown, &list::list(&materials));
+    }
+    let material = material(&materials, &args.material)?;
+    if args.steady.drill || args.steady.turning {
+        let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+        return match args.steady.drill {
+            true => drilling::run(args, &material, claimed),
+            false => turning::run(args, &material, claimed),
+        };
+    }
+    let tool = tool_of(&files, &args.tool)?;
+    inputs.extend(tool.table.clone());
+    let cut = cut_of(&tool.tool, &args.cut, &args.spindle)?;
+    let speed = match args.material.correct_speed {
+        true => Some(cut.speed_m_per_min().ok_or_else(|| {
+            Failure::input("--correct-speed needs --rpm: the cutting speed follows from it")
+        })?),
+        false => None,
+    };
+    let applied = applied(
+        &material,
+        &args.material,
+        Made::Milled,
+        tool.rake_deg,
+        speed,
+    )?;
+    let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    let question = text::question(&material.name, &tool, &cut);
+    // A cutter of two hundred teeth may take seconds.
+    let answer = interruptible(move |_| answer_of(question, &material, &applied, &tool, &cut))?;
+    let shown = Shown {
+        text: text::answer_text(&answer),
+        csv: csv::of_force(&answer)?,
+        svg: plot::drawing(&answer),
+        failure: None,
+    };
+    claimed.finish(&shown, &answer)
+}

@@ -1,0 +1,72 @@
+//! What the library refuses, said with the option that it stands in.
+
+use kinetostat_cutting::CutError;
+
+use crate::ui::failure::Failure;
+
+/// Quantities of the library and the options that give them.
+const OPTIONS: [(&str, &str); 29] = [
+    ("diameter", "--diameter-mm"),
+    ("teeth", "--teeth"),
+    ("corner radius", "--corner-radius-mm"),
+    ("lead angle", "--lead-angle-deg"),
+    ("helix", "--helix-deg"),
+    ("run-out", "--run-out-um"),
+    ("angle of the run-out", "--run-out-angle-deg"),
+    ("width of cut", "--width-mm"),
+    ("depth of cut", "--depth-mm"),
+    ("feed per tooth", "--feed-per-tooth-mm"),
+    ("feed per tooth down the axis", "--down-feed-per-tooth-mm"),
+    ("process factor", "--process-factor"),
+    ("wear factor", "--wear"),
+    ("rake angle", "--rake-deg"),
+    ("cutting speed", "--correct-speed"),
+    ("rated power", "--spindle-power-w"),
+    ("base speed", "--spindle-base-rpm"),
+    ("largest speed", "--spindle-most-rpm"),
+    ("speed of the spindle", "--rpm"),
+    ("feed", "--feed-mm-per-min"),
+    ("length of the edges", "--flute-length-mm"),
+    ("stick-out", "--stick-out-mm"),
+    ("feed per tooth allowed", "--max-chip-mm"),
+    ("lips", "--lips"),
+    ("point angle", "--point-angle-deg"),
+    ("hole", "--hole-mm"),
+    ("chisel factor", "--chisel-factor"),
+    ("approach angle", "--approach-angle-deg"),
+    ("feed per turn", "--feed-per-turn-mm"),
+];
+
+/// An error of the library as the command says it: with the option, or with file and line.
+pub(crate) fn refused(error: &CutError) -> Failure {
+    if error.file.is_some() {
+        return Failure::input(error);
+    }
+    let option = OPTIONS.iter().find(|(name, _)| *name == error.quantity);
+    match option {
+        Some((_, option)) => Failure::input(format!(
+            "{option}: {} of {}; expected {}",
+            error.quantity, error.found, error.expected
+        )),
+        None => Failure::input(error),
+    }
+}
+
+/// A number of an option within bounds that hold for any machine shop.
+pub(crate) fn within(
+    quantity: &str,
+    value: f64,
+    bounds: std::ops::RangeInclusive<f64>,
+    unit: &str,
+) -> Result<f64, Failure> {
+    if bounds.contains(&value) {
+        return Ok(value);
+    }
+    let known = OPTIONS.iter().find(|(name, _)| *name == quantity);
+    let option = known.map_or(quantity, |(_, option)| option);
+    Err(Failure::input(format!(
+        "{option}: {quantity} of {value} {unit}; expected {} to {} {unit}",
+        bounds.start(),
+        bounds.end()
+    )))
+}

@@ -1,0 +1,46 @@
+//! How far to trust a force: law, source, band, factors, and what is assumed.
+
+use crate::force::answer::{ForceAnswer, MaterialAnswer};
+use crate::ui::numbers::number;
+
+/// Of a milling cut.
+pub(crate) fn trust(a: &ForceAnswer) -> Vec<String> {
+    let across = a.mean.across_tool_n;
+    let spread = 0.01 * a.material.spread_percent;
+    let band = format!(
+        "{} to {} N across the tool in the mean, up to {} N at the peak",
+        number((1.0 - spread) * across, 3),
+        number((1.0 + spread) * across, 3),
+        number(a.peak.across_tool_high_n, 3)
+    );
+    trust_in(&a.material, &band, &a.assumed)
+}
+
+/// Of any cut, with a band in words.
+pub(crate) fn trust_in(m: &MaterialAnswer, band: &str, assumed: &[String]) -> Vec<String> {
+    let mut list = vec![
+        format!(
+            "{}: {}. Source: {}.",
+            m.name,
+            m.law,
+            m.source.trim_end_matches('.')
+        ),
+        format!(
+            "Another batch, tool or table may give {} % more or less: {band}.",
+            number(m.spread_percent, 2)
+        ),
+    ];
+    if m.factors.is_empty() {
+        list.push("No correction: the coefficients hold as they were measured.".to_owned());
+    }
+    for factor in &m.factors {
+        list.push(format!(
+            "{} = {}: {}.",
+            factor.symbol,
+            number(factor.value, 4),
+            factor.reason
+        ));
+    }
+    list.extend(assumed.iter().cloned());
+    list
+}

@@ -1,0 +1,24 @@
+//! Tables for programs: full precision, as CSV.
+
+use crate::ui::failure::{Answer, Failure};
+
+/// A number that reads back to the same bits; empty where there is none.
+pub(crate) fn cell(x: f64) -> String {
+    if x.is_finite() {
+        x.to_string()
+    } else {
+        String::new()
+    }
+}
+
+pub(crate) fn written(rows: &[Vec<String>]) -> Answer<Vec<u8>> {
+    let failed =
+        |error: csv::Error| Failure::input(format!("the table cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.write_record(row).map_err(failed)?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| failed(csv::Error::from(error.into_error())))
+}
