@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use kinetostat::Wrench;
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Rotation, SpindleCurve};
-use kinetostat_program::{Move, MoveKind, Path, SpindleRotation};
+use kinetostat_program::{Knowledge, Move, MoveKind, Path, SpindleRotation};
 use nalgebra::Vector3;
 
 use crate::cut::choice::ForceChoice;
@@ -43,6 +43,9 @@ struct Drive {
     per_tooth_mm: f64,
 }
 
+/// Corners that turn by at most this do not change what the tool meets, rad.
+const GENTLE: f64 = std::f64::consts::FRAC_PI_6;
+
 /// Moves between two looks at whether to stop.
 const MOVES_PER_LOOK: usize = 2000;
 
@@ -52,6 +55,11 @@ impl CutQuestion {
     /// # Errors
     /// A value that is stated nowhere, with its line; a tool of which nothing is known; a cut that cannot be made.
     pub fn along(&self, path: &Path, watch: &dyn Watch) -> Result<ForceAlongPath, CutFailure> {
+        if self.tools.is_empty()
+            && let Some(first) = path.moves.iter().find(|m| m.kind == MoveKind::Feed)
+        {
+            return Err(CutFailure::NoTool { line: first.line });
+        }
         let mut walk = Walk::new(&self.engagement, &self.tools);
         let mut forces: Vec<ForceOf<'_>> = self
             .tools
@@ -68,9 +76,29 @@ impl CutQuestion {
                     return Err(CutFailure::Cancelled);
                 }
             }
-            moves.push(self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?);
+            let mut stations = self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?;
+            if self.goes_on(path, i) {
+                join(moves.last(), &mut stations);
+            }
+            moves.push(stations);
         }
         Ok(ForceAlongPath::of(moves.into_iter(), findings.list()))
+    }
+
+    /// Whether a move goes on where the one before ends, in nearly the same direction and with the same tool: what the tool
+    /// meets there is what it met before.
+    fn goes_on(&self, path: &Path, i: usize) -> bool {
+        let Some(before) = i.checked_sub(1).map(|before| &path.moves[before]) else {
+            return false;
+        };
+        let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
+        let motion = &path.moves[i];
+        let gentle = match (before.tangent(1.0), motion.tangent(0.0)) {
+            (Some(a), Some(b)) => a.angle(&b) <= GENTLE,
+            _ => false,
+        };
+        let tool = |m: &Move| self.tool_on(path, m.line).ok();
+        cuts(before) && cuts(motion) && gentle && tool(before) == tool(motion)
     }
 
     fn of_move(
@@ -88,6 +116,7 @@ impl CutQuestion {
         };
         let tool = self.tool_on(path, motion.line);
         if motion.kind == MoveKind::Rapid {
+            // Nothing is known to be swept.
             let Ok(tool) = tool else {
                 return Ok(stations);
             };
@@ -267,6 +296,23 @@ impl CutQuestion {
                 )
             });
         }
+    }
+}
+
+/// Begins a move with what acted at the end of the one before: short moves have one station, at their end, and the load
+/// does not jump from each to the next.
+fn join(before: Option<&Vec<CutStation>>, stations: &mut Vec<CutStation>) {
+    let last = before.and_then(|stations| stations.last());
+    if let (Some(last), Some(first)) = (last, stations.first())
+        && first.share > 0.0
+    {
+        stations.insert(
+            0,
+            CutStation {
+                share: 0.0,
+                ..*last
+            },
+        );
     }
 }
 

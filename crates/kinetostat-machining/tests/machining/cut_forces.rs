@@ -175,7 +175,11 @@ fn what_is_missing_is_named() {
     // Air asks for nothing.
     let air = ask("G21 G90\nG0 X-10 Y0 Z5\nG1 X5\n").unwrap();
     assert_eq!(air.largest().force().norm(), 0.0);
-    // Tools that nobody has described.
+    // No tool at all, and tools that nobody has described.
+    let mut none = question(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]));
+    none.tools.clear();
+    let failure = none.along(&path("G21 G90\nG0 X-10 Y0 Z-2\nG1 X5 F600\n"), &Unwatched);
+    assert_eq!(failure.unwrap_err(), CutFailure::NoTool { line: 3 });
     let mut numbered = question(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]));
     numbered.tools[0].number = Some(3);
     let failure = numbered.along(
@@ -219,4 +223,38 @@ fn a_rapid_through_the_stock_is_told() {
         (along.findings[0].kind, along.findings[0].line),
         (CutFindingKind::RapidThroughStock, 4)
     );
+}
+
+/// A cut in many short moves: the load is that of one long move, and does not jump from move to move.
+#[test]
+fn short_moves_have_the_load_of_a_long_one() {
+    let one = path(&format!("{START}G1 Z-2 F600\nG1 X50\n"));
+    let mut text = format!("{START}G1 Z-2 F600\n");
+    for i in 1..=150 {
+        text.push_str(&format!("G1 X{:.4}\n", -10.0 + 0.4 * f64::from(i)));
+    }
+    let many = path(&text);
+    let stock = || block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]);
+    let (a, b) = (along(stock(), &one), along(stock(), &many));
+    let slot = a.largest().force().norm();
+    let mut compared = 0;
+    for i in 0..150 {
+        for share in [0.0, 0.5, 1.0] {
+            let x = 0.4 * (f64::from(i) + share);
+            let (one, other) = (a.wrench(2, x / 60.0), b.wrench(2 + i as usize, share));
+            // Entry and exit are a step at a wall in a slot: there places within half a cell differ.
+            let at_a_wall = [7.0, 10.0, 47.0, 50.0]
+                .iter()
+                .any(|wall| (x - wall).abs() < 3.2);
+            let off = (one.force() - other.force()).norm();
+            assert!(at_a_wall || off < 0.02 * slot, "{x}: {off} of {slot}");
+            compared += usize::from(!at_a_wall);
+        }
+        if i > 0 {
+            let jump =
+                b.wrench(2 + i as usize, 0.0).force() - b.wrench(1 + i as usize, 1.0).force();
+            assert!(jump.norm() < 1e-9, "{i}: {jump}");
+        }
+    }
+    assert!(compared > 250, "{compared}");
 }
