@@ -43,7 +43,7 @@ pub(crate) struct Job {
     pub stock: Option<Spanned<StockTable>>,
     /// Where the tool is in the material, without a stock.
     pub engagement: Option<Spanned<EngagementTable>>,
-    pub spindle: Option<SpindleTable>,
+    pub spindle: Option<Spanned<SpindleTable>>,
     #[serde(default)]
     pub reading: ReadingTable,
     #[serde(default)]

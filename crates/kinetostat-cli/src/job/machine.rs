@@ -81,7 +81,8 @@ pub(crate) fn machine_setup(
     let mechanism = model.mechanism.with_tool(&tool);
     let placement = placement(job, flags, &mechanism)?;
     let load = load(job, job.map(|j| &j.job.load), flags)?;
-    let cut = cut_setup(files, job, flags)?;
+    let cut = cut_setup(files, job, flags, &placement)?;
+    inputs.extend(cut.iter().flat_map(|cut| cut.files.paths.clone()));
     let mut given = vec![ToolGiven {
         number: None,
         pose: tool,
@@ -104,6 +105,9 @@ pub(crate) fn machine_setup(
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
         run_inputs.files = vec![model_file];
+        run_inputs
+            .files
+            .extend(cut.iter().flat_map(|cut| cut.files.read.clone()));
         run_inputs
     };
     Ok((

@@ -189,6 +189,27 @@ fn what_is_wrong_is_named_with_its_line() {
         "[engagement]\nwidth_mm = 7\ndepth_mm = 1\npart = \"left\"",
     );
     refused(&constant, PASS, &["width of cut", "7 mm", "6 mm"]);
+    refused(
+        &job("[output]", "[spindle]\nmost_rpm = 8000\n[output]"),
+        PASS,
+        &["power_w"],
+    );
+    refused(
+        &job("part_origin_mm", "scale = 0.5\npart_origin_mm"),
+        PASS,
+        &["scaled"],
+    );
+    let tilted = "part_orientation = { a_b_c_kuka_deg = [0, 0, 20] }\npart_origin_mm";
+    refused(
+        &job("part_origin_mm", tilted),
+        PASS,
+        &["tilted by 20.0 degrees"],
+    );
+    refused(
+        &job("[stock]", "[stock]\ncell_mm = 1.0"),
+        PASS,
+        &["cells of 1", "tenth"],
+    );
     // What the program does not say.
     refused(
         JOB,
@@ -223,6 +244,51 @@ fn the_spindle_may_be_too_weak() {
         .find(|w| w["code"] == "spindle_exceeded")
         .unwrap_or_else(|| panic!("{list:?}"));
     assert_eq!(found["line"], 5, "{found}");
+}
+
+/// What else is read is never written over, and named in the result.
+#[test]
+fn files_of_the_cut_are_inputs() {
+    let job = JOB
+        .replace("[[0, -20, -12], [20, 0, 0]]", "")
+        .replace(
+            "block_mm = ",
+            "height_map = { file = \"h.csv\", corner_mm = [0, -20, -12], spacing_mm = 20 }",
+        )
+        .replace("points = \"points.csv\"", "");
+    let here = place(&job, PASS);
+    std::fs::write(here.path().join("h.csv"), "12,12\n12,12\n").unwrap();
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    let text = std::fs::read_to_string(here.path().join("result.json")).unwrap();
+    assert!(text.contains("h.csv"), "its hash is in the result");
+    let job = job.replace("result.json", "h.csv");
+    std::fs::write(here.path().join("job.toml"), job).unwrap();
+    let said = run(
+        here.path(),
+        &["compensate", "job.toml", "--force-overwrite"],
+    );
+    assert_eq!(said.code, 1, "{said:?}");
+    assert_eq!(
+        std::fs::read_to_string(here.path().join("h.csv")).unwrap(),
+        "12,12\n12,12\n"
+    );
+}
+
+/// A cylinder as long across as its diameter.
+#[test]
+fn a_cylinder_has_its_radius() {
+    let job = JOB.replace(
+        "block_mm = [[0, -20, -12], [20, 0, 0]]",
+        "cylinder = { foot_mm = [0, 0, -12], radius_mm = 20, height_mm = 12 }",
+    );
+    let here = place(&job, PASS);
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    // The tool of 6 mm meets it 23 mm before its middle.
+    assert!(written_y_at(here.path(), -24.5).abs() < 2e-3);
+    assert!(
+        written_y_at(here.path(), -15.0).abs() > 2e-3
+            || written_y_at(here.path(), 0.0).abs() > 2e-3
+    );
 }
 
 /// A real program: every block cut out of a block of aluminium.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use kinetostat::Wrench;
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Rotation, SpindleCurve};
 use kinetostat_program::{Knowledge, Move, MoveKind, Path, SpindleRotation};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::choice::ForceChoice;
 use crate::cut::cutting_tool::CuttingTool;
@@ -14,7 +14,7 @@ use crate::cut::failure::CutFailure;
 use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
-use crate::cut::station::CutStation;
+use crate::cut::station::{ACROSS, CutStation};
 use crate::cut::walk::Walk;
 use crate::watch::Watch;
 
@@ -161,6 +161,7 @@ impl CutQuestion {
                             Err(error) => wrong = Some(cut(error)),
                             Ok((feed, (force, torque))) => {
                                 let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
+                                let wrench = in_axes_of_load(wrench, &direction);
                                 let station = CutStation {
                                     share,
                                     wrench,
@@ -298,6 +299,22 @@ impl CutQuestion {
         }
     }
 }
+
+/// Straight up and down there is no feed across the axis: forces are in axes of the part then, whatever little direction the
+/// move has.
+fn in_axes_of_load(wrench: Wrench, direction: &Vector3<f64>) -> Wrench {
+    let across = direction.xy().norm();
+    match across <= ACROSS && across > NO_DIRECTION {
+        true => {
+            let angle = direction.y.atan2(direction.x);
+            wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle))
+        }
+        false => wrench,
+    }
+}
+
+/// Of less the stock takes x of the part for the feed.
+const NO_DIRECTION: f64 = 1e-9;
 
 /// Begins a move with what acted at the end of the one before: short moves have one station, at their end, and the load
 /// does not jump from each to the next.

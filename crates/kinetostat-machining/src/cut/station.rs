@@ -3,12 +3,16 @@
 use kinetostat::Wrench;
 use serde::Serialize;
 
+/// Part of a direction across the tool axis below which a move has no direction there: within 0.1 degree of the axis.
+pub(crate) const ACROSS: f64 = 2e-3;
+
 /// A place of the path with the force of the cut.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CutStation {
     /// Share of the move's length.
     pub share: f64,
-    /// Force (N) and moment about the tip (N m) on the tool: x along the feed, z along the part's z, y to the left.
+    /// Force (N) and moment about the tip (N m) on the tool: x along the feed, z along the part's z, y to the left; axes of
+    /// the part where the tool goes within 0.1 degree of its axis.
     pub wrench: Wrench,
     /// Mean torque of the spindle, N m.
     pub torque_n_m: f64,

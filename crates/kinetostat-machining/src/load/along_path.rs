@@ -16,6 +16,7 @@ use kinetostat_program::{Curve, Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::profile::ForceAlongPath;
+use crate::cut::station::ACROSS;
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
@@ -44,8 +45,7 @@ pub struct LoadAlongPath<'a> {
 
 fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
     let t = tangent?;
-    // A move within 0.1 degree of the tool axis has no direction across it.
-    (t.xy().norm() > 2e-3).then(|| t.y.atan2(t.x))
+    (t.xy().norm() > ACROSS).then(|| t.y.atan2(t.x))
 }
 
 /// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
@@ -255,7 +255,11 @@ impl<'a> LoadAlongPath<'a> {
             } => in_base(headed(&wrench, heading)),
             CuttingLoad::FromCut { .. } => {
                 let cut = self.cut.map(|cut| cut.wrench(move_index, share));
-                in_base(headed(&cut.unwrap_or_else(Wrench::zero), heading))
+                // Along the tool axis, forces of the cut are in axes of the part.
+                in_base(headed(
+                    &cut.unwrap_or_else(Wrench::zero),
+                    heading.or(Some(0.0)),
+                ))
             }
             CuttingLoad::Milling {
                 radial,

@@ -258,3 +258,33 @@ fn short_moves_have_the_load_of_a_long_one() {
     }
     assert!(compared > 250, "{compared}");
 }
+
+/// Half of the end goes down beside an edge: the force across the axis is there, whatever little direction the move has.
+#[test]
+fn a_plunge_at_an_edge_pushes_sideways() {
+    let force = |to: &str| {
+        let path = path(&format!(
+            "G21 G90\nS12000 M3\nG0 X20 Y20 Z0.5\nG1 {to} F2000\n"
+        ));
+        let along = along(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]), &path);
+        let load = ProgramLoad::new(CuttingLoad::FromCut {
+            largest: along.largest(),
+        });
+        let load = LoadAlongPath::new(load, &path).with_cut(Some(&along));
+        load.wrench(&Placement::at(Vector3::zeros()), 1, 0.8)
+            .force()
+    };
+    // Two lips of 3 mm over half a turn, chips of 1/12 mm: f = K_c c + K_e on the end. Material is at y below 20, so the mean of
+    // the way of the lip there points along x: tangential forces add up to 2 x 3 f_t / pi, and across it the meridian's part.
+    let chip = 2000.0 / 12_000.0 / 2.0;
+    let f = [796.0 * chip + 27.7, 168.0 * chip + 30.8, 222.0 * chip + 1.4];
+    let mean = 2.0 * 3.0 / std::f64::consts::PI;
+    let expected = vector![mean * f[0], -mean * f[2], 0.5 * 2.0 * 3.0 * f[1]];
+    for to in ["Z-3", "X20.0005 Z-3", "Y20.0005 Z-3"] {
+        let found = force(to);
+        assert!(
+            (found - expected).norm() < 0.03 * expected.norm(),
+            "{to}: {found} {expected}"
+        );
+    }
+}

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kinetostat_cutting::{Applied, Correction, Materials};
 
 use crate::files::input_files::InputFiles;
+use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut_tables::MaterialTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -19,12 +20,11 @@ pub(super) fn material(
     files: &InputFiles,
     job: &JobFile,
     table: &MaterialTable,
+    read: &mut FilesOfCut,
 ) -> Answer<MaterialSetup> {
     let mut known = Materials::library();
     if let Some(file) = &table.file {
-        let path = job.base().join(file.get_ref());
-        let bytes = files.bytes("file of materials", &path)?;
-        let name = path.display().to_string();
+        let (bytes, name) = read.bytes(files, job, "file of materials", file.get_ref())?;
         let text = String::from_utf8(bytes).map_err(|_| {
             Failure::input(format!("the file of materials '{name}' is not UTF-8 text"))
         })?;

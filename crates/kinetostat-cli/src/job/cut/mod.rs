@@ -4,6 +4,7 @@
 
 pub(crate) mod along;
 mod engagement;
+mod files_of_cut;
 mod material;
 mod question;
 mod stock;

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use kinetostat_cutting::{SpindleCurve, Tool, ToolEntry, WrittenTool};
-use kinetostat_machining::{CutQuestion, CuttingTool};
+use kinetostat_machining::{CutQuestion, CuttingTool, Placement};
+use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::engagement::engagement;
+use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::{MaterialSetup, material};
 use crate::job::cut::stock::stock;
 use crate::job::cut_tables::{MaterialTable, SpindleTable};
@@ -21,6 +23,7 @@ pub(crate) struct CutSetup {
     pub(crate) question: CutQuestion,
     /// What was assumed, one sentence each.
     pub(crate) words: Vec<String>,
+    pub(crate) files: FilesOfCut,
 }
 
 /// The cuts of a job that names a material; `None` where it names none.
@@ -28,6 +31,7 @@ pub(crate) fn cut_setup(
     files: &InputFiles,
     job: Option<&JobFile>,
     flags: &ProgramArgs,
+    placement: &Placement,
 ) -> Answer<Option<CutSetup>> {
     let Some(j) = job else {
         return Ok(None);
@@ -36,7 +40,9 @@ pub(crate) fn cut_setup(
         return no_material(j).map(|()| None);
     };
     typed_force(j, flags, table)?;
-    let MaterialSetup { applied, mut words } = material(files, j, table.get_ref())?;
+    stands_along_the_part(j, table, placement)?;
+    let mut read = FilesOfCut::default();
+    let MaterialSetup { applied, mut words } = material(files, j, table.get_ref(), &mut read)?;
     let mut tools = Vec::new();
     let entries = cutters(j)?;
     for (number, entry) in entries {
@@ -64,9 +70,10 @@ pub(crate) fn cut_setup(
             "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]])",
         ));
     };
-    let (source, source_words) = where_it_cuts(files, j, table, &smallest)?;
+    let (source, source_words) = where_it_cuts((files, &mut read), j, table, &smallest)?;
     words.push(source_words);
-    let spindle = j.job.spindle.clone().unwrap_or_default();
+    let spindle = j.job.spindle.as_ref().map(|s| s.get_ref().clone());
+    let spindle = spindle.unwrap_or_default();
     let rpm = spindle_speed(j, &spindle)?;
     let choice = spindle.force.unwrap_or_default();
     words.push(format!("force that counts: {}", choice.description()));
@@ -80,8 +87,41 @@ pub(crate) fn cut_setup(
             spindle: curve(j, &spindle)?,
         },
         words,
+        files: read,
     }))
 }
+
+/// Edges are where the engagement says only if the tool stands along z of the part, and chips as thick as the program says
+/// only without a scale.
+fn stands_along_the_part(
+    j: &JobFile,
+    table: &Spanned<MaterialTable>,
+    placement: &Placement,
+) -> Answer<()> {
+    let part_from_tool = placement.base_from_part.rotation.inverse() * placement.tool_orientation;
+    let along = (part_from_tool * Vector3::z()).z.abs();
+    if along < TILT.cos() {
+        return Err(j.error(
+            table,
+            &format!(
+                "the tool is tilted by {:.1} degrees against z of the part; forces of the cut are known for a tool along it",
+                along.min(1.0).acos().to_degrees()
+            ),
+            "turn the part or the tool (part_orientation, tool_orientation), or state the force under [load]",
+        ));
+    }
+    if placement.scale != 1.0 {
+        return Err(j.error(
+            table,
+            "the program is scaled; a cutter, its feed and a stock of another size have another force",
+            "leave out the scale, or state the force under [load]",
+        ));
+    }
+    Ok(())
+}
+
+/// A tool tilted by less stands along z of the part.
+const TILT: f64 = 0.01;
 
 /// Tables that mean nothing without a material.
 fn no_material(j: &JobFile) -> Answer<()> {
@@ -93,6 +133,13 @@ fn no_material(j: &JobFile) -> Answer<()> {
         return Err(j.error(
             engagement,
             "there is an engagement, and no material to be cut",
+            help,
+        ));
+    }
+    if let Some(spindle) = &j.job.spindle {
+        return Err(j.error(
+            spindle,
+            "there is a spindle, and no material to be cut",
             help,
         ));
     }
@@ -142,14 +189,14 @@ fn cutters(j: &JobFile) -> Answer<Vec<(Option<u32>, ToolEntry)>> {
 }
 
 fn where_it_cuts(
-    files: &InputFiles,
+    (files, read): (&InputFiles, &mut FilesOfCut),
     j: &JobFile,
     table: &Spanned<MaterialTable>,
     smallest: &Tool,
 ) -> Answer<(kinetostat_machining::EngagementSource, String)> {
     match (&j.job.stock, &j.job.engagement) {
         (Some(table), None) => {
-            let (stock, words) = stock(files, j, table, smallest)?;
+            let (stock, words) = stock(files, j, table, smallest, read)?;
             let source = kinetostat_machining::EngagementSource::Stock(Box::new(stock));
             Ok((source, words))
         }
@@ -183,7 +230,14 @@ fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
 
 fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
     let Some(power) = &table.power_w else {
-        return Ok(None);
+        return match &j.job.spindle {
+            Some(own) if table.base_rpm.is_some() || table.most_rpm.is_some() => Err(j.error(
+                own,
+                "speeds alone do not say what the spindle can",
+                "write power_w, base_rpm and most_rpm, or none of them",
+            )),
+            _ => Ok(None),
+        };
     };
     let (Some(base), Some(most)) = (table.base_rpm, table.most_rpm) else {
         return Err(j.error(

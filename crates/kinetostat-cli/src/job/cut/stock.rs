@@ -4,10 +4,14 @@ use kinetostat_cutting::{CutError, Stock, StockSettings, Tool};
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
+use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
+
+/// Largest cell, as a share of the tool's diameter: forces in coarser ones are off by percents and more.
+const COARSEST: f64 = 0.1 + 1e-9;
 
 /// The stock, and its resolution in words; `smallest` is the tool with the smallest diameter.
 pub(super) fn stock(
@@ -15,6 +19,7 @@ pub(super) fn stock(
     job: &JobFile,
     table: &Spanned<StockTable>,
     smallest: &Tool,
+    files_read: &mut FilesOfCut,
 ) -> Answer<(Stock, String)> {
     let wrong = |error: CutError| match error.file {
         Some(_) => Failure::input(error),
@@ -52,16 +57,13 @@ pub(super) fn stock(
             "write block_mm = [[x, y, z], [x, y, z]], for instance",
         ));
     }
-    let read = |what: &str, name: &str| {
-        let path = job.base().join(name);
-        Ok::<_, Failure>((files.bytes(what, &path)?, path.display().to_string()))
-    };
+    let mut read = |what: &str, name: &str| files_read.bytes(files, job, what, name);
     let stock = if let Some(corners) = &t.block_mm {
         let [a, b] = *corners.get_ref();
         Stock::block(a, b, &settings)
     } else if let Some(cylinder) = &t.cylinder {
         let c = cylinder.get_ref();
-        Stock::cylinder(c.foot_mm, c.radius_mm, c.height_mm, &settings)
+        Stock::cylinder(c.foot_mm, 2.0 * c.radius_mm, c.height_mm, &settings)
     } else if let Some(stl) = &t.stl {
         let (bytes, name) = read("mesh of the stock", stl.get_ref())?;
         Stock::stl(&bytes, &name, &settings)
@@ -77,12 +79,28 @@ pub(super) fn stock(
         ));
     };
     let stock = stock.map_err(wrong)?;
+    let most = COARSEST * smallest.diameter_mm();
+    if stock.cell_mm() > most {
+        return Err(job.error(
+            table,
+            &format!(
+                "cells of {} mm do not show where a tool of {} mm cuts: at most a tenth of its diameter does",
+                short(stock.cell_mm()),
+                short(smallest.diameter_mm())
+            ),
+            "write a smaller cell_mm, give more memory_mb, or take a smaller stock",
+        ));
+    }
     let coarser = match stock.coarsened_from_mm() {
         Some(asked) => format!(" ({} mm need more memory than memory_mb)", short(asked)),
         None => String::new(),
     };
+    let walls = match t.stl.is_some() {
+        true => "; walls of the mesh stand at points of the grid, up to a cell from where they are",
+        false => "",
+    };
     let words = format!(
-        "engagement from the stock, a height field of cells of {} mm{coarser}: no undercuts, tool along z of the part",
+        "engagement from the stock, a height field of cells of {} mm{coarser}: no undercuts, tool along z of the part{walls}",
         short(stock.cell_mm())
     );
     Ok((stock, words))

@@ -1,0 +1,35 @@
+//! Files that a job's cut is read from: never overwritten, and named in the result with their hashes.
+
+use std::path::PathBuf;
+
+use kinetostat_machining::FileRead;
+
+use crate::files::input_files::InputFiles;
+use crate::files::origin;
+use crate::job::job_file::JobFile;
+use crate::ui::failure::Answer;
+
+/// Files that were read.
+#[derive(Default)]
+pub(crate) struct FilesOfCut {
+    pub(crate) paths: Vec<PathBuf>,
+    pub(crate) read: Vec<FileRead>,
+}
+
+impl FilesOfCut {
+    /// The bytes of a file that a job names, and its path for messages.
+    pub(super) fn bytes(
+        &mut self,
+        files: &InputFiles,
+        job: &JobFile,
+        what: &str,
+        name: &str,
+    ) -> Answer<(Vec<u8>, String)> {
+        let path = job.base().join(name);
+        let bytes = files.bytes(what, &path)?;
+        self.read.push(origin::file(what, &path, &bytes));
+        let shown = path.display().to_string();
+        self.paths.push(path);
+        Ok((bytes, shown))
+    }
+}
