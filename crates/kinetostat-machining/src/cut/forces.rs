@@ -335,7 +335,12 @@ fn join(before: Option<&Vec<CutStation>>, stations: &mut Vec<CutStation>) {
 
 /// Feed per tooth across the axis (z of the part) and down along it.
 fn feed_along(per_tooth_mm: f64, direction: &Vector3<f64>) -> kinetostat_cutting::Result<Feed> {
-    let level = per_tooth_mm * direction.xy().norm();
+    let across = direction.xy().norm();
+    // Edges along the axis do not rub because a plunge is a hair off it.
+    let level = match across > ACROSS {
+        true => per_tooth_mm * across,
+        false => 0.0,
+    };
     let down = -per_tooth_mm * direction.z;
     // Programs state four decimals: a slope of less than that is none.
     match direction.z.abs() < 1e-6 {
