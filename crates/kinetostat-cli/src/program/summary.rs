@@ -5,7 +5,7 @@ use kinetostat_machining::number::{
 };
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
-use crate::ui::layout::{columns, wrapped};
+use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, triple};
 use crate::ui::warnings::warnings;
 
@@ -27,6 +27,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     out.push('\n');
     out.push_str(&actuators(result));
     out.push_str(&worst(result));
+    out.push_str(&cutting_force(result));
     out.push_str(&warnings(&result.warnings));
     out
 }
@@ -184,6 +185,17 @@ fn actuators(result: &RunResult) -> String {
         rows.push(row);
     }
     columns(&rows, 2)
+}
+
+/// What a force that is computed from the cut rests on.
+fn cutting_force(result: &RunResult) -> String {
+    let words = &result.run_inputs.cut;
+    if words.is_empty() {
+        return String::new();
+    }
+    let mut out = "\nCutting force\n".to_owned();
+    out.extend(words.iter().map(|sentence| item(sentence)));
+    out
 }
 
 fn worst(result: &RunResult) -> String {

@@ -58,7 +58,7 @@ pub(super) fn material(
         format!("material {}: {}", found.name, found.law.description()),
         format!("source: {}", found.source),
     ];
-    words.extend(found.assumptions.iter().map(|a| format!("assumed: {a}")));
+    words.extend(found.assumptions.iter().cloned());
     words.extend(applied.factors.iter().map(|f| format!("factor {f}")));
     words.push(format!(
         "the force may be {:.0} % more or less than stated",
