@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use kinetostat::Wrench;
+use kinetostat::number::larger;
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Rotation, SpindleCurve};
 use kinetostat_program::{Knowledge, Move, MoveKind, Path, SpindleRotation};
 use nalgebra::{Rotation3, Vector3};
@@ -15,6 +16,7 @@ use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::station::{ACROSS, CutStation};
+use crate::cut::thickest::thickest_chip_mm;
 use crate::cut::walk::Walk;
 use crate::watch::Watch;
 
@@ -265,14 +267,16 @@ impl CutQuestion {
                 format!("{chip:.4} mm per tooth; the tool's maker allows {most} mm")
             });
         }
-        if let Some((_, most)) = tool.law.known_between_mm()
-            && chip > most
-        {
-            findings.add(CutFindingKind::OutsideTheLaw, line, chip, || {
-                format!(
-                    "chips of up to {chip:.4} mm; the law of the material is known up to {most} mm"
-                )
-            });
+        if let Some((least, most)) = tool.law.known_between_mm() {
+            let thickest = thickest_chip_mm(engagement, &feed, &tool.tool);
+            let beyond = larger(thickest / most, least / thickest);
+            if thickest > 0.0 && beyond > 1.0 {
+                findings.add(CutFindingKind::OutsideTheLaw, line, beyond, || {
+                    format!(
+                        "chips of at most {thickest:.4} mm; the law of the material was measured from {least} to {most} mm: the force is a guess"
+                    )
+                });
+            }
         }
         if let Some(length) = tool.flute_length_mm
             && station.depth_mm > length

@@ -14,4 +14,5 @@ pub(crate) mod force;
 pub(crate) mod forces;
 pub(crate) mod profile;
 pub(crate) mod station;
+pub(crate) mod thickest;
 pub(crate) mod walk;

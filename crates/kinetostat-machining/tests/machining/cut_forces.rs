@@ -288,3 +288,47 @@ fn a_plunge_at_an_edge_pushes_sideways() {
         );
     }
 }
+
+/// Known for chips of 0.02 to 0.1 mm.
+#[derive(Debug)]
+struct Known(Linear);
+
+impl kinetostat_cutting::ForceLaw for Known {
+    fn edge_force(&self, chip_mm: f64) -> kinetostat_cutting::EdgeForce {
+        self.0.edge_force(chip_mm)
+    }
+
+    fn known_between_mm(&self) -> Option<(f64, f64)> {
+        Some((0.02, 0.1))
+    }
+}
+
+/// The thickest chip counts, not the feed: `c sin(acos(1 - ae/r))` in a narrow cut.
+#[test]
+fn chips_outside_the_law_are_told() {
+    let mut compared = 0;
+    // Feed per tooth, width, thickest chip: within, too thick, too thin, and thin by a narrow cut of a fast feed.
+    for (feed, width, told) in [
+        (0.05, 3.0, false),
+        (0.12, 3.0, true),
+        (0.01, 3.0, true),
+        (0.12, 0.1, false),
+        (0.06, 0.05, true),
+    ] {
+        let path = path(&format!(
+            "G21 G90\nS10000 M3\nG0 X0 Y0 Z0\nG1 X30 F{}\n",
+            feed * 20_000.0
+        ));
+        let cut = Engagement::straight(3.0, width, 1.0, Side::Right).unwrap();
+        let mut question = question(EngagementSource::Constant(cut));
+        question.tools[0].law = Arc::new(Known(law()));
+        let along = question.along(&path, &Unwatched).unwrap();
+        let found = along
+            .findings
+            .iter()
+            .any(|f| f.kind == CutFindingKind::OutsideTheLaw);
+        assert_eq!(found, told, "{feed} {width}: {:?}", along.findings);
+        compared += 1;
+    }
+    assert_eq!(compared, 5);
+}
