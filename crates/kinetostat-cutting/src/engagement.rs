@@ -5,7 +5,7 @@
 //! lies at `r (sin phi, cos phi)`; the half from 0 to pi looks where the feed goes. These are places, whichever way the
 //! spindle turns.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +59,17 @@ impl Contact {
             to_mm: outer_mm,
             entry,
             exit,
+        }
+    }
+}
+
+impl Contact {
+    /// Largest sine of an angle on the arc: where the chip of a level feed is thickest.
+    pub(crate) fn largest_sine(&self) -> f64 {
+        let ahead = (FRAC_PI_2 - self.entry).rem_euclid(TAU);
+        match ahead <= self.exit - self.entry {
+            true => 1.0,
+            false => larger(self.entry.sin(), self.exit.sin()),
         }
     }
 }

@@ -16,6 +16,7 @@ mod material;
 mod milling;
 mod names;
 mod number;
+mod source;
 mod spindle;
 mod stock;
 mod tool;

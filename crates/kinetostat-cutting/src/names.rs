@@ -8,7 +8,7 @@ pub(crate) fn bare(name: &str) -> String {
         .collect()
 }
 
-/// The closest of some names, best first, at most `most`; only those that could be a slip of the pen.
+/// The closest of some names, best first, at most `most`; only those that could be a typing mistake.
 pub(crate) fn nearest<'n>(
     given: &str,
     known: impl IntoIterator<Item = &'n str>,
@@ -16,7 +16,7 @@ pub(crate) fn nearest<'n>(
 ) -> Vec<&'n str> {
     let wanted = bare(given);
     let length = wanted.chars().count();
-    // Long names cannot be slips, and the comparison costs the product of the lengths.
+    // Long names cannot be typing mistakes, and the comparison costs the product of the lengths.
     if length > 60 {
         return Vec::new();
     }

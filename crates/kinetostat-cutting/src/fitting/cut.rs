@@ -1,8 +1,8 @@
 //! The cut in which mean forces were measured, and the closed form of the mean force in it.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
-use crate::engagement::{Edge, Engagement};
+use crate::engagement::{Contact, Edge, Engagement};
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::law::Linear;
 use crate::tool::{Shape, Tool};
@@ -108,9 +108,7 @@ impl MeasuredCut {
 
     /// Largest thickness of chip at a feed per tooth, mm.
     pub(crate) fn largest_chip_mm(&self, feed_mm_per_tooth: f64) -> f64 {
-        // The thickest chip is in front of the tool, or at the end of the arc that lies nearest to it.
-        let thickest = FRAC_PI_2.clamp(self.entry, self.exit);
-        feed_mm_per_tooth * thickest.sin()
+        feed_mm_per_tooth * Contact::side(0.0, self.depth_mm, self.entry, self.exit).largest_sine()
     }
 
     /// What multiplies `K_tc`, `K_rc`, `K_te` and `K_re` in the mean force along x and along y.

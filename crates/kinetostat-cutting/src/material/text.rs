@@ -10,6 +10,7 @@ use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::law::Law;
 use crate::material::entry::{Group, Material, MeasuredIn};
 use crate::names::{bare, nearest};
+use crate::source::{Source, described};
 
 const MOST_BYTES: usize = 10_000_000;
 const MOST_MATERIALS: usize = 10_000;
@@ -41,33 +42,10 @@ struct Entry {
     speed_m_per_min: Option<Spanned<[f64; 2]>>,
 }
 
-/// A file's name and text, for errors with their line.
-struct Source<'t> {
-    file: &'t str,
-    text: &'t str,
-}
-
 impl Source<'_> {
-    fn line(&self, byte: usize) -> usize {
-        let before = self.text.as_bytes().get(..byte).unwrap_or_default();
-        1 + before.iter().filter(|b| **b == b'\n').count()
-    }
-
-    fn error(&self, byte: usize, quantity: &str, found: String, expected: String) -> CutError {
-        CutError::new(CutErrorKind::File, quantity, found, expected)
-            .at(self.file, Some(self.line(byte)))
-    }
-
-    /// The same error with the place of the value it is about.
-    fn at<T>(&self, value: &Spanned<T>) -> impl Fn(CutError) -> CutError {
-        let line = self.line(value.span().start);
-        move |error| error.at(self.file, Some(line))
-    }
-
     /// A message of the TOML reader; for a key that is not known, with the nearest ones.
-    fn syntax(&self, error: &toml::de::Error) -> CutError {
-        let byte = error.span().map_or(0, |span| span.start);
-        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+    fn material_syntax(&self, error: &toml::de::Error) -> CutError {
+        let (byte, message) = described(error);
         let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
         match (message.starts_with("unknown "), quoted.split_first()) {
             (true, Some((given, known))) => {
@@ -96,7 +74,7 @@ impl Source<'_> {
         let [from, to] = *value.get_ref();
         for number in [from, to] {
             within(CutErrorKind::Material, name, number, bounds.clone(), unit)
-                .map_err(self.at(&value))?;
+                .map_err(self.placed(&value))?;
         }
         match from < to {
             true => Ok(Some((from, to))),
@@ -124,13 +102,17 @@ impl Source<'_> {
         for alias in &entry.aliases {
             text("alias", alias)?;
         }
-        let law = entry.law.get_ref().checked().map_err(self.at(&entry.law))?;
+        let law = entry
+            .law
+            .get_ref()
+            .checked()
+            .map_err(self.placed(&entry.law))?;
         let kind = CutErrorKind::Material;
         let percent = *entry.spread_percent.get_ref();
         within(kind, "spread", percent, 0.0..=200.0, "%")
-            .map_err(self.at(&entry.spread_percent))?;
+            .map_err(self.placed(&entry.spread_percent))?;
         let measured_in = *entry.measured_in.get_ref();
-        let at = self.at(&entry.measured_in);
+        let at = self.placed(&entry.measured_in);
         if let Some(rake) = measured_in.rake_deg {
             within(kind, "rake angle", rake, -30.0..=40.0, "deg").map_err(&at)?;
         }
@@ -169,7 +151,7 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Vec<Material>> {
         }
     };
     most("file of materials", text.len(), MOST_BYTES, "bytes")?;
-    let read: File = toml::from_str(text).map_err(|error| source.syntax(&error))?;
+    let read: File = toml::from_str(text).map_err(|error| source.material_syntax(&error))?;
     most(
         "materials",
         read.material.len(),

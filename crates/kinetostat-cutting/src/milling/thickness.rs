@@ -35,7 +35,7 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
     /// ```
     #[must_use]
     pub fn chip_thickness(&self) -> Option<ChipThickness> {
-        let (mut largest, mut sum, mut length) = (0.0, 0.0, 0.0);
+        let (mut sum, mut length) = (0.0, 0.0);
         for contact in &self.engagement.contacts {
             let arc = contact.exit - contact.entry;
             let mut look = |place: &Meridian, width: f64| {
@@ -44,8 +44,6 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
                         tooth.thickness(&self.feed, place, (contact.entry + share * arc).sin())
                     };
                     for i in 0..ANGLES {
-                        // The largest may stand at either end; the mean takes the middles.
-                        largest = larger(largest, at(i as f64 / ANGLES as f64));
                         let chip = at((i as f64 + 0.5) / ANGLES as f64);
                         if chip > 0.0 {
                             let weight = tooth.alike * width * arc;
@@ -53,7 +51,6 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
                             length += weight;
                         }
                     }
-                    largest = larger(largest, at(1.0));
                 }
             };
             if contact.edge == Edge::End {
@@ -71,13 +68,53 @@ impl<L: ForceLaw + ?Sized> Milling<'_, L> {
                     let place = piece.point(from + step * (i as f64 + 0.5));
                     look(&place, place.width * step);
                 }
-                // The upper end, where a chip across the axis is thickest; it weighs nothing.
-                look(&piece.point(to), 0.0);
             }
         }
         (length > 0.0).then(|| ChipThickness {
-            largest_mm: largest,
+            largest_mm: self.largest_chip_mm(),
             mean_mm: sum / length,
         })
+    }
+
+    /// Thickness of the thickest chip, mm; 0 where nothing is cut.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Engagement, Feed, Linear, Milling, Shape, Side, Tool};
+    ///
+    /// let tool = Tool::new(Shape::Flat, 10.0, 2)?;
+    /// let law = Linear::new([800.0, 200.0, 100.0], [20.0, 20.0, 0.0])?;
+    /// let narrow = Engagement::straight(5.0, 0.1, 1.0, Side::Right)?;
+    /// let chip = Milling::new(&tool, &law, &narrow, Feed::level(0.1)?).largest_chip_mm();
+    /// assert!((chip - 0.1 * 0.98_f64.acos().sin()).abs() < 1e-12); // c sin(acos(1 - ae/r))
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn largest_chip_mm(&self) -> f64 {
+        let mut largest = 0.0;
+        for contact in &self.engagement.contacts {
+            let sine = contact.largest_sine();
+            // Each tooth's chip grows with the way of the feed, so it is thickest where that is longest.
+            let mut look = |place: &Meridian| {
+                for tooth in &self.chips.teeth {
+                    largest = larger(largest, tooth.thickness(&self.feed, place, sine));
+                }
+            };
+            match contact.edge {
+                Edge::End => look(&Meridian::of_end(contact.to_mm)),
+                Edge::Side => {
+                    for (piece, from, to) in
+                        Piece::between(self.tool, contact.from_mm, contact.to_mm)
+                    {
+                        // On a corner the parameter is the angle of the normal: the way along it is longest where it points
+                        // along the feed.
+                        let along = (self.feed.level_mm * sine).atan2(self.feed.down_mm);
+                        for at in [from, to, along.clamp(from, to)] {
+                            look(&piece.point(at));
+                        }
+                    }
+                }
+            }
+        }
+        largest
     }
 }

@@ -7,7 +7,7 @@
 mod bounds;
 mod entry;
 mod linuxcnc;
-mod source;
+mod messages;
 mod table;
 mod toml_file;
 mod written;

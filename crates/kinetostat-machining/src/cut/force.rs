@@ -1,8 +1,6 @@
 //! Force of one engagement, by a table where the feed is level and seldom changes.
 
-use kinetostat_cutting::{
-    CutForce, Engagement, Feed, ForceLaw, MeanTable, Milling, Result, Rotation, Wall,
-};
+use kinetostat_cutting::{CutForce, Engagement, Feed, MeanTable, Milling, Result, Rotation, Wall};
 
 use crate::cut::choice::ForceChoice;
 use crate::cut::cutting_tool::CuttingTool;
@@ -46,23 +44,22 @@ impl<'a> ForceOf<'a> {
         feed: Feed,
         rotation: Rotation,
     ) -> Result<(CutForce, f64)> {
-        let law: &dyn ForceLaw = &*self.tool.law;
-        let mean = match feed.down_mm == 0.0 {
-            true => self.level(engagement, feed, rotation)?,
-            false => Milling::new(&self.tool.tool, law, engagement, feed)
-                .turning(rotation)
-                .mean(),
+        let tool = self.tool;
+        let cut = || Milling::new(&tool.tool, &*tool.law, engagement, feed).turning(rotation);
+        let table = match feed.down_mm == 0.0 {
+            true => self.table(feed.level_mm, rotation)?,
+            false => None,
         };
+        let mean = table.map_or_else(|| cut().mean(), |table| table.mean(engagement));
         let torque = mean.torque_n_mm();
-        if self.choice == ForceChoice::Mean || engagement.is_air() {
+        if engagement.is_air() {
             return Ok((mean, torque));
         }
-        let cut = Milling::new(&self.tool.tool, law, engagement, feed).turning(rotation);
         let chosen = match self.choice {
             ForceChoice::Mean => mean,
-            ForceChoice::Peak => cut.revolution_at(ANGLES).peak().1,
+            ForceChoice::Peak => cut().revolution_at(ANGLES).peak().1,
             ForceChoice::AtSurfaceGeneration => {
-                let walls = [Wall::Left, Wall::Right].map(|wall| cut.surface_generation(wall));
+                let walls = [Wall::Left, Wall::Right].map(|wall| cut().surface_generation(wall));
                 match walls {
                     [Some(force), None] | [None, Some(force)] => force,
                     _ => mean,
@@ -72,20 +69,15 @@ impl<'a> ForceOf<'a> {
         Ok((chosen, torque))
     }
 
-    fn level(
-        &mut self,
-        engagement: &Engagement,
-        feed: Feed,
-        rotation: Rotation,
-    ) -> Result<CutForce> {
-        let tool = self.tool;
-        let here = |known: &Known| known.feed_mm == feed.level_mm && known.rotation == rotation;
+    /// The table of a level feed, from when that feed has come often enough.
+    fn table(&mut self, feed_mm: f64, rotation: Rotation) -> Result<Option<&MeanTable>> {
+        let here = |known: &Known| known.feed_mm == feed_mm && known.rotation == rotation;
         let at = self.tables.iter().position(here).unwrap_or_else(|| {
             if self.tables.len() == MOST_TABLES {
                 self.tables.remove(0);
             }
             self.tables.push(Known {
-                feed_mm: feed.level_mm,
+                feed_mm,
                 rotation,
                 asked: 0,
                 table: None,
@@ -95,15 +87,10 @@ impl<'a> ForceOf<'a> {
         let known = &mut self.tables[at];
         known.asked += 1;
         if known.table.is_none() && known.asked > WORTH_A_TABLE {
-            let table = MeanTable::new(&tool.tool, &*tool.law, feed.level_mm, rotation)?;
-            known.table = Some(table);
+            let (tool, law) = (&self.tool.tool, &*self.tool.law);
+            known.table = Some(MeanTable::new(tool, law, feed_mm, rotation)?);
         }
-        Ok(match &known.table {
-            Some(table) => table.mean(engagement),
-            None => Milling::new(&tool.tool, &*tool.law, engagement, feed)
-                .turning(rotation)
-                .mean(),
-        })
+        Ok(known.table.as_ref())
     }
 }
 

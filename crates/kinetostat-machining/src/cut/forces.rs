@@ -1,49 +1,18 @@
 //! The forces of a program's cuts.
 
-use std::f64::consts::TAU;
-
 use kinetostat::Wrench;
-use kinetostat::number::larger;
-use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Rotation, SpindleCurve};
-use kinetostat_program::{Knowledge, Move, MoveKind, Path, SpindleRotation};
+use kinetostat_cutting::{Edge, Engagement, Feed};
+use kinetostat_program::{Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::choice::ForceChoice;
-use crate::cut::cutting_tool::CuttingTool;
-use crate::cut::engagement_source::EngagementSource;
 use crate::cut::failure::CutFailure;
 use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
+use crate::cut::question::CutQuestion;
 use crate::cut::station::{ACROSS, CutStation};
-use crate::cut::thickest::thickest_chip_mm;
-use crate::cut::walk::Walk;
+use crate::cut::walk::{Met, Walk};
 use crate::watch::Watch;
-
-/// The question: which tools cut what, where.
-#[derive(Clone, Debug)]
-pub struct CutQuestion {
-    /// Tools; one without a number is that of all blocks whose tool has no entry.
-    pub tools: Vec<CuttingTool>,
-    /// Where they are in the material.
-    pub engagement: EngagementSource,
-    /// Which force of a revolution counts.
-    pub choice: ForceChoice,
-    /// Speed of the spindle instead of the program's, rpm.
-    pub rpm: Option<f64>,
-    /// Sense of the spindle instead of the program's.
-    pub rotation: Option<Rotation>,
-    /// What the spindle can.
-    pub spindle: Option<SpindleCurve>,
-}
-
-/// How the tool turns and goes on a move.
-struct Drive {
-    tool: usize,
-    rotation: Rotation,
-    rpm: f64,
-    per_tooth_mm: f64,
-}
 
 /// Corners that turn by at most this do not change what the tool meets, rad.
 const GENTLE: f64 = std::f64::consts::FRAC_PI_6;
@@ -63,11 +32,8 @@ impl CutQuestion {
             return Err(CutFailure::NoTool { line: first.line });
         }
         let mut walk = Walk::new(&self.engagement, &self.tools);
-        let mut forces: Vec<ForceOf<'_>> = self
-            .tools
-            .iter()
-            .map(|tool| ForceOf::new(tool, self.choice))
-            .collect();
+        let force_of = |tool| ForceOf::new(tool, self.choice);
+        let mut forces: Vec<ForceOf<'_>> = self.tools.iter().map(force_of).collect();
         let mut findings = Findings::default();
         let mut moves = Vec::with_capacity(path.moves.len());
         watch.stage("engagement", path.moves.len());
@@ -84,7 +50,7 @@ impl CutQuestion {
             }
             moves.push(stations);
         }
-        Ok(ForceAlongPath::of(moves.into_iter(), findings.list()))
+        Ok(ForceAlongPath::of(moves, findings.list()))
     }
 
     /// Whether a move goes on where the one before ends, in nearly the same direction and with the same tool: what the tool
@@ -111,196 +77,61 @@ impl CutQuestion {
         forces: &mut [ForceOf<'_>],
         findings: &mut Findings,
     ) -> Result<Vec<CutStation>, CutFailure> {
-        let mut stations = Vec::new();
         let cut = |error| CutFailure::Cut {
             line: motion.line,
             error: Box::new(error),
         };
         let tool = self.tool_on(path, motion.line);
         if motion.kind == MoveKind::Rapid {
-            // Nothing is known to be swept.
-            let Ok(tool) = tool else {
-                return Ok(stations);
-            };
-            let through = walk.go(motion, tool, |_, _, engagement| {
-                if !engagement.is_air() {
-                    let depth = engagement.depth_mm();
-                    findings.add(
-                        CutFindingKind::RapidThroughStock,
-                        motion.line,
-                        depth,
-                        || format!("a rapid goes through material, {depth:.2} mm deep"),
-                    );
-                }
-            });
-            through.map_err(cut)?;
-            return Ok(stations);
-        }
-        // What is missing matters where something is cut.
-        let mut drive: Option<Result<Drive, CutFailure>> = None;
-        let mut wrong = None;
-        let whole = walk.go(
-            motion,
-            tool.clone().unwrap_or(0),
-            |share, direction, engagement| {
-                if wrong.is_some() {
-                    return;
-                }
-                if engagement.is_air() {
-                    stations.push(CutStation::air(share));
-                    return;
-                }
-                let drive = drive.get_or_insert_with(|| self.drive(path, motion, &tool));
-                match drive {
-                    Err(failure) => wrong = Some(failure.clone()),
-                    Ok(drive) => {
-                        let feed = feed_along(drive.per_tooth_mm, &direction);
-                        let force = feed.and_then(|feed| {
-                            let of = forces[drive.tool].of(engagement, feed, drive.rotation)?;
-                            Ok((feed, of))
-                        });
-                        match force {
-                            Err(error) => wrong = Some(cut(error)),
-                            Ok((feed, (force, torque))) => {
-                                let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
-                                let wrench = in_axes_of_load(wrench, &direction);
-                                let station = CutStation {
-                                    share,
-                                    wrench,
-                                    torque_n_m: 1e-3 * torque,
-                                    depth_mm: engagement.depth_mm(),
-                                    arc: arc_of(engagement),
-                                };
-                                self.look_at(
-                                    &station,
-                                    engagement,
-                                    drive,
-                                    feed,
-                                    motion.line,
-                                    findings,
-                                );
-                                stations.push(station);
-                            }
-                        }
-                    }
-                }
-            },
-        );
-        whole.map_err(cut)?;
-        match wrong {
-            Some(failure) => Err(failure),
-            None => Ok(stations),
-        }
-    }
-
-    /// The entry of the tool that the block on a line is made with.
-    fn tool_on(&self, path: &Path, line: usize) -> Result<usize, CutFailure> {
-        let number = path.tool_on(line);
-        let of = |number: Option<u32>| self.tools.iter().position(|tool| tool.number == number);
-        let own = number.and_then(|number| of(Some(number)));
-        own.or_else(|| of(None)).ok_or(match number {
-            Some(number) => CutFailure::UnknownTool { line, number },
-            None => CutFailure::NoTool { line },
-        })
-    }
-
-    fn drive(
-        &self,
-        path: &Path,
-        motion: &Move,
-        tool: &Result<usize, CutFailure>,
-    ) -> Result<Drive, CutFailure> {
-        let tool = tool.clone()?;
-        let line = motion.line;
-        let missing = |what, help| CutFailure::Missing { line, what, help };
-        let spindle = path.spindle_on(line);
-        let said = match spindle.rotation {
-            SpindleRotation::Clockwise => Some(Rotation::Clockwise),
-            SpindleRotation::CounterClockwise => Some(Rotation::CounterClockwise),
-            SpindleRotation::Stopped => None,
-        };
-        let rotation = self.rotation.or(said).ok_or_else(|| {
-            missing(
-                "the tool cuts and the spindle does not turn",
-                "add M3 or M4 to the program, or give the sense of rotation",
-            )
-        })?;
-        let rpm = self
-            .rpm
-            .or(spindle.speed.and(spindle.rpm()).filter(|rpm| *rpm > 0.0));
-        let rpm = rpm.ok_or_else(|| {
-            missing(
-                "the tool cuts and no speed of the spindle is known (S with G97)",
-                "add the S word to the program, or give the speed",
-            )
-        })?;
-        let per_turn = motion.feed_mm_per_revolution(rpm).ok_or_else(|| {
-            missing(
-                "the tool cuts and no feed is known (F)",
-                "add the F word to the program",
-            )
-        })?;
-        Ok(Drive {
-            tool,
-            rotation,
-            rpm,
-            per_tooth_mm: per_turn / self.tools[tool].tool.teeth() as f64,
-        })
-    }
-
-    /// What no such cut should be.
-    fn look_at(
-        &self,
-        station: &CutStation,
-        engagement: &Engagement,
-        drive: &Drive,
-        feed: Feed,
-        line: usize,
-        findings: &mut Findings,
-    ) {
-        let tool = &self.tools[drive.tool];
-        let chip = feed.level_mm.hypot(feed.down_mm);
-        if let Some(most) = tool.max_chip_mm
-            && chip > most
-        {
-            findings.add(CutFindingKind::ThickChip, line, chip, || {
-                format!("{chip:.4} mm per tooth; the tool's maker allows {most} mm")
-            });
-        }
-        if let Some((least, most)) = tool.law.known_between_mm() {
-            let thickest = thickest_chip_mm(engagement, &feed, &tool.tool);
-            let beyond = larger(thickest / most, least / thickest);
-            if thickest > 0.0 && beyond > 1.0 {
-                findings.add(CutFindingKind::OutsideTheLaw, line, beyond, || {
-                    format!(
-                        "chips of at most {thickest:.4} mm; the law of the material was measured from {least} to {most} mm: the force is a guess"
-                    )
-                });
+            // Without a known tool nothing is known to be swept.
+            if let Ok(tool) = tool {
+                let met = walk.go(motion, tool).map_err(cut)?;
+                rapid_through(&met, motion.line, findings);
             }
+            return Ok(Vec::new());
         }
-        if let Some(length) = tool.flute_length_mm
-            && station.depth_mm > length
-        {
-            let depth = station.depth_mm;
-            findings.add(CutFindingKind::ShortEdges, line, depth, || {
-                format!("{depth:.2} mm deep; the edges are {length} mm long")
-            });
+        let met = walk.go(motion, *tool.as_ref().unwrap_or(&0)).map_err(cut)?;
+        // What is missing matters where something is cut.
+        if met.iter().all(|met| met.engagement.is_air()) {
+            return Ok(met.iter().map(|met| CutStation::air(met.share)).collect());
         }
-        if let Some(curve) = &self.spindle
-            && let Some(found) = curve.exceeded_by(drive.rpm, 1e3 * station.torque_n_m)
-        {
-            let power = station.torque_n_m * drive.rpm * TAU / 60.0;
-            findings.add(CutFindingKind::Spindle, line, power, || found.to_string());
+        let tool = tool?;
+        let drive = self.drive(path, motion, tool)?;
+        let mut stations = Vec::with_capacity(met.len());
+        for met in &met {
+            if met.engagement.is_air() {
+                stations.push(CutStation::air(met.share));
+                continue;
+            }
+            let feed = feed_along(drive.per_tooth_mm, &met.direction).map_err(cut)?;
+            let of = forces[tool].of(&met.engagement, feed, drive.rotation);
+            let (force, torque) = of.map_err(cut)?;
+            let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
+            let station = CutStation {
+                share: met.share,
+                wrench: in_axes_of_load(wrench, &met.direction),
+                torque_n_m: 1e-3 * torque,
+                depth_mm: met.engagement.depth_mm(),
+                arc: arc_of(&met.engagement),
+            };
+            let place = (&station, &met.engagement);
+            self.look_at(place, (&drive, feed), motion.line, findings);
+            stations.push(station);
         }
-        let full = |c: &Contact| c.edge == Edge::End && c.exit - c.entry > 0.999 * TAU;
-        if feed.down_mm > 0.0 && engagement.contacts.iter().any(full) {
-            findings.add(CutFindingKind::Plunge, line, feed.down_mm, || {
-                format!(
-                    "the tool plunges with {:.4} mm per tooth: its end must cut at the centre",
-                    feed.down_mm
-                )
-            });
-        }
+        Ok(stations)
+    }
+}
+
+/// A rapid that meets material.
+fn rapid_through(met: &[Met], line: usize, findings: &mut Findings) {
+    for met in met.iter().filter(|met| !met.engagement.is_air()) {
+        let depth = met.engagement.depth_mm();
+        findings.add(CutFindingKind::RapidThroughStock, line, depth, || {
+            match depth > 0.0 {
+                true => format!("a rapid goes through material, {depth:.2} mm deep"),
+                false => "a rapid goes down onto material".to_owned(),
+            }
+        });
     }
 }
 

@@ -7,12 +7,14 @@
 
 pub(crate) mod choice;
 pub(crate) mod cutting_tool;
+pub(crate) mod drive;
 pub(crate) mod engagement_source;
 pub(crate) mod failure;
 pub(crate) mod finding;
 pub(crate) mod force;
 pub(crate) mod forces;
+pub(crate) mod limits;
 pub(crate) mod profile;
+pub(crate) mod question;
 pub(crate) mod station;
-pub(crate) mod thickest;
 pub(crate) mod walk;

@@ -9,16 +9,42 @@ use crate::cut::station::CutStation;
 /// Vertices of the load are left out where the others give it within this share of the largest force.
 const NEGLIGIBLE: f64 = 0.005;
 
-/// The force of the cut along a path.
-#[derive(Clone, Debug, Default)]
-pub struct ForceAlongPath {
-    /// Stations of all moves, one after the other.
-    stations: Vec<CutStation>,
-    /// Where the stations of each move begin; one more than there are moves.
+/// Lists, one for each move, in one piece of memory.
+#[derive(Clone, Debug)]
+struct ByMove<T> {
+    all: Vec<T>,
+    /// Where the list of each move begins; one more than there are moves.
     first: Vec<usize>,
+}
+
+impl<T> ByMove<T> {
+    fn new() -> Self {
+        Self {
+            all: Vec::new(),
+            first: vec![0],
+        }
+    }
+
+    /// The list of the next move.
+    fn push(&mut self, list: impl IntoIterator<Item = T>) {
+        self.all.extend(list);
+        self.first.push(self.all.len());
+    }
+
+    fn of(&self, move_index: usize) -> &[T] {
+        match self.first.get(move_index..move_index + 2) {
+            Some(&[from, to]) => &self.all[from..to],
+            _ => &[],
+        }
+    }
+}
+
+/// The force of the cut along a path.
+#[derive(Clone, Debug)]
+pub struct ForceAlongPath {
+    stations: ByMove<CutStation>,
     /// Those between which the load is linear.
-    vertices: Vec<(f64, Wrench)>,
-    first_vertex: Vec<usize>,
+    vertices: ByMove<(f64, Wrench)>,
     largest: Wrench,
     /// What no such cut should be.
     pub findings: Vec<CutFinding>,
@@ -26,49 +52,32 @@ pub struct ForceAlongPath {
 
 impl ForceAlongPath {
     /// Of the stations of each move, in the order of the path.
-    pub(crate) fn of(
-        moves: impl Iterator<Item = Vec<CutStation>>,
-        findings: Vec<CutFinding>,
-    ) -> Self {
-        let mut along = Self {
-            findings,
-            ..Self::default()
-        };
-        along.first.push(0);
-        for stations in moves {
-            along.stations.extend(stations);
-            along.first.push(along.stations.len());
-        }
-        let size = |station: &CutStation| station.wrench.force().norm();
-        for station in &along.stations {
-            if size(station) > along.largest.force().norm() {
-                along.largest = station.wrench;
+    pub(crate) fn of(moves: Vec<Vec<CutStation>>, findings: Vec<CutFinding>) -> Self {
+        let (mut force, mut moment, mut largest) = (0.0, 0.0, Wrench::zero());
+        for station in moves.iter().flatten() {
+            moment = larger(moment, station.wrench.moment().norm());
+            if station.wrench.force().norm() > force {
+                force = station.wrench.force().norm();
+                largest = station.wrench;
             }
         }
-        let size = along.largest.force().norm();
-        let moment = along.stations.iter().map(|s| s.wrench.moment().norm());
-        let moment = moment.fold(0.0, larger);
-        along.first_vertex.push(0);
-        for pair in along.first.windows(2) {
-            let stations = &along.stations[pair[0]..pair[1]];
-            essential(
-                stations,
-                NEGLIGIBLE * size,
-                NEGLIGIBLE * moment,
-                &mut along.vertices,
-            );
-            along.first_vertex.push(along.vertices.len());
+        let (mut stations, mut vertices) = (ByMove::new(), ByMove::new());
+        for own in moves {
+            vertices.push(essential(&own, NEGLIGIBLE * force, NEGLIGIBLE * moment));
+            stations.push(own);
         }
-        along
+        Self {
+            stations,
+            vertices,
+            largest,
+            findings,
+        }
     }
 
     /// Stations of a move; none where it does not cut.
     #[must_use]
     pub fn stations(&self, move_index: usize) -> &[CutStation] {
-        match self.first.get(move_index..move_index + 2) {
-            Some(&[from, to]) => &self.stations[from..to],
-            _ => &[],
-        }
+        self.stations.of(move_index)
     }
 
     /// The wrench with the largest force, in axes of the feed.
@@ -77,17 +86,10 @@ impl ForceAlongPath {
         self.largest
     }
 
-    fn vertices(&self, move_index: usize) -> &[(f64, Wrench)] {
-        match self.first_vertex.get(move_index..move_index + 2) {
-            Some(&[from, to]) => &self.vertices[from..to],
-            _ => &[],
-        }
-    }
-
     /// Force (N) and moment (N m) on the tool's tip at a share of a move: x along the feed, z along the part's z, y to the left.
     #[must_use]
     pub fn wrench(&self, move_index: usize, share: f64) -> Wrench {
-        let vertices = self.vertices(move_index);
+        let vertices = self.vertices.of(move_index);
         let after = vertices.partition_point(|(at, _)| *at < share);
         match (
             after.checked_sub(1).map(|i| vertices[i]),
@@ -109,17 +111,17 @@ impl ForceAlongPath {
     /// Shares inside a move at which the load has another slope.
     #[must_use]
     pub fn breaks(&self, move_index: usize) -> Vec<f64> {
-        let inside = self.vertices(move_index).iter().map(|(at, _)| *at);
+        let inside = self.vertices.of(move_index).iter().map(|(at, _)| *at);
         inside.filter(|at| *at > 0.0 && *at < 1.0).collect()
     }
 }
 
 /// The stations that the load needs (Ramer, Douglas and Peucker): the others lie within the tolerances of it.
-fn essential(stations: &[CutStation], force: f64, moment: f64, vertices: &mut Vec<(f64, Wrench)>) {
-    let (Some(first), Some(last)) = (stations.first(), stations.last()) else {
-        return;
+fn essential(stations: &[CutStation], force: f64, moment: f64) -> Vec<(f64, Wrench)> {
+    let Some(first) = stations.first() else {
+        return Vec::new();
     };
-    vertices.push((first.share, first.wrench));
+    let mut vertices = vec![(first.share, first.wrench)];
     // Spans that are still to be looked at, the first on top.
     let mut open = vec![(0, stations.len() - 1)];
     while let Some((from, to)) = open.pop() {
@@ -147,5 +149,5 @@ fn essential(stations: &[CutStation], force: f64, moment: f64, vertices: &mut Ve
             middle => open.extend([(middle, to), (from, middle)]),
         }
     }
-    debug_assert_eq!(vertices.last().map(|v| v.0), Some(last.share));
+    vertices
 }

@@ -7,8 +7,16 @@ use nalgebra::Vector3;
 use crate::cut::cutting_tool::CuttingTool;
 use crate::cut::engagement_source::EngagementSource;
 
-/// Chords leave an arc by at most this share of the tool's radius.
-const CHORD: f64 = 0.002;
+/// Chords leave an arc by at most this share of a cell.
+const CHORD: f64 = 0.04;
+
+/// The tool at a place of a move.
+pub(crate) struct Met {
+    pub share: f64,
+    /// Of the motion, a unit vector.
+    pub direction: Vector3<f64>,
+    pub engagement: Engagement,
+}
 
 /// Where the tool is in the material, as it goes.
 pub(crate) enum Walk<'a> {
@@ -29,47 +37,48 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Calls `at(share, direction, engagement)` at the stations of a move with a tool, and removes what it sweeps.
-    pub fn go(
-        &mut self,
-        motion: &Move,
-        tool: usize,
-        mut at: impl FnMut(f64, Vector3<f64>, &Engagement),
-    ) -> Result<()> {
+    /// What a tool (of this index) meets at the stations of a move; what it sweeps is removed.
+    pub fn go(&mut self, motion: &Move, tool: usize) -> Result<Vec<Met>> {
+        let mut met = Vec::new();
         if motion.known != Knowledge::Whole || !motion.has_length() {
-            return Ok(());
+            return Ok(met);
         }
         match self {
             Self::Told(source) => {
                 if motion.kind == MoveKind::Feed
                     && let Some(engagement) = source.of_line(motion.line)
                 {
-                    for share in [0.0, 1.0] {
-                        if let Some(direction) = motion.tangent(share) {
-                            at(share, direction, &engagement);
-                        }
-                    }
+                    let at = |share: f64| {
+                        Some(Met {
+                            share,
+                            direction: motion.tangent(share)?,
+                            engagement: engagement.clone(),
+                        })
+                    };
+                    met.extend([0.0, 1.0].into_iter().filter_map(at));
                 }
-                Ok(())
             }
             Self::Stock(stock, probes) => {
-                let probe = &mut probes[tool];
                 let pieces = match &motion.curve {
                     Curve::Line => 1,
-                    Curve::Arc(arc) => arc.chords_within(CHORD * stock.cell_mm() * 20.0),
+                    Curve::Arc(arc) => arc.chords_within(CHORD * stock.cell_mm()),
                 };
                 let mut from = motion.start;
                 for piece in 0..pieces {
                     let part = |share: f64| (piece as f64 + share) / pieces as f64;
                     let to = motion.point(part(1.0));
                     let direction = (to - from).try_normalize(1e-9).unwrap_or_default();
-                    probe.walk(stock, from.into(), to.into(), |share, engagement| {
-                        at(part(share), direction, engagement);
+                    probes[tool].walk(stock, from.into(), to.into(), |share, engagement| {
+                        met.push(Met {
+                            share: part(share),
+                            direction,
+                            engagement: engagement.clone(),
+                        });
                     })?;
                     from = to;
                 }
-                Ok(())
             }
         }
+        Ok(met)
     }
 }

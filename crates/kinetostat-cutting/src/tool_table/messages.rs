@@ -1,4 +1,4 @@
-//! The text of a table of tools, and errors with the line of what they are about.
+//! What is wrong in a table of tools, with its line.
 
 use std::ops::RangeInclusive;
 
@@ -6,34 +6,12 @@ use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::names;
-
-/// A file's name and text, for errors with their line.
-pub(crate) struct Source<'t> {
-    pub(crate) file: &'t str,
-    pub(crate) text: &'t str,
-}
+use crate::source::{Source, described};
 
 impl Source<'_> {
-    pub(crate) fn line(&self, byte: usize) -> usize {
-        let before = self.text.as_bytes().get(..byte).unwrap_or_default();
-        1 + before.iter().filter(|b| **b == b'\n').count()
-    }
-
-    pub(crate) fn error(
-        &self,
-        byte: usize,
-        quantity: &str,
-        found: String,
-        expected: String,
-    ) -> CutError {
-        CutError::new(CutErrorKind::File, quantity, found, expected)
-            .at(self.file, Some(self.line(byte)))
-    }
-
     /// A message of the TOML reader; for a key that is not known, with the nearest one.
     pub(crate) fn syntax(&self, error: &toml::de::Error) -> CutError {
-        let byte = error.span().map_or(0, |span| span.start);
-        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+        let (byte, message) = described(error);
         let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
         let (quantity, found, expected) = match quoted.as_slice() {
             [given, known @ ..] if message.starts_with("unknown ") => {
@@ -73,11 +51,11 @@ impl Source<'_> {
         let Some(value) = value else { return Ok(None) };
         within(CutErrorKind::Tool, key, *value.get_ref(), bounds, unit)
             .map(Some)
-            .map_err(|error| error.at(self.file, Some(self.line(value.span().start))))
+            .map_err(self.placed(value))
     }
 }
 
-/// The nearest of some keys, if it is close enough to be a slip of the pen; a key without its unit is meant to be the one
+/// The nearest of some keys, if it is close enough to be a typing mistake; a key without its unit is meant to be the one
 /// with it.
 fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
     let stem = format!("{given}_");

@@ -1,0 +1,67 @@
+//! What no cut should be: chips, edges and spindle against what they bear.
+
+use std::f64::consts::TAU;
+
+use kinetostat::number::larger;
+use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling};
+
+use crate::cut::drive::Drive;
+use crate::cut::finding::{CutFindingKind, Findings};
+use crate::cut::question::CutQuestion;
+use crate::cut::station::CutStation;
+
+impl CutQuestion {
+    /// What no such cut should be.
+    pub(crate) fn look_at(
+        &self,
+        (station, engagement): (&CutStation, &Engagement),
+        (drive, feed): (&Drive<'_>, Feed),
+        line: usize,
+        findings: &mut Findings,
+    ) {
+        let tool = drive.tool;
+        let chip = feed.level_mm.hypot(feed.down_mm);
+        if let Some(most) = tool.max_chip_mm
+            && chip > most
+        {
+            findings.add(CutFindingKind::ThickChip, line, chip, || {
+                format!("{chip:.4} mm per tooth; the tool's maker allows {most} mm")
+            });
+        }
+        if let Some((least, most)) = tool.law.known_between_mm() {
+            let cut = Milling::new(&tool.tool, &*tool.law, engagement, feed);
+            let thickest = cut.turning(drive.rotation).largest_chip_mm();
+            let beyond = larger(thickest / most, least / thickest);
+            if thickest > 0.0 && beyond > 1.0 {
+                findings.add(CutFindingKind::OutsideTheLaw, line, beyond, || {
+                    format!(
+                        "chips of at most {thickest:.4} mm; the law of the material was measured from {least} to {most} mm: the force is a guess"
+                    )
+                });
+            }
+        }
+        if let Some(length) = tool.flute_length_mm
+            && station.depth_mm > length
+        {
+            let depth = station.depth_mm;
+            findings.add(CutFindingKind::ShortEdges, line, depth, || {
+                format!("{depth:.2} mm deep; the edges are {length} mm long")
+            });
+        }
+        if let Some(curve) = &self.spindle
+            && let Some(found) = curve.exceeded_by(drive.rpm, 1e3 * station.torque_n_m)
+        {
+            let power = station.torque_n_m * drive.rpm * TAU / 60.0;
+            findings.add(CutFindingKind::Spindle, line, power, || found.to_string());
+        }
+        let full = |c: &Contact| c.edge == Edge::End && c.exit - c.entry > 0.999 * TAU;
+        if feed.down_mm > 0.0 && engagement.contacts.iter().any(full) {
+            findings.add(CutFindingKind::Plunge, line, feed.down_mm, || {
+                format!(
+                    "the tool plunges with {:.4} mm per tooth: its end must cut at the centre",
+                    feed.down_mm
+                )
+            });
+        }
+    }
+}
