@@ -36,36 +36,23 @@ impl InputFiles {
         }
     }
 
+    /// A file of text; `what` names its part in the question.
+    pub(crate) fn text(&self, what: &str, path: &Path) -> Answer<String> {
+        text_in(what, path, self.bytes(what, path)?)
+    }
+
     /// A job file's text.
     pub(crate) fn job(&self, path: &Path) -> Answer<String> {
         let bytes = match self.memory.get(path) {
             Some(bytes) => bytes.clone(),
             None => read("job file", path, MOST_JOB_BYTES)?,
         };
-        let refuse =
-            |message: &str| Failure::input(format!("the job file '{}' {message}", path.display()));
-        if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-            return Err(refuse("is written in UTF-16; save it as UTF-8"));
-        }
-        if bytes.contains(&0) {
-            return Err(refuse("is a binary file; name a job file in TOML"));
-        }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            let line = error.as_bytes()[..at]
-                .iter()
-                .filter(|b| **b == b'\n')
-                .count()
-                + 1;
-            refuse(&format!(
-                "is not UTF-8 text at line {line}; save it as UTF-8"
-            ))
-        })?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
+        let text = text_in("job file", path, bytes)?;
         if text.trim().is_empty() {
-            return Err(refuse(
-                "is empty; start from the one that `kinetostat demo` writes",
-            ));
+            return Err(Failure::input(format!(
+                "the job file '{}' is empty; start from the one that `kinetostat demo` writes",
+                path.display()
+            )));
         }
         Ok(text)
     }
@@ -87,6 +74,26 @@ impl InputFiles {
         }
         Ok((Model::preset(named)?, None))
     }
+}
+
+/// Bytes that are text.
+pub(crate) fn text_in(what: &str, path: &Path, bytes: Vec<u8>) -> Answer<String> {
+    let refuse =
+        |message: &str| Failure::input(format!("the {what} '{}' {message}", path.display()));
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(refuse("is written in UTF-16; save it as UTF-8"));
+    }
+    if bytes.contains(&0) {
+        return Err(refuse("is a binary file; name a file of text"));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        refuse(&format!(
+            "is not UTF-8 text at line {line}; save it as UTF-8"
+        ))
+    })?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned())
 }
 
 fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {

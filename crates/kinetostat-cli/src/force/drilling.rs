@@ -13,11 +13,10 @@ use crate::force::arguments::ForceArgs;
 use crate::force::findings::{of_chip, of_speed};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
-use crate::force::trust::trust_in;
+use crate::force::trust::section;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::layout::{item, listed, wrapped};
+use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
-use crate::ui::warnings;
 
 #[derive(Serialize)]
 struct DrillAnswer {
@@ -159,16 +158,12 @@ fn text(a: &DrillAnswer) -> String {
     ];
     let rows = rows.map(|(name, text)| vec![name.to_owned(), text]);
     out.push_str(&listed(&rows, 2));
-    out.push_str("\nHow far to trust it\n");
     let spread = 0.01 * a.material.spread_percent;
     let band = format!(
         "a torque of {} to {} N m",
         number(1e-3 * (1.0 - spread) * a.torque_n_mm, 3),
         number(1e-3 * (1.0 + spread) * a.torque_n_mm, 3)
     );
-    for text in trust_in(&a.material, &band, &a.assumed) {
-        out.push_str(&item(&text));
-    }
-    out.push_str(&warnings::warnings(&a.warnings));
+    out.push_str(&section(&a.material, &band, &a.assumed, &a.warnings));
     out
 }

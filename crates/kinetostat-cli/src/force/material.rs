@@ -13,25 +13,11 @@ use crate::ui::failure::{Answer, Failure};
 pub(crate) fn materials(files: &InputFiles, own: Option<&Path>) -> Answer<Materials> {
     let mut all = Materials::library();
     if let Some(path) = own {
-        let text = text_of(files, "file of materials", path)?;
+        let text = files.text("file of materials", path)?;
         let read = Materials::read(&path.display().to_string(), &text);
         all.with(read.map_err(|error| refused(&error))?);
     }
     Ok(all)
-}
-
-/// A file of text.
-pub(crate) fn text_of(files: &InputFiles, what: &str, path: &Path) -> Answer<String> {
-    let bytes = files.bytes(what, path)?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        Failure::input(format!(
-            "the {what} '{}' is not UTF-8 text at line {line}; save it as UTF-8",
-            path.display()
-        ))
-    })?;
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned())
 }
 
 /// The material that was named.

@@ -8,7 +8,6 @@ use crate::force::tool::CutTool;
 use crate::force::trust::trust;
 use crate::ui::layout::{columns, item, named, wrapped};
 use crate::ui::numbers::{given, number, triple};
-use crate::ui::warnings;
 
 /// What is asked, in one sentence.
 pub(crate) fn question(material: &str, tool: &CutTool, cut: &Cut) -> String {
@@ -51,11 +50,7 @@ pub(crate) fn answer_text(a: &ForceAnswer) -> String {
     out.push_str(&meaning(a));
     out.push_str("\nWhat shakes it: harmonics, amplitudes in N\n");
     out.push_str(&harmonics(a));
-    out.push_str("\nHow far to trust it\n");
-    for text in trust(a) {
-        out.push_str(&item(&text));
-    }
-    out.push_str(&warnings::warnings(&a.warnings));
+    out.push_str(&trust(a));
     out
 }
 

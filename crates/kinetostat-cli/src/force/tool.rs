@@ -6,7 +6,6 @@ use kinetostat_cutting::{RunOut, Shape, Tool, ToolTable};
 
 use crate::files::input_files::InputFiles;
 use crate::force::arguments::{ShapeWord, ToolArgs};
-use crate::force::material::text_of;
 use crate::force::refusal::{refused, within};
 use crate::ui::failure::{Answer, Failure};
 
@@ -37,7 +36,7 @@ fn from_table(
     path: &std::path::Path,
     number: Option<usize>,
 ) -> Answer<CutTool> {
-    let text = text_of(files, "table of tools", path)?;
+    let text = files.text("table of tools", path)?;
     let table = ToolTable::read(&path.display().to_string(), &text);
     let table = table.map_err(|error| refused(&error))?;
     let numbers = || -> Vec<String> { table.entries().map(|e| e.number.to_string()).collect() };

@@ -1,10 +1,14 @@
 //! How far to trust a force: law, source, band, factors, and what is assumed.
 
+use kinetostat_machining::Warning;
+
 use crate::force::answer::{ForceAnswer, MaterialAnswer};
+use crate::ui::layout::item;
 use crate::ui::numbers::number;
+use crate::ui::warnings;
 
 /// Of a milling cut.
-pub(crate) fn trust(a: &ForceAnswer) -> Vec<String> {
+pub(crate) fn trust(a: &ForceAnswer) -> String {
     let across = a.mean.across_tool_n;
     let spread = 0.01 * a.material.spread_percent;
     let band = format!(
@@ -13,11 +17,24 @@ pub(crate) fn trust(a: &ForceAnswer) -> Vec<String> {
         number((1.0 + spread) * across, 3),
         number(a.peak.across_tool_high_n, 3)
     );
-    trust_in(&a.material, &band, &a.assumed)
+    section(&a.material, &band, &a.assumed, &a.warnings)
 }
 
-/// Of any cut, with a band in words.
-pub(crate) fn trust_in(m: &MaterialAnswer, band: &str, assumed: &[String]) -> Vec<String> {
+/// The section of any cut, with a band in words and its warnings.
+pub(crate) fn section(
+    m: &MaterialAnswer,
+    band: &str,
+    assumed: &[String],
+    warned: &[Warning],
+) -> String {
+    let items = trust_in(m, band, assumed);
+    let mut out = "\nHow far to trust it\n".to_owned();
+    out.extend(items.iter().map(|text| item(text)));
+    out.push_str(&warnings::warnings(warned));
+    out
+}
+
+fn trust_in(m: &MaterialAnswer, band: &str, assumed: &[String]) -> Vec<String> {
     let mut list = vec![
         format!(
             "{}: {}. Source: {}.",

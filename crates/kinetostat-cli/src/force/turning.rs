@@ -11,11 +11,10 @@ use crate::force::arguments::ForceArgs;
 use crate::force::findings::{of_chip, of_speed};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
-use crate::force::trust::trust_in;
+use crate::force::trust::section;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::layout::{item, listed, wrapped};
+use crate::ui::layout::{listed, wrapped};
 use crate::ui::numbers::{given, number};
-use crate::ui::warnings;
 
 #[derive(Serialize)]
 struct TurningAnswer {
@@ -150,16 +149,12 @@ fn text(a: &TurningAnswer) -> String {
     ];
     let rows = rows.map(|(name, text)| vec![name.to_owned(), text]);
     out.push_str(&listed(&rows, 2));
-    out.push_str("\nHow far to trust it\n");
     let spread = 0.01 * a.material.spread_percent;
     let band = format!(
         "a cutting force of {} to {} N",
         number((1.0 - spread) * a.cutting_n, 3),
         number((1.0 + spread) * a.cutting_n, 3)
     );
-    for text in trust_in(&a.material, &band, &a.assumed) {
-        out.push_str(&item(&text));
-    }
-    out.push_str(&warnings::warnings(&a.warnings));
+    out.push_str(&section(&a.material, &band, &a.assumed, &a.warnings));
     out
 }

@@ -1,6 +1,6 @@
 //! The tables of a job that say what is cut.
 
-use kinetostat_cutting::{Coolant, CuttingMaterial, Rotation};
+use kinetostat_cutting::{Coolant, CuttingMaterial, Rotation, Side};
 use kinetostat_machining::ForceChoice;
 use serde::Deserialize;
 use serde_spanned::Spanned;
@@ -80,7 +80,7 @@ pub(crate) struct EngagementTable {
     /// Depth of cut along the axis.
     pub depth_mm: Option<Spanned<f64>>,
     /// On which side of the feed the part is.
-    pub part: Option<PartWord>,
+    pub part: Option<Side>,
     /// Cuts of lines of the program; air on all others.
     #[serde(default)]
     pub lines: Vec<Spanned<LinesTable>>,
@@ -99,17 +99,7 @@ pub(crate) struct LinesTable {
     /// Depth of cut along the axis.
     pub depth_mm: f64,
     /// On which side of the feed the part is.
-    pub part: Option<PartWord>,
-}
-
-/// On which side of the feed the part is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum PartWord {
-    /// Left: conventional milling with a spindle that turns clockwise.
-    Left,
-    /// Right: climb milling with a spindle that turns clockwise.
-    Right,
+    pub part: Option<Side>,
 }
 
 /// The spindle: `[spindle]`.

@@ -4,7 +4,8 @@ use kinetostat_cutting::{Engagement, Side, Tool};
 use kinetostat_machining::EngagementSource;
 use serde_spanned::Spanned;
 
-use crate::job::cut_tables::{EngagementTable, PartWord};
+use crate::job::cut::refused;
+use crate::job::cut_tables::EngagementTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
@@ -16,11 +17,10 @@ pub(super) fn engagement(
     tool: &Tool,
 ) -> Answer<(EngagementSource, String)> {
     let t = table.get_ref();
-    let straight = |width: f64, depth: f64, part: Option<PartWord>| {
+    let straight = |width: f64, depth: f64, part: Option<Side>| {
         let slot = width >= 2.0 * tool.radius_mm();
         let part = match part {
-            Some(PartWord::Left) => Side::Left,
-            Some(PartWord::Right) => Side::Right,
+            Some(side) => side,
             None if slot => Side::Left,
             None => {
                 return Err(job.error(
@@ -30,10 +30,8 @@ pub(super) fn engagement(
                 ));
             }
         };
-        Engagement::straight(tool.radius_mm(), width, depth, part).map_err(|error| {
-            let message = format!("{}: {}", error.quantity, error.found);
-            job.error(table, &message, &format!("expected {}", error.expected))
-        })
+        Engagement::straight(tool.radius_mm(), width, depth, part)
+            .map_err(|error| refused(job, table, &error))
     };
     match (&t.width_mm, &t.depth_mm, t.lines.is_empty()) {
         (Some(width), Some(depth), true) => {

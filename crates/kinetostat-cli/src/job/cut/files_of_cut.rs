@@ -1,10 +1,10 @@
 //! Files that a job's cut is read from: never overwritten, and named in the result with their hashes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use kinetostat_machining::FileRead;
 
-use crate::files::input_files::InputFiles;
+use crate::files::input_files::{InputFiles, text_in};
 use crate::files::origin;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;
@@ -17,6 +17,19 @@ pub(crate) struct FilesOfCut {
 }
 
 impl FilesOfCut {
+    /// The text of a file that a job names, and its path for messages.
+    pub(super) fn text(
+        &mut self,
+        files: &InputFiles,
+        job: &JobFile,
+        what: &str,
+        name: &str,
+    ) -> Answer<(String, String)> {
+        let (bytes, shown) = self.bytes(files, job, what, name)?;
+        let text = text_in(what, Path::new(&shown), bytes)?;
+        Ok((text, shown))
+    }
+
     /// The bytes of a file that a job names, and its path for messages.
     pub(super) fn bytes(
         &mut self,

@@ -6,6 +6,7 @@ use kinetostat_cutting::{Applied, Correction, Materials};
 
 use crate::files::input_files::InputFiles;
 use crate::job::cut::files_of_cut::FilesOfCut;
+use crate::job::cut::refused;
 use crate::job::cut_tables::MaterialTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -24,20 +25,11 @@ pub(super) fn material(
 ) -> Answer<MaterialSetup> {
     let mut known = Materials::library();
     if let Some(file) = &table.file {
-        let (bytes, name) = read.bytes(files, job, "file of materials", file.get_ref())?;
-        let text = String::from_utf8(bytes).map_err(|_| {
-            Failure::input(format!("the file of materials '{name}' is not UTF-8 text"))
-        })?;
+        let (text, name) = read.text(files, job, "file of materials", file.get_ref())?;
         known.with(Materials::read(&name, &text).map_err(Failure::input)?);
     }
     let found = known.find(table.name.get_ref());
-    let found = found.map_err(|error| {
-        job.error(
-            &table.name,
-            &format!("{} {}", error.quantity, error.found),
-            &error.expected,
-        )
-    })?;
+    let found = found.map_err(|error| refused(job, &table.name, &error))?;
     let correction = Correction {
         process: table.process_factor,
         cutting_speed_m_per_min: table.cutting_speed_m_per_min,
@@ -47,13 +39,9 @@ pub(super) fn material(
         coolant: table.coolant,
         ..Correction::default()
     };
-    let applied = found.for_milling(&correction).map_err(|error| {
-        job.error(
-            &table.name,
-            &format!("{}: {}", error.quantity, error.found),
-            &format!("expected {}", error.expected),
-        )
-    })?;
+    let applied = found
+        .for_milling(&correction)
+        .map_err(|error| refused(job, &table.name, &error))?;
     let mut words = vec![
         format!("material {}: {}", found.name, found.law.description()),
         format!("source: {}", found.source),

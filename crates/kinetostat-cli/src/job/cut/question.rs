@@ -12,6 +12,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::cut::engagement::engagement;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::{MaterialSetup, material};
+use crate::job::cut::refused;
 use crate::job::cut::stock::stock;
 use crate::job::cut_tables::{MaterialTable, SpindleTable};
 use crate::job::format::LoadTable;
@@ -247,8 +248,5 @@ fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
         ));
     };
     let curve = SpindleCurve::rated(*power.get_ref(), base, most);
-    curve.map(Some).map_err(|error| {
-        let message = format!("{}: {}", error.quantity, error.found);
-        j.error(power, &message, &format!("expected {}", error.expected))
-    })
+    curve.map(Some).map_err(|error| refused(j, power, &error))
 }

@@ -5,9 +5,10 @@ use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::cut::files_of_cut::FilesOfCut;
+use crate::job::cut::refused;
 use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::Answer;
 use crate::ui::numbers::short;
 
 /// Largest cell, as a share of the tool's diameter: forces in coarser ones are off by percents and more.
@@ -21,14 +22,7 @@ pub(super) fn stock(
     smallest: &Tool,
     files_read: &mut FilesOfCut,
 ) -> Answer<(Stock, String)> {
-    let wrong = |error: CutError| match error.file {
-        Some(_) => Failure::input(error),
-        None => job.error(
-            table,
-            &format!("{}: {}", error.quantity, error.found),
-            &format!("expected {}", error.expected),
-        ),
-    };
+    let wrong = |error: CutError| refused(job, table, &error);
     let t = table.get_ref();
     let mut settings = match &t.cell_mm {
         Some(cell) => StockSettings::with_cell_mm(*cell.get_ref()).map_err(wrong)?,
