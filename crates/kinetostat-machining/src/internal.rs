@@ -2,10 +2,37 @@
 //! without a word.
 
 use crate::limits::{Limit, apart};
+use crate::profile::limited::{Begins, Place, limited};
 
 /// A figure beyond a limit as it is stated beside what is allowed.
 #[must_use]
 pub fn figure_beyond(limit: &Limit, found: f64, allowed: f64) -> String {
     let (found, _) = apart(found, allowed, limit.stated());
     found
+}
+
+/// Way (mm), value and whether it counts: the same places, and others between, with values that change by at most `rate` per mm;
+/// `None` where these do. `begins_with_nothing`: at the first place the value is 0.
+#[must_use]
+pub fn limited_values(
+    places: &[(f64, f64, bool)],
+    rate: f64,
+    begins_with_nothing: bool,
+) -> Option<Vec<(f64, f64)>> {
+    let places = places.iter().enumerate();
+    let places: Vec<Place<1>> = places
+        .map(|(i, &(at_mm, value, counts))| Place {
+            move_index: 0,
+            share: i as f64,
+            at_mm,
+            value: [value],
+            counts,
+        })
+        .collect();
+    let begins = match begins_with_nothing {
+        true => Begins::WithNothing,
+        false => Begins::Anyhow,
+    };
+    let found = limited(&places, &[rate], begins)?.into_iter();
+    Some(found.map(|(p, [value], _)| (p.at_mm, value)).collect())
 }

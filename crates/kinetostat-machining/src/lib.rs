@@ -16,6 +16,7 @@ mod map;
 mod near;
 mod placement;
 mod postures;
+mod profile;
 mod result;
 mod run;
 mod table;

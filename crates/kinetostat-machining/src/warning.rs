@@ -54,6 +54,8 @@ pub enum WarningCode {
     RapidThroughStock,
     /// The tool goes down into material with its whole end.
     Plunge,
+    /// The force changes faster in a cut than the correction may.
+    ForceChangesFast,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.

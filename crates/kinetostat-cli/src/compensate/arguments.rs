@@ -85,7 +85,7 @@ A job file:
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
   # or force_n = [0, 0, -200], moment_n_m = [0, 0, 1], axes = "base"
-  # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2
+  # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2, largest_step_mm_per_mm = 0.5
   # at_corners = "turns"           # or "follows_feed"
 
   [reading]

@@ -127,6 +127,8 @@ pub(crate) struct LoadTable {
     pub gentle_corner_deg: Option<Spanned<f64>>,
     /// Length over which the load turns there, mm.
     pub turning_length_mm: Option<Spanned<f64>>,
+    /// Largest change of the correction outside sharp corners, mm per mm of path.
+    pub largest_step_mm_per_mm: Option<Spanned<f64>>,
     /// What it is on the steps written at sharp corners, of this tool.
     pub at_corners: Option<CornerWord>,
 }

@@ -98,6 +98,16 @@ pub(crate) fn load(
         }
         load.turning_length_mm = *length.get_ref();
     }
+    if let (Some(j), Some(step)) = (job, &table.largest_step_mm_per_mm) {
+        if !(1e-4..=10.0).contains(step.get_ref()) {
+            return Err(j.error(
+                step,
+                "a correction may change by 0.0001 to 10 mm per mm of path",
+                "write 0.5, for instance",
+            ));
+        }
+        load.largest_step = *step.get_ref();
+    }
     Ok(load)
 }
 

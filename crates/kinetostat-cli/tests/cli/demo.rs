@@ -40,6 +40,23 @@ fn writes_everything_it_promises() {
     assert_eq!(summary["converged"], true);
     assert_eq!(summary["stable"], true);
 
+    // The plunge goes down, and never up on its way.
+    let written = std::fs::read_to_string(out.join("compensated.ngc")).unwrap();
+    let down = written
+        .lines()
+        .skip_while(|line| !line.starts_with("G0 Z1"));
+    let down = down.take_while(|line| !line.contains("F600"));
+    let z = |line: &str| {
+        line.split(' ')
+            .find_map(|word| word.strip_prefix('Z')?.parse::<f64>().ok())
+    };
+    let heights: Vec<f64> = down.filter_map(z).collect();
+    assert!(
+        heights.len() >= 3 && heights.windows(2).all(|z| z[1] < z[0]),
+        "{heights:?}"
+    );
+    assert_eq!(number("largest_backward_step_mm"), 0.0);
+
     // The text says the result, where the files are and what to open.
     for needle in [
         "As programmed, the tool would be up to",

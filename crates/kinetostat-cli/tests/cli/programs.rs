@@ -78,7 +78,11 @@ fn tools_of_a_program_have_their_own_lengths_and_without_a_table_a_warning() {
     );
 
     // What is assumed at sharp corners is said of each tool by itself, and --load-at-corners goes over it.
-    let follows = table.replace("-400]", "-400], at_corners = \"follows_feed\"");
+    let turning = "milling = { radial_n = 300, tangential_n = 0, axial_n = 100 }";
+    let follows = table.replace(
+        "force_n = [0, 0, -400]",
+        &format!("{turning}, at_corners = \"follows_feed\""),
+    );
     let (done, json) = compensate(&one.replace("[load]", &follows));
     // Tool 2 then cuts along its steps, and misses there what holds where the load turns.
     assert_eq!(done.code, 3, "{done:?}");

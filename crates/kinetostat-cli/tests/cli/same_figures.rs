@@ -125,7 +125,9 @@ chain = "arm"
         let query =
             "--program two.ngc --part-origin-mm 300 0 0 --force 0 20 0 --below-z-mm 0 --json";
         let most = 20.0 / 1000.0;
-        let own: f64 = most * (30.0_f64 / 40.0).sqrt();
+        // The load comes over the first millimetres of the cut: 20 N at half a millimetre per mm and 1000 N/mm.
+        let comes_over = 20.0 / (0.5 * 1000.0);
+        let own: f64 = most * ((30.0_f64 - comes_over * 2.0 / 3.0) / 40.0).sqrt();
         for line in [
             format!("deflect table.toml {query}"),
             format!("compensate --model table.toml {query} - --out o.ngc --force-overwrite"),
@@ -135,7 +137,9 @@ chain = "arm"
             let largest = number("max_position_error_before_mm");
             assert!((largest - most).abs() < 1e-9, "{line}: {largest}");
             let mean = number("rms_position_error_before_mm");
-            assert!((mean - own).abs() < 1e-9, "{line}: {mean} {own}");
+            // Over that length by the places that are looked at.
+            let known = most * comes_over / 40.0;
+            assert!((mean - own).abs() < known, "{line}: {mean} {own}");
         }
     }
 }

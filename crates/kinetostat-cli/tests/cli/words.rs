@@ -549,6 +549,7 @@ fn one_is_not_written_in_the_plural() {
     let mut corners = 0;
     for line in [
         format!("compensate {job} --milling 215 -10 -25 --program corner.ngc --report r.html"),
+        format!("compensate {job} --milling 2 0 0 --program corner.ngc --report r.html"),
         format!("compensate {job} --milling 215 -10 -25 --program one.ngc --report r.html"),
         format!("compensate {job} --milling 215 -10 -25 --program unstated.ngc --report r.html"),
         "compensate --model heavy_6r --part-origin-mm 1050 0 1000 --tool-length-mm 150 --milling 215 -10 -25 --program one.ngc --out o.ngc --report r.html --force-overwrite".to_owned(),

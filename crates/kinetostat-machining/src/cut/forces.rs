@@ -5,12 +5,13 @@ use kinetostat_cutting::{Edge, Engagement, Feed};
 use kinetostat_program::{Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::cut::engagement_source::EngagementSource;
 use crate::cut::failure::CutFailure;
 use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::force::ForceOf;
 use crate::cut::profile::ForceAlongPath;
 use crate::cut::question::CutQuestion;
-use crate::cut::station::{ACROSS, CutStation};
+use crate::cut::station::{ACROSS, CutStation, SHORT_MM};
 use crate::cut::walk::{Met, Walk};
 use crate::watch::Watch;
 
@@ -35,7 +36,9 @@ impl CutQuestion {
         let force_of = |tool| ForceOf::new(tool, self.choice);
         let mut forces: Vec<ForceOf<'_>> = self.tools.iter().map(force_of).collect();
         let mut findings = Findings::default();
-        let mut moves = Vec::with_capacity(path.moves.len());
+        let mut moves: Vec<Vec<CutStation>> = Vec::with_capacity(path.moves.len());
+        // The last feed move without a rapid since, and not so short that it has no direction.
+        let mut before: Option<usize> = None;
         watch.stage("engagement", path.moves.len());
         for (i, motion) in path.moves.iter().enumerate() {
             if i % MOVES_PER_LOOK == 0 {
@@ -45,22 +48,34 @@ impl CutQuestion {
                 }
             }
             let mut stations = self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?;
-            if self.goes_on(path, i) {
-                join(moves.last(), &mut stations);
+            match before {
+                Some(before) if is_short(motion) => {
+                    stations = moves[before].last().map_or_else(Vec::new, standing);
+                }
+                Some(before) if self.goes_on(path, before, i) => {
+                    join(moves[before].last(), &mut stations);
+                }
+                _ => {}
             }
+            before = match motion.kind {
+                MoveKind::Feed if is_short(motion) => before,
+                MoveKind::Feed if motion.known == Knowledge::Whole => Some(i),
+                _ => None,
+            };
             moves.push(stations);
         }
-        Ok(ForceAlongPath::of(moves, findings.list()))
+        let along = ForceAlongPath::of(moves, findings.list());
+        Ok(along.with_resolution_mm(match &self.engagement {
+            EngagementSource::Stock(stock) => stock.cell_mm(),
+            _ => f64::INFINITY,
+        }))
     }
 
     /// Whether a move goes on where the one before ends, in nearly the same direction and with the same tool: what the tool
     /// meets there is what it met before.
-    fn goes_on(&self, path: &Path, i: usize) -> bool {
-        let Some(before) = i.checked_sub(1).map(|before| &path.moves[before]) else {
-            return false;
-        };
+    fn goes_on(&self, path: &Path, before: usize, i: usize) -> bool {
+        let (before, motion) = (&path.moves[before], &path.moves[i]);
         let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
-        let motion = &path.moves[i];
         let gentle = match (before.tangent(1.0), motion.tangent(0.0)) {
             (Some(a), Some(b)) => a.angle(&b) <= GENTLE,
             _ => false,
@@ -122,6 +137,20 @@ impl CutQuestion {
     }
 }
 
+/// Feed moves that are so short that their own direction says nothing.
+fn is_short(motion: &Move) -> bool {
+    motion.kind == MoveKind::Feed
+        && motion.known == Knowledge::Whole
+        && motion.length_mm() < SHORT_MM
+}
+
+/// What acts on the tool while it does not go on: what acted before.
+fn standing(last: &CutStation) -> Vec<CutStation> {
+    [0.0, 1.0]
+        .map(|share| CutStation { share, ..*last })
+        .to_vec()
+}
+
 /// A rapid that meets material.
 fn rapid_through(met: &[Met], line: usize, findings: &mut Findings) {
     for met in met.iter().filter(|met| !met.engagement.is_air()) {
@@ -153,8 +182,7 @@ const NO_DIRECTION: f64 = 1e-9;
 
 /// Begins a move with what acted at the end of the one before: short moves have one station, at their end, and the load
 /// does not jump from each to the next.
-fn join(before: Option<&Vec<CutStation>>, stations: &mut Vec<CutStation>) {
-    let last = before.and_then(|stations| stations.last());
+fn join(last: Option<&CutStation>, stations: &mut Vec<CutStation>) {
     if let (Some(last), Some(first)) = (last, stations.first())
         && first.share > 0.0
     {

@@ -5,46 +5,20 @@ use kinetostat::number::larger;
 
 use crate::cut::finding::CutFinding;
 use crate::cut::station::CutStation;
+use crate::profile::by_move::{ByMove, Profile};
+use crate::profile::reduced::reduced;
 
-/// Vertices of the load are left out where the others give it within this share of the largest force.
+/// A part of the largest force or moment that does not matter.
 const NEGLIGIBLE: f64 = 0.005;
-
-/// Lists, one for each move, in one piece of memory.
-#[derive(Clone, Debug)]
-struct ByMove<T> {
-    all: Vec<T>,
-    /// Where the list of each move begins; one more than there are moves.
-    first: Vec<usize>,
-}
-
-impl<T> ByMove<T> {
-    fn new() -> Self {
-        Self {
-            all: Vec::new(),
-            first: vec![0],
-        }
-    }
-
-    /// The list of the next move.
-    fn push(&mut self, list: impl IntoIterator<Item = T>) {
-        self.all.extend(list);
-        self.first.push(self.all.len());
-    }
-
-    fn of(&self, move_index: usize) -> &[T] {
-        match self.first.get(move_index..move_index + 2) {
-            Some(&[from, to]) => &self.all[from..to],
-            _ => &[],
-        }
-    }
-}
 
 /// The force of the cut along a path.
 #[derive(Clone, Debug)]
 pub struct ForceAlongPath {
     stations: ByMove<CutStation>,
     /// Those between which the load is linear.
-    vertices: ByMove<(f64, Wrench)>,
+    vertices: Profile<6>,
+    scale: Scale,
+    resolution_mm: f64,
     largest: Wrench,
     /// What no such cut should be.
     pub findings: Vec<CutFinding>,
@@ -61,14 +35,18 @@ impl ForceAlongPath {
                 largest = station.wrench;
             }
         }
+        let scale = Scale { force, moment };
         let (mut stations, mut vertices) = (ByMove::new(), ByMove::new());
         for own in moves {
-            vertices.push(essential(&own, NEGLIGIBLE * force, NEGLIGIBLE * moment));
+            let all: Vec<_> = own.iter().map(|s| (s.share, s.wrench.0.into())).collect();
+            vertices.push(scale.needed(&all));
             stations.push(own);
         }
         Self {
             stations,
             vertices,
+            scale,
+            resolution_mm: 0.0,
             largest,
             findings,
         }
@@ -89,65 +67,62 @@ impl ForceAlongPath {
     /// Force (N) and moment (N m) on the tool's tip at a share of a move: x along the feed, z along the part's z, y to the left.
     #[must_use]
     pub fn wrench(&self, move_index: usize, share: f64) -> Wrench {
-        let vertices = self.vertices.of(move_index);
-        let after = vertices.partition_point(|(at, _)| *at < share);
-        match (
-            after.checked_sub(1).map(|i| vertices[i]),
-            vertices.get(after),
-        ) {
-            (None, None) => Wrench::zero(),
-            (None, Some((_, wrench))) => *wrench,
-            (Some((_, wrench)), None) => wrench,
-            (Some((from, a)), Some(&(to, b))) => {
-                let part = match to > from {
-                    true => (share - from) / (to - from),
-                    false => 1.0,
-                };
-                Wrench(a.0.lerp(&b.0, part))
-            }
-        }
+        let value = self.vertices.at(move_index, share);
+        value.map_or_else(Wrench::zero, |value| Wrench(value.into()))
     }
 
     /// Shares inside a move at which the load has another slope.
     #[must_use]
     pub fn breaks(&self, move_index: usize) -> Vec<f64> {
-        let inside = self.vertices.of(move_index).iter().map(|(at, _)| *at);
-        inside.filter(|at| *at > 0.0 && *at < 1.0).collect()
+        self.vertices.breaks(move_index).collect()
+    }
+
+    pub(crate) fn vertices(&self) -> &Profile<6> {
+        &self.vertices
+    }
+
+    /// The same of forces whose places are known to within a length, mm: the size of a cell; infinite where an engagement was
+    /// stated and nobody knows where in a block it begins.
+    pub(crate) fn with_resolution_mm(self, resolution_mm: f64) -> Self {
+        Self {
+            resolution_mm,
+            ..self
+        }
+    }
+
+    /// Length within which the places of the forces are known, mm.
+    pub(crate) fn resolution_mm(&self) -> f64 {
+        self.resolution_mm
+    }
+
+    pub(crate) fn scale(&self) -> Scale {
+        self.scale
     }
 }
 
-/// The stations that the load needs (Ramer, Douglas and Peucker): the others lie within the tolerances of it.
-fn essential(stations: &[CutStation], force: f64, moment: f64) -> Vec<(f64, Wrench)> {
-    let Some(first) = stations.first() else {
-        return Vec::new();
-    };
-    let mut vertices = vec![(first.share, first.wrench)];
-    // Spans that are still to be looked at, the first on top.
-    let mut open = vec![(0, stations.len() - 1)];
-    while let Some((from, to)) = open.pop() {
-        let (a, b) = (&stations[from], &stations[to]);
-        let mut worst = (1.0, 0);
-        for i in from + 1..to {
-            let s = &stations[i];
-            let part = match b.share > a.share {
-                true => (s.share - a.share) / (b.share - a.share),
-                false => 0.0,
-            };
-            let off = Wrench(s.wrench.0 - a.wrench.0.lerp(&b.wrench.0, part));
-            let relative = |off: f64, tolerance: f64| if off > 0.0 { off / tolerance } else { 0.0 };
-            let size = larger(
-                relative(off.force().norm(), force),
-                relative(off.moment().norm(), moment),
-            );
-            if size > worst.0 {
-                worst = (size, i);
-            }
-        }
-        match worst.1 {
-            0 if to > from => vertices.push((b.share, b.wrench)),
-            0 => {}
-            middle => open.extend([(middle, to), (from, middle)]),
-        }
+/// The largest force (N) and moment (N m) along a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    pub force: f64,
+    pub moment: f64,
+}
+
+impl Scale {
+    /// Size of a wrench; 1 where it is no longer negligible.
+    pub fn size(&self, wrench: &[f64; 6]) -> f64 {
+        let wrench = Wrench((*wrench).into());
+        let relative = |size: f64, largest: f64| match size > 0.0 {
+            true => size / (NEGLIGIBLE * largest),
+            false => 0.0,
+        };
+        larger(
+            relative(wrench.force().norm(), self.force),
+            relative(wrench.moment().norm(), self.moment),
+        )
     }
-    vertices
+
+    /// The vertices without which the load would be another.
+    pub fn needed(&self, vertices: &[(f64, [f64; 6])]) -> Vec<(f64, [f64; 6])> {
+        reduced(vertices, |off| self.size(off))
+    }
 }

@@ -6,6 +6,10 @@ use serde::Serialize;
 /// Part of a direction across the tool axis below which a move has no direction there: within 0.1 degree of the axis.
 pub(crate) const ACROSS: f64 = 2e-3;
 
+/// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
+/// systems have moves of tenths of micrometres in any direction.
+pub(crate) const SHORT_MM: f64 = 0.01;
+
 /// A place of the path with the force of the cut.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CutStation {

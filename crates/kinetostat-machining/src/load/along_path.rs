@@ -11,26 +11,26 @@
 //! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
 //! while the written program steps there is a matter of reading ([`CornerLoad`]).
 
+use std::borrow::Cow;
+
 use kinetostat::Wrench;
-use kinetostat_program::{Curve, Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{Curve, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::profile::ForceAlongPath;
-use crate::cut::station::ACROSS;
+use crate::cut::profile::{ForceAlongPath, Scale};
+use crate::load::headings::{Headings, heading, headings};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
+use crate::profile::by_move::Profile;
 
-/// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
-/// of the load differs there because a corner is gentle.
-#[derive(Clone, Copy, Debug, Default)]
-struct Headings {
-    /// Of a move so short that its own direction says nothing: that of the path around it.
-    around: Option<f64>,
-    at_start: Option<f64>,
-    at_end: Option<f64>,
-    lag_start: f64,
-    lag_end: f64,
+/// Forces of the cut, in axes of the feed.
+#[derive(Clone, Debug)]
+pub(crate) struct OfCut<'a> {
+    pub profile: Cow<'a, Profile<6>>,
+    pub scale: Scale,
+    /// Length within which the places of the forces are known, mm.
+    pub resolution_mm: f64,
 }
 
 /// A [`ProgramLoad`] along one path.
@@ -39,51 +39,11 @@ pub struct LoadAlongPath<'a> {
     load: ProgramLoad,
     path: &'a Path,
     tools: &'a [Tool<'a>],
-    cut: Option<&'a ForceAlongPath>,
+    /// Forces of the cut, in axes of the feed.
+    pub(crate) cut: Option<OfCut<'a>>,
+    /// The part of a stated load that acts; all of it on moves of which nothing is said.
+    part: Option<Profile<1>>,
     headings: Vec<Headings>,
-}
-
-fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
-    let t = tangent?;
-    (t.xy().norm() > ACROSS).then(|| t.y.atan2(t.x))
-}
-
-/// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
-/// systems have moves of tenths of micrometres in any direction.
-const SHORT_MM: f64 = 0.01;
-
-/// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
-const AROUND_MM: f64 = 0.05;
-
-/// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
-fn around(path: &Path, move_index: usize) -> Option<f64> {
-    let motion = &path.moves[move_index];
-    let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
-    if !cuts(motion) || motion.length_mm() >= SHORT_MM {
-        return None;
-    }
-    // From the middle of the move `AROUND_MM` back and on, as far as the cut goes.
-    let reach = |moves: &mut dyn Iterator<Item = &Move>, back: bool| {
-        let mut left = AROUND_MM - 0.5 * motion.length_mm();
-        let mut place = if back { motion.start } else { motion.end };
-        for m in moves.take_while(|m| cuts(m)) {
-            let length = m.length_mm();
-            if length >= left {
-                let share = left / length;
-                return m.point(if back { 1.0 - share } else { share });
-            }
-            left -= length;
-            place = if back { m.start } else { m.end };
-        }
-        place
-    };
-    let from = reach(&mut path.moves[..move_index].iter().rev(), true);
-    let to = reach(&mut path.moves[move_index + 1..].iter(), false);
-    let chord = to - from;
-    match chord.norm() > SHORT_MM {
-        true => heading(chord.try_normalize(0.0)),
-        false => None,
-    }
 }
 
 /// A wrench in axes of the feed, in those of the part.
@@ -96,11 +56,6 @@ fn headed(wrench: &Wrench, heading: Option<f64>) -> Wrench {
             Vector3::z() * wrench.moment().z,
         ),
     }
-}
-
-fn wrap(angle: f64) -> f64 {
-    let turn = std::f64::consts::TAU;
-    angle - turn * (angle / turn).round()
 }
 
 impl<'a> LoadAlongPath<'a> {
@@ -119,43 +74,46 @@ impl<'a> LoadAlongPath<'a> {
             path,
             tools,
             cut: None,
+            part: None,
             headings: Vec::new(),
         };
-        along.headings = along.headings();
+        if along.load.turns() || tools.iter().any(|tool| tool.load.turns()) {
+            along.headings = headings(path, |i| along.load_of(i));
+        }
         along
     }
 
     /// The same with the forces of the cut, for loads that are [`CuttingLoad::FromCut`].
     #[must_use]
     pub fn with_cut(mut self, cut: Option<&'a ForceAlongPath>) -> Self {
-        self.cut = cut;
+        self.cut = cut.map(|cut| OfCut {
+            profile: Cow::Borrowed(cut.vertices()),
+            scale: cut.scale(),
+            resolution_mm: cut.resolution_mm(),
+        });
         self
     }
 
-    fn headings(&self) -> Vec<Headings> {
-        let path = self.path;
-        let mut headings = vec![Headings::default(); path.moves.len()];
-        if self.load.turns() || self.tools.iter().any(|tool| tool.load.turns()) {
-            for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
-                if m.kind == MoveKind::Feed && self.load_of(i).turns() {
-                    h.around = around(path, i);
-                    h.at_start = h.around.or_else(|| heading(m.tangent(0.0)));
-                    h.at_end = h.around.or_else(|| heading(m.tangent(1.0)));
-                }
-            }
-            for i in 1..headings.len() {
-                let (Some(before), Some(after)) = (headings[i - 1].at_end, headings[i].at_start)
-                else {
-                    continue;
-                };
-                let turn = wrap(after - before);
-                if turn.abs() <= self.load_of(i).gentle_corner {
-                    headings[i - 1].lag_end = 0.5 * turn;
-                    headings[i].lag_start = -0.5 * turn;
-                }
-            }
+    /// The same with another profile of the cut.
+    pub(crate) fn with_profile(mut self, profile: Profile<6>) -> Self {
+        if let Some(cut) = &mut self.cut {
+            cut.profile = Cow::Owned(profile);
         }
-        headings
+        self
+    }
+
+    pub(crate) fn with_part(mut self, part: Option<Profile<1>>) -> Self {
+        self.part = part;
+        self
+    }
+
+    pub(crate) fn path(&self) -> &'a Path {
+        self.path
+    }
+
+    /// The load of blocks without a tool that has its own.
+    pub(crate) fn base_load(&self) -> &ProgramLoad {
+        &self.load
     }
 
     /// The tool that a move is made with, where several are named.
@@ -207,10 +165,13 @@ impl<'a> LoadAlongPath<'a> {
         {
             shares.extend(motion.shares_at(2, &[z]));
         }
-        if let (CuttingLoad::FromCut { .. }, Some(cut)) = (load.cutting, self.cut) {
-            shares.extend(cut.breaks(move_index));
+        if let (CuttingLoad::FromCut { .. }, Some(cut)) = (load.cutting, &self.cut) {
+            shares.extend(cut.profile.breaks(move_index));
         }
-        let h = &self.headings[move_index];
+        if let Some(part) = &self.part {
+            shares.extend(part.breaks(move_index));
+        }
+        let h = self.headings.get(move_index).copied().unwrap_or_default();
         let (length, zone) = (motion.length_mm(), load.turning_length_mm);
         if length > 2.0 * zone {
             if h.lag_start != 0.0 {
@@ -234,12 +195,18 @@ impl<'a> LoadAlongPath<'a> {
         let motion = &self.path.moves[move_index];
         let position = motion.point(share);
         let outside = load.below_z_mm.is_some_and(|z| position.z >= z);
-        if motion.kind == MoveKind::Rapid || outside {
+        let part = self.part.as_ref().and_then(|p| p.at(move_index, share));
+        let part = match part {
+            Some([part]) => part,
+            None if outside => 0.0,
+            None => 1.0,
+        };
+        if motion.kind == MoveKind::Rapid || part == 0.0 {
             return Wrench::zero();
         }
         let in_base =
             |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
-        match load.cutting {
+        let full = match load.cutting {
             CuttingLoad::None => Wrench::zero(),
             CuttingLoad::Constant {
                 axes: LoadAxes::Base,
@@ -254,12 +221,11 @@ impl<'a> LoadAlongPath<'a> {
                 wrench,
             } => in_base(headed(&wrench, heading)),
             CuttingLoad::FromCut { .. } => {
-                let cut = self.cut.map(|cut| cut.wrench(move_index, share));
+                let cut = self.cut.as_ref();
+                let cut = cut.and_then(|cut| cut.profile.at(move_index, share));
+                let wrench = cut.map_or_else(Wrench::zero, |cut| Wrench(cut.into()));
                 // Along the tool axis, forces of the cut are in axes of the part.
-                in_base(headed(
-                    &cut.unwrap_or_else(Wrench::zero),
-                    heading.or(Some(0.0)),
-                ))
+                in_base(headed(&wrench, heading.or(Some(0.0))))
             }
             CuttingLoad::Milling {
                 radial,
@@ -274,7 +240,8 @@ impl<'a> LoadAlongPath<'a> {
                 }
                 in_base(Wrench::new(force, Vector3::zeros()))
             }
-        }
+        };
+        Wrench(full.0 * part)
     }
 
     /// Wrench while the tool stands at a corner and the load has turned by `part` from that of one
@@ -294,7 +261,7 @@ impl<'a> LoadAlongPath<'a> {
 
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
-        let h = &self.headings[move_index];
+        let h = self.headings.get(move_index).copied().unwrap_or_default();
         let own = h.around.or_else(|| heading(motion.tangent(share)))?;
         let length = motion.length_mm();
         let load = self.load_of(move_index);

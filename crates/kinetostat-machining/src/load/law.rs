@@ -81,9 +81,17 @@ pub struct ProgramLoad {
     pub gentle_corner: f64,
     /// Length over which the load turns before and after a gentle corner, mm. Default 2.
     pub turning_length_mm: f64,
+    /// Largest change of the correction outside sharp corners, mm per mm of path: the load comes and goes accordingly, in the air
+    /// before and after a cut. Default 0.5.
+    #[serde(default = "largest_step")]
+    pub largest_step: f64,
     /// What it is on the steps written at sharp corners. Default [`CornerLoad::Turns`].
     #[serde(default)]
     pub at_corners: CornerLoad,
+}
+
+fn largest_step() -> f64 {
+    0.5
 }
 
 impl ProgramLoad {
@@ -106,6 +114,7 @@ impl ProgramLoad {
             below_z_mm: None,
             gentle_corner: 30_f64.to_radians(),
             turning_length_mm: 2.0,
+            largest_step: largest_step(),
             at_corners: CornerLoad::Turns,
         }
     }

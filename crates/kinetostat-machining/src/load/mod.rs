@@ -4,5 +4,8 @@
 //! axes [R 7.16, 7.17]. Knows no deflection.
 
 pub(crate) mod along_path;
+pub(crate) mod headings;
 pub(crate) mod law;
+pub(crate) mod ramps;
+pub(crate) mod runs;
 pub(crate) mod tool;

@@ -1,5 +1,6 @@
 //! What was checked of a written program besides its points.
 
+use crate::load::ramps::TooFast;
 use crate::warning::Warning;
 
 /// What was checked of a written program besides its points.
@@ -15,4 +16,6 @@ pub(crate) struct Checked {
     pub(crate) divided_again: Option<Warning>,
     /// The program as it is keeps the tolerance, and was left so.
     pub(crate) within_before: bool,
+    /// Where the force changes faster than the correction may.
+    pub(crate) too_fast: Option<TooFast>,
 }

@@ -12,6 +12,7 @@ use crate::field::ModelField;
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
+use crate::load::ramps::Ramped;
 use crate::result::point::{PointResult, most, size};
 use crate::result::run_result::bound_mm;
 use crate::result::tolerance::keeps_as_it_is;
@@ -19,7 +20,7 @@ use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
 use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
-use crate::run::first_look::{first_look, folding_load};
+use crate::run::first_look::{first_look, folding_load, stiffness_at_first_look};
 use crate::run::following::jump;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
@@ -50,6 +51,8 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
     refuse(folding_load(task, &load, watch)?)?;
+    let stiffness = stiffness_at_first_look(task, &load, watch)?;
+    let load = load.ramped(stiffness).acting;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (points, _) = solve(task, sites, false, watch)?;
     Ok(conclude(task, &load, points, None, &Checked::default()))
@@ -63,8 +66,14 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     refuse(of_task(task))?;
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
-    refuse(first_look(task, &load, watch)?)?;
-    let field = ModelField::new(task.mechanism, task.placement, &load);
+    let looked = first_look(task, &load, watch)?;
+    refuse(looked.beyond)?;
+    let Ramped {
+        followed,
+        acting: load,
+        too_fast,
+    } = load.ramped(looked.stiffness);
+    let field = ModelField::new(task.mechanism, task.placement, &followed);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
@@ -125,6 +134,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
             false => again.description(allowed_mm),
         },
         within_before,
+        too_fast,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
 }

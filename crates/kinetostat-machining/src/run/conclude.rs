@@ -1,6 +1,6 @@
 //! The result of a run: its inputs, figures, warnings and points.
 
-use kinetostat::number::{larger, smaller};
+use kinetostat::number::{larger, largest, largest_length, smaller};
 use kinetostat::{Mechanism, MotionKind};
 use kinetostat_program::{Corrected, Path};
 
@@ -80,7 +80,7 @@ pub(crate) fn conclude(
         near_singularity,
         points: Vec::new(),
     };
-    result.tolerance = tolerance(&result, &points, written.as_ref());
+    result.tolerance = tolerance(&result, &points, written.as_ref(), checked.too_fast);
     result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
         .into_iter()
         .map(|i| points[i].clone())
@@ -164,6 +164,7 @@ fn warnings(
     let of_writer = written.map(|w| w.accounting.warnings.as_slice());
     let mut warnings = of_program(task.path, of_writer);
     warnings.extend(checked.divided_again.clone());
+    warnings.extend(changes_fast(task, checked));
     if !summary.stable {
         let first = points.iter().find(|p| !p.stable).map_or(0, |p| p.line);
         warnings.push(Warning::at_line(
@@ -220,4 +221,18 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
     );
     warnings.dedup();
     warnings
+}
+
+/// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.
+fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
+    let found = checked.too_fast?;
+    (found.off_mm > 0.5 * task.writing.tolerance_mm).then(|| {
+        let text = format!(
+            "the force changes here by {} N more than the correction can follow with {} mm per mm of path (largest_step_mm_per_mm): up to about {} are left; a softer entry into the cut, or a larger step, leaves less",
+            largest(found.force_n, ""),
+            task.load_on(found.line).largest_step,
+            largest_length(found.off_mm)
+        );
+        Warning::at_line(WarningCode::ForceChangesFast, found.line, text)
+    })
 }

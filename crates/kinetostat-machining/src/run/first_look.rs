@@ -2,6 +2,7 @@
 //! milliseconds where the whole program would take minutes.
 
 use kinetostat::Error;
+use kinetostat::number::smaller;
 
 use crate::checks::refused::{of_points, of_task};
 use crate::limits::Beyond;
@@ -60,7 +61,7 @@ pub(crate) fn first_look(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
     watch: &dyn Watch,
-) -> Result<Vec<Beyond>, RunError> {
+) -> Result<FirstLook, RunError> {
     let mut points = Vec::new();
     for (index, found) in looks(task, load, watch).enumerate() {
         match found {
@@ -69,7 +70,44 @@ pub(crate) fn first_look(
             Err(_) => {}
         }
     }
-    Ok(gross(task, &points))
+    Ok(FirstLook {
+        beyond: gross(task, &points),
+        stiffness: smallest_stiffness(&points),
+    })
+}
+
+/// What a first look shows.
+pub(crate) struct FirstLook {
+    /// What is beyond its limits by far.
+    pub beyond: Vec<Beyond>,
+    /// Smallest stiffness against a force, N/mm; infinite where no place was solved.
+    pub stiffness: f64,
+}
+
+fn smallest_stiffness(points: &[PointResult]) -> f64 {
+    let stiffnesses = points.iter().map(|p| p.smallest_stiffness_n_per_mm);
+    stiffnesses.fold(f64::INFINITY, smaller)
+}
+
+/// Smallest stiffness against a force at a few places of the program, N/mm; places without an answer are left out.
+///
+/// # Errors
+/// [`RunError::Cancelled`].
+pub(crate) fn stiffness_at_first_look(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    watch: &dyn Watch,
+) -> Result<f64, RunError> {
+    let mut points = Vec::new();
+    for found in looks(task, load, watch) {
+        match found {
+            Ok(point) => points.push(point),
+            Err(RunError::Cancelled) => return Err(RunError::Cancelled),
+            // Reported where the program is solved.
+            Err(_) => {}
+        }
+    }
+    Ok(smallest_stiffness(&points))
 }
 
 /// A few places of the program as it is, each solved by itself.

@@ -14,6 +14,7 @@ mod internal;
 mod load;
 mod map;
 mod orientation_follows;
+mod ramps;
 mod runs;
 mod sampled_models;
 mod thinning;

@@ -162,7 +162,11 @@ fn look(case: u64, (mechanism, placement): &(Mechanism, Placement)) -> Looked {
             wrench: Wrench::new(vector![force(), force(), force()], Vector3::z()),
         },
     };
-    let load = ProgramLoad::new(cutting);
+    // At once, as the places that are looked at by themselves take it.
+    let load = ProgramLoad {
+        largest_step: f64::INFINITY,
+        ..ProgramLoad::new(cutting)
+    };
     let (run, path) = run(mechanism, &text, *placement, load);
     let (off, places) = sampled(mechanism, &run, &path, *placement, load, &mut random);
     let result = &run.result;

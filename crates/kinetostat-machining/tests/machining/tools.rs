@@ -19,11 +19,16 @@ fn machine(length: f64) -> Mechanism {
 }
 
 fn milling(radial: f64) -> ProgramLoad {
-    ProgramLoad::new(CuttingLoad::Milling {
+    let load = ProgramLoad::new(CuttingLoad::Milling {
         radial,
         tangential: -30.0,
         axial: -25.0,
-    })
+    });
+    // It comes at once on every machine: how soon it may come differs from one to the other.
+    ProgramLoad {
+        largest_step: f64::INFINITY,
+        ..load
+    }
 }
 
 /// The same for all tools: near the home of the middle one.

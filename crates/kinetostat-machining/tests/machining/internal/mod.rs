@@ -1,6 +1,7 @@
 //! Parts of the crate that its interface does not show, each by itself.
 
 mod correction;
+mod limited;
 mod limits;
 mod load;
 mod refused;

@@ -1,0 +1,90 @@
+//! In which direction a cut goes at the ends of every move, and how far the load lags behind at a gentle corner.
+
+use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use nalgebra::Vector3;
+
+use crate::cut::station::{ACROSS, SHORT_MM};
+use crate::load::law::ProgramLoad;
+
+/// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
+/// of the load differs there because a corner is gentle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Headings {
+    /// Of a move so short that its own direction says nothing: that of the path around it.
+    pub around: Option<f64>,
+    pub at_start: Option<f64>,
+    pub at_end: Option<f64>,
+    pub lag_start: f64,
+    pub lag_end: f64,
+}
+
+/// Heading of a direction, seen along z of the part frame, rad; `None` along z.
+pub(crate) fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
+    let t = tangent?;
+    (t.xy().norm() > ACROSS).then(|| t.y.atan2(t.x))
+}
+
+/// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
+const AROUND_MM: f64 = 0.05;
+
+/// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
+fn around(path: &Path, move_index: usize) -> Option<f64> {
+    let motion = &path.moves[move_index];
+    let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
+    if !cuts(motion) || motion.length_mm() >= SHORT_MM {
+        return None;
+    }
+    // From the middle of the move `AROUND_MM` back and on, as far as the cut goes.
+    let reach = |moves: &mut dyn Iterator<Item = &Move>, back: bool| {
+        let mut left = AROUND_MM - 0.5 * motion.length_mm();
+        let mut place = if back { motion.start } else { motion.end };
+        for m in moves.take_while(|m| cuts(m)) {
+            let length = m.length_mm();
+            if length >= left {
+                let share = left / length;
+                return m.point(if back { 1.0 - share } else { share });
+            }
+            left -= length;
+            place = if back { m.start } else { m.end };
+        }
+        place
+    };
+    let from = reach(&mut path.moves[..move_index].iter().rev(), true);
+    let to = reach(&mut path.moves[move_index + 1..].iter(), false);
+    let chord = to - from;
+    match chord.norm() > SHORT_MM {
+        true => heading(chord.try_normalize(0.0)),
+        false => None,
+    }
+}
+
+fn wrap(angle: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle - turn * (angle / turn).round()
+}
+
+/// Headings of all moves under loads that turn with the feed.
+pub(crate) fn headings<'l>(
+    path: &Path,
+    load_of: impl Fn(usize) -> &'l ProgramLoad,
+) -> Vec<Headings> {
+    let mut headings = vec![Headings::default(); path.moves.len()];
+    for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
+        if m.kind == MoveKind::Feed && load_of(i).turns() {
+            h.around = around(path, i);
+            h.at_start = h.around.or_else(|| heading(m.tangent(0.0)));
+            h.at_end = h.around.or_else(|| heading(m.tangent(1.0)));
+        }
+    }
+    for i in 1..headings.len() {
+        let (Some(before), Some(after)) = (headings[i - 1].at_end, headings[i].at_start) else {
+            continue;
+        };
+        let turn = wrap(after - before);
+        if turn.abs() <= load_of(i).gentle_corner {
+            headings[i - 1].lag_end = 0.5 * turn;
+            headings[i].lag_start = -0.5 * turn;
+        }
+    }
+    headings
+}

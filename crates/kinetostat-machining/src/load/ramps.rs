@@ -1,0 +1,246 @@
+//! A load that comes and goes as fast as the correction may change, and no faster.
+//!
+//! A correction that jumps would move the tool while it stands at one place of the part: a plunge would go up before it goes
+//! down. So the load may change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the machine's
+//! smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter where the
+//! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid. At sharp
+//! corners the load turns while the tool steps, as everywhere.
+
+use kinetostat::Wrench;
+use kinetostat::number::larger;
+use kinetostat_program::{Curve, Move};
+
+use crate::cut::profile::Scale;
+use crate::load::along_path::LoadAlongPath;
+use crate::load::law::{CuttingLoad, ProgramLoad};
+use crate::load::runs::{begins, of_run, runs};
+use crate::profile::by_move::{ByMove, Profile};
+use crate::profile::limited::limited;
+use crate::profile::reduced::reduced;
+
+/// A change of the force inside a cut that is faster than the correction may follow, where that is worst.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TooFast {
+    /// Line of the program.
+    pub line: usize,
+    /// Force that the correction lacks there, N.
+    pub force_n: f64,
+    /// By how much that moves the tool at the machine's smallest stiffness, mm.
+    pub off_mm: f64,
+}
+
+/// A load in two readings.
+#[derive(Clone, Debug)]
+pub(crate) struct Ramped<'a> {
+    /// That which the correction follows.
+    pub followed: LoadAlongPath<'a>,
+    /// That which acts: where the tool cuts, what was computed, as far as it is known where.
+    pub acting: LoadAlongPath<'a>,
+    pub too_fast: Option<TooFast>,
+}
+
+impl<'a> LoadAlongPath<'a> {
+    /// The load that changes no faster than it may on a machine of this smallest stiffness (N/mm).
+    pub(crate) fn ramped(self, stiffness: f64) -> Ramped<'a> {
+        let steps = stiffness > 0.0 && stiffness.is_finite();
+        if !steps {
+            return Ramped {
+                acting: self.clone(),
+                followed: self,
+                too_fast: None,
+            };
+        }
+        let begun = self.begun(stiffness);
+        let followed = self.with_part(begun);
+        let changed = followed.cut.as_ref().and_then(|cut| {
+            let limit = Limit {
+                load: &followed,
+                scale: cut.scale,
+                stiffness,
+                resolution_mm: cut.resolution_mm,
+            };
+            limit.cut(&cut.profile)
+        });
+        let Some((asked, acting, too_fast)) = changed else {
+            return Ramped {
+                acting: followed.clone(),
+                followed,
+                too_fast: None,
+            };
+        };
+        Ramped {
+            acting: followed.clone().with_profile(acting),
+            followed: followed.with_profile(asked),
+            too_fast,
+        }
+    }
+
+    /// The part of stated loads that acts, along the path; `None` where nothing is stated.
+    fn begun(&self, stiffness: f64) -> Option<Profile<1>> {
+        let stated = |i: usize| stated_force(self.load_of(i));
+        let path = self.path();
+        if !(0..path.moves.len()).any(|i| stated(i).is_some()) {
+            return None;
+        }
+        let mut all = vec![Vec::new(); path.moves.len()];
+        for run in runs(path, |_, _| true) {
+            let Some(force) = stated(run[0]) else {
+                continue;
+            };
+            let load = self.load_of(run[0]);
+            let rate = [load.largest_step * stiffness / force];
+            let places = of_run(path, &run, |i| stated_part(load, &path.moves[i]));
+            for (place, [part], _) in
+                limited(&places, &rate, begins(path, run[0])).unwrap_or_default()
+            {
+                all[place.move_index].push((place.share, [part]));
+            }
+        }
+        let mut profile = ByMove::new();
+        for own in all {
+            profile.push(reduced(&own, |[off]| off.abs() / PART));
+        }
+        Some(profile)
+    }
+}
+
+/// A part of a stated load that does not matter.
+const PART: f64 = 1e-4;
+
+/// Size of a force that is the same everywhere, N.
+fn stated_force(load: &ProgramLoad) -> Option<f64> {
+    let force = match load.cutting {
+        CuttingLoad::Constant { wrench, .. } => wrench.force().norm(),
+        CuttingLoad::Milling {
+            radial,
+            tangential,
+            axial,
+        } => radial.hypot(tangential).hypot(axial),
+        _ => 0.0,
+    };
+    (force > 0.0 && force.is_finite()).then_some(force)
+}
+
+/// Shares of a move with the part of the load there, and whether it counts: below the height that was stated.
+fn stated_part(load: &ProgramLoad, motion: &Move) -> Vec<(f64, [f64; 1], bool)> {
+    let Some(z) = load.below_z_mm else {
+        return vec![(0.0, [1.0], true), (1.0, [1.0], true)];
+    };
+    let mut shares = match &motion.curve {
+        Curve::Line => crossing(motion, z).into_iter().collect(),
+        Curve::Arc(_) => motion.shares_at(2, &[z]),
+    };
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    shares.sort_by(f64::total_cmp);
+    shares.insert(0, 0.0);
+    shares.push(1.0);
+    let stretches = shares.windows(2).flat_map(|pair| {
+        let inside = motion.point(0.5 * (pair[0] + pair[1])).z < z;
+        let part = [f64::from(u8::from(inside))];
+        [(pair[0], part, inside), (pair[1], part, inside)]
+    });
+    stretches.collect()
+}
+
+/// Where a straight move passes a height.
+fn crossing(motion: &Move, z: f64) -> Option<f64> {
+    let (from, to) = (motion.start.z - z, motion.end.z - z);
+    (from * to < 0.0).then(|| from / (from - to))
+}
+
+/// How fast the force of a cut may change.
+struct Limit<'l, 'a> {
+    load: &'l LoadAlongPath<'a>,
+    scale: Scale,
+    stiffness: f64,
+    resolution_mm: f64,
+}
+
+/// Vertices of the moves on which a profile is another.
+type Changed = Vec<Option<Vec<(f64, [f64; 6])>>>;
+
+/// A profile to be followed, that which acts, and the worst of their differences in a cut.
+type Followed = (Profile<6>, Profile<6>, Option<TooFast>);
+
+impl Limit<'_, '_> {
+    /// `None` where nothing changes too fast.
+    fn cut(&self, cut: &Profile<6>) -> Option<Followed> {
+        let path = self.load.path();
+        let count = path.moves.len();
+        let mut asked: Changed = vec![None; count];
+        let mut acting = asked.clone();
+        let mut too_fast: Option<TooFast> = None;
+        let joined = |a: &Move, b: &Move| match (a.tangent(1.0), b.tangent(0.0)) {
+            (Some(from), Some(to)) => from.angle(&to) <= self.load.base_load().gentle_corner,
+            _ => true,
+        };
+        for run in runs(path, joined) {
+            let load = self.load.load_of(run[0]);
+            if !matches!(load.cutting, CuttingLoad::FromCut { .. }) {
+                continue;
+            }
+            let places = of_run(path, &run, |i| self.vertices(cut, i));
+            let rate = self.rate(load);
+            let Some(found) = limited(&places, &rate, begins(path, run[0])) else {
+                continue;
+            };
+            for (place, value, length_mm) in found {
+                let i = place.move_index;
+                // A change that goes over less than it is known where, may go so.
+                let acts = match place.counts && length_mm > self.resolution_mm {
+                    true => place.value,
+                    false => value,
+                };
+                asked[i].get_or_insert_default().push((place.share, value));
+                acting[i].get_or_insert_default().push((place.share, acts));
+                let off = Wrench(acts.into()).0 - Wrench(value.into()).0;
+                let force_n = Wrench(off).force().norm();
+                if too_fast.is_none_or(|worst| force_n > worst.force_n) && force_n > 0.0 {
+                    too_fast = Some(TooFast {
+                        line: path.moves[i].line,
+                        force_n,
+                        off_mm: force_n / self.stiffness,
+                    });
+                }
+            }
+        }
+        if asked.iter().all(Option::is_none) {
+            return None;
+        }
+        let profile = |changed: Changed| {
+            let mut profile = ByMove::new();
+            for (i, own) in changed.into_iter().enumerate() {
+                match own {
+                    Some(own) => profile.push(self.scale.needed(&own)),
+                    None => profile.push(cut.of(i).iter().copied()),
+                }
+            }
+            profile
+        };
+        Some((profile(asked), profile(acting), too_fast))
+    }
+
+    /// Vertices of a move with its ends, and whether the tool cuts there.
+    fn vertices(&self, cut: &Profile<6>, i: usize) -> Vec<(f64, [f64; 6], bool)> {
+        let own = cut.of(i);
+        let counts = |value: &[f64; 6]| self.scale.size(value) > 1.0;
+        let mut all: Vec<_> = own.iter().map(|(s, v)| (*s, *v, counts(v))).collect();
+        let first = own.first().map_or([0.0; 6], |(_, value)| *value);
+        let last = own.last().map_or([0.0; 6], |(_, value)| *value);
+        if own.first().is_none_or(|(share, _)| *share > 0.0) {
+            all.insert(0, (0.0, first, counts(&first)));
+        }
+        if own.last().is_none_or(|(share, _)| *share < 1.0) {
+            all.push((1.0, last, counts(&last)));
+        }
+        all
+    }
+
+    /// Force and moment per mm, by components: a moment changes in the same length as the force.
+    fn rate(&self, load: &ProgramLoad) -> [f64; 6] {
+        let force = load.largest_step * self.stiffness / 3_f64.sqrt();
+        let arm = self.scale.moment / larger(self.scale.force, f64::MIN_POSITIVE);
+        let moment = larger(force * arm, f64::MIN_POSITIVE);
+        [force, force, force, moment, moment, moment]
+    }
+}
