@@ -14,7 +14,7 @@ pub(crate) struct ForceAnswer {
     pub(crate) tool: ToolAnswer,
     pub(crate) cut: CutAnswer,
     /// What the axes are, in words.
-    pub(crate) axes: &'static str,
+    pub(crate) axes: String,
     pub(crate) mean: MeanAnswer,
     pub(crate) peak: PeakAnswer,
     /// Walls that the cut leaves, with the force at the moment at which they are made.

@@ -1,7 +1,7 @@
 //! From tool, cut and law to the answer.
 
 use kinetostat_cutting::{
-    Applied, CutForce, Material, Milling, Revolution, Shape, Side, Tool, Wall,
+    Applied, CutForce, Material, Milling, Revolution, Rotation, Shape, Side, Tool, Wall,
 };
 
 use crate::force::answer::{
@@ -27,7 +27,15 @@ const HARMONICS: usize = 4;
 /// Heights at which the force on a wall is named, the tip and the full depth among them.
 const HEIGHTS: usize = 5;
 
-const AXES: &str = "force on the tool; x along the feed of the tool over the part, y to the left of the feed, z along the tool towards the spindle; moments about the tip; angles of the spindle from +y to the tip of tooth 0, as the spindle turns";
+fn axes(rotation: Rotation) -> String {
+    let from = match rotation {
+        Rotation::Clockwise => "+y",
+        Rotation::CounterClockwise => "-y",
+    };
+    format!(
+        "force on the tool; x along the feed of the tool over the part, y to the left of the feed, z along the tool towards the spindle; moments about the tip; angles of the spindle from {from} to the tip of tooth 0, as the spindle turns"
+    )
+}
 
 pub(crate) fn answer_of(
     question: String,
@@ -66,7 +74,7 @@ pub(crate) fn answer_of(
                 Way::Conventional => "conventional",
                 Way::Slot => "slot",
             },
-            counter_clockwise: cut.rotation != kinetostat_cutting::Rotation::Clockwise,
+            counter_clockwise: cut.rotation != Rotation::Clockwise,
             arc_from_deg: from.to_degrees(),
             arc_to_deg: to.to_degrees(),
             feed_per_tooth_mm: cut.feed.level_mm,
@@ -78,7 +86,7 @@ pub(crate) fn answer_of(
             largest_chip_mm: chip.largest_mm,
             mean_chip_mm: chip.mean_mm,
         },
-        axes: AXES,
+        axes: axes(cut.rotation),
         mean: mean_answer(&mean, cut, applied.spread),
         spindle: spindle(cut, mean.torque_n_mm(), peak.torque_n_mm),
         peak,

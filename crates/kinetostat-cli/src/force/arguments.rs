@@ -282,7 +282,8 @@ Examples:
 
 Axes of the force, which is that on the tool: x along the feed of the tool over
 the part, y to the left of the feed, z along the tool towards the spindle.
-Angles of the spindle count from +y to the place of tooth 0 at the tip.
+Angles of the spindle count from +y (from -y with --counter-clockwise) to the
+place of tooth 0 at the tip, as the spindle turns.
 
 A table of tools (TOML) has per tool
   [[tool]]

@@ -54,6 +54,11 @@ pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
             false => turning::run(args, &material, claimed),
         };
     }
+    if args.steady.feed_per_turn_mm.is_some() {
+        return Err(Failure::input(
+            "--feed-per-turn-mm is the feed of --drill and --turning; a milling cut has --feed-per-tooth-mm, or --feed-mm-per-min with --rpm",
+        ));
+    }
     let tool = tool_of(&files, &args.tool)?;
     inputs.extend(tool.table.clone());
     let cut = cut_of(&tool.tool, &args.cut, &args.spindle)?;

@@ -105,6 +105,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 path: path.to_owned(),
                 text: text.clone(),
                 job,
+                left_out: taken.iter().map(|(key, _)| key.clone()).collect(),
             };
             let Err(failure) = part(&job) else { break };
             if failure.code != Code::WrongInput {

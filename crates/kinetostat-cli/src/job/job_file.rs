@@ -16,6 +16,8 @@ pub(crate) struct JobFile {
     pub(crate) path: PathBuf,
     pub(crate) text: String,
     pub(crate) job: Job,
+    /// Keys that were left out because they are wrong, where the rest is looked at.
+    pub(crate) left_out: Vec<String>,
 }
 
 impl JobFile {
@@ -30,6 +32,7 @@ impl JobFile {
             path: path.to_owned(),
             text,
             job,
+            left_out: Vec::new(),
         })
     }
 
@@ -47,6 +50,11 @@ impl JobFile {
                     .of_file(file.clone())
             })
             .collect()
+    }
+
+    /// Whether a key is missing because it was left out.
+    pub(crate) fn lacks(&self, key: &str) -> bool {
+        self.left_out.iter().any(|left_out| left_out == key)
     }
 
     /// Directory that the job's relative paths start from.

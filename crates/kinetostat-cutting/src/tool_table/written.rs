@@ -1,5 +1,7 @@
 //! A table of tools as it is written.
 
+use std::ops::Range;
+
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
@@ -41,4 +43,22 @@ pub struct WrittenTool {
     pub(crate) rake_deg: Option<Spanned<f64>>,
     pub(crate) max_chip_mm: Option<Spanned<f64>>,
     pub(crate) length_mm: Option<Spanned<f64>>,
+}
+
+impl WrittenTool {
+    /// A key that has a meaning in a table of tools alone (`number`, `length_mm`), with its place in the text.
+    ///
+    /// ```
+    /// use kinetostat_cutting::WrittenTool;
+    ///
+    /// let text = "shape = \"flat\"\nteeth = 2\nlength_mm = 60";
+    /// let written: WrittenTool = toml::from_str(text)?;
+    /// assert_eq!(written.key_of_a_table(), Some(("length_mm", 36..38)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn key_of_a_table(&self) -> Option<(&'static str, Range<usize>)> {
+        let number = self.number.as_ref().map(|n| ("number", n.span()));
+        number.or_else(|| self.length_mm.as_ref().map(|l| ("length_mm", l.span())))
+    }
 }

@@ -19,6 +19,8 @@ pub enum CutFindingKind {
     Spindle,
     /// The cut is deeper than the edges are long.
     ShortEdges,
+    /// An engagement is stated for lines on which nothing is cut.
+    LinesWithoutCut,
     /// The tool goes down into material where its end is, as the whole tool is, in contact: tools that do not cut at the centre
     /// cannot.
     Plunge,

@@ -36,6 +36,7 @@ impl CutQuestion {
         let force_of = |tool| ForceOf::new(tool, self.choice);
         let mut forces: Vec<ForceOf<'_>> = self.tools.iter().map(force_of).collect();
         let mut findings = Findings::default();
+        self.lines_without_a_cut(path, &mut findings);
         let mut moves: Vec<Vec<CutStation>> = Vec::with_capacity(path.moves.len());
         // The last feed move without a rapid since, and not so short that it has no direction.
         let mut before: Option<usize> = None;
@@ -69,6 +70,26 @@ impl CutQuestion {
             EngagementSource::Stock(stock) => stock.cell_mm(),
             _ => f64::INFINITY,
         }))
+    }
+
+    /// Stated lines on which the program does not cut.
+    fn lines_without_a_cut(&self, path: &Path, findings: &mut Findings) {
+        let EngagementSource::Lines(ranges) = &self.engagement else {
+            return;
+        };
+        let cuts = |m: &&Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
+        for (lines, _) in ranges {
+            let mut moves = path.moves.iter().filter(cuts);
+            if !moves.any(|m| lines.contains(&m.line)) {
+                findings.add(CutFindingKind::LinesWithoutCut, *lines.start(), 1.0, || {
+                    format!(
+                        "lines {} to {} have an engagement, and no feed move stands on them",
+                        lines.start(),
+                        lines.end()
+                    )
+                });
+            }
+        }
     }
 
     /// Whether a move goes on where the one before ends, in nearly the same direction and with the same tool: what the tool

@@ -379,7 +379,7 @@ fn written(result: &Shown<'_>) -> Vec<Value> {
             "Most blocks per second",
             match &result.figures.blocks_per_second {
                 Some(most) => format!("{most} at the programmed feed"),
-                None => "not known: the program states no feed in mm per minute".to_owned(),
+                None => "not known: it is that of 16 blocks in a row with a known time".to_owned(),
             },
         ),
         fact(

@@ -48,6 +48,7 @@ fn code(kind: CutFindingKind) -> WarningCode {
         CutFindingKind::OutsideTheLaw => WarningCode::ChipsOutsideMeasured,
         CutFindingKind::Spindle => WarningCode::SpindleExceeded,
         CutFindingKind::ShortEdges => WarningCode::ToolTooShort,
+        CutFindingKind::LinesWithoutCut => WarningCode::LoadNeverActs,
         CutFindingKind::Plunge => WarningCode::Plunge,
         // Kinds that this program does not know have no word of their own yet.
         _ => WarningCode::Program,

@@ -1,5 +1,7 @@
 //! Engagement that a job states.
 
+use std::ops::RangeInclusive;
+
 use kinetostat_cutting::{Engagement, Side, Tool};
 use kinetostat_machining::EngagementSource;
 use serde_spanned::Spanned;
@@ -53,6 +55,22 @@ pub(super) fn engagement(
                         lines,
                         "lines count from 1, the first before the last",
                         "correct 'from' and 'to'",
+                    ));
+                }
+                let before = ranges
+                    .iter()
+                    .find(|(range, _): &&(RangeInclusive<usize>, _)| {
+                        *range.start() <= l.to && l.from <= *range.end()
+                    });
+                if let Some((range, _)) = before {
+                    return Err(job.error(
+                        lines,
+                        &format!(
+                            "lines {} to {} have an engagement already",
+                            range.start(),
+                            range.end()
+                        ),
+                        "let no line stand in two ranges",
                     ));
                 }
                 ranges.push((l.from..=l.to, straight(l.width_mm, l.depth_mm, l.part)?));

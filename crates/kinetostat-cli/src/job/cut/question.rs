@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kinetostat_cutting::{SpindleCurve, Tool, ToolEntry, WrittenTool};
+use kinetostat_cutting::{Engagement, SpindleCurve, Tool, ToolEntry, WrittenTool};
 use kinetostat_machining::{CutQuestion, CuttingTool, Placement};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
@@ -56,22 +56,18 @@ pub(crate) fn cut_setup(
             flute_length_mm: entry.flute_length_mm,
         });
     }
-    let smallest =
-        tools
-            .iter()
-            .map(|tool| tool.tool)
-            .reduce(|a, b| match b.diameter_mm() < a.diameter_mm() {
-                true => b,
-                false => a,
-            });
-    let Some(smallest) = smallest else {
+    let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
+    let edges = || tools.iter().map(|tool| &tool.tool);
+    let (Some(smallest), Some(largest)) =
+        (edges().min_by(by_diameter), edges().max_by(by_diameter))
+    else {
         return Err(j.error(
             table,
             "a material is named, and no tool has a cutter",
             "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]])",
         ));
     };
-    let (source, source_words) = where_it_cuts((files, &mut read), j, table, &smallest)?;
+    let (source, source_words) = where_it_cuts((files, &mut read), j, table, (smallest, largest))?;
     words.push(source_words);
     let spindle = j.job.spindle.as_ref().map(|s| s.get_ref().clone());
     let spindle = spindle.unwrap_or_default();
@@ -126,6 +122,9 @@ const TILT: f64 = 0.01;
 
 /// Tables that mean nothing without a material.
 fn no_material(j: &JobFile) -> Answer<()> {
+    if j.lacks("material") {
+        return Ok(());
+    }
     let help = "name the material: [material] name = \"AlMg4.5Mn\" (`kinetostat force --list-materials` lists them)";
     if let Some(stock) = &j.job.stock {
         return Err(j.error(stock, "there is a stock, and no material to be cut", help));
@@ -176,6 +175,13 @@ fn typed_force(j: &JobFile, flags: &ProgramArgs, table: &Spanned<MaterialTable>)
 fn cutters(j: &JobFile) -> Answer<Vec<(Option<u32>, ToolEntry)>> {
     let file = j.path.display().to_string();
     let read = |number: Option<u32>, cutter: &Spanned<WrittenTool>| {
+        if let Some((key, span)) = cutter.get_ref().key_of_a_table() {
+            return Err(j.error(
+                &Spanned::new(span, ()),
+                &format!("{key} is no part of a cutter in a job"),
+                "number and length_mm stand beside it, under [tool] or [[tools]]",
+            ));
+        }
         let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
         entry.map(|entry| (number, entry)).map_err(Failure::input)
     };
@@ -193,19 +199,29 @@ fn where_it_cuts(
     (files, read): (&InputFiles, &mut FilesOfCut),
     j: &JobFile,
     table: &Spanned<MaterialTable>,
-    smallest: &Tool,
+    (smallest, largest): (&Tool, &Tool),
 ) -> Answer<(kinetostat_machining::EngagementSource, String)> {
     match (&j.job.stock, &j.job.engagement) {
         (Some(table), None) => {
-            let (stock, words) = stock(files, j, table, smallest, read)?;
+            let (stock, words) = stock(files, j, table, (smallest, largest), read)?;
             let source = kinetostat_machining::EngagementSource::Stock(Box::new(stock));
             Ok((source, words))
         }
+        (None, Some(table)) if smallest.diameter_mm() < largest.diameter_mm() => Err(j.error(
+            table,
+            "an engagement of some width is another for tools of different diameters",
+            "give [stock], from which each tool has its own, or one program for each tool",
+        )),
         (None, Some(table)) => engagement(j, table, smallest),
         (Some(stock), Some(_)) => Err(j.error(
             stock,
             "the engagement is given twice: by a stock, and as stated",
             "keep [stock] or [engagement]",
+        )),
+        // What was wrong with it has been said.
+        (None, None) if j.lacks("stock") || j.lacks("engagement") => Ok((
+            kinetostat_machining::EngagementSource::Constant(Engagement::air()),
+            String::new(),
         )),
         (None, None) => Err(j.error(
             table,

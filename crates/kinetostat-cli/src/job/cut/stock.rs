@@ -14,16 +14,33 @@ use crate::ui::numbers::short;
 /// Largest cell, as a share of the tool's diameter: forces in coarser ones are off by percents and more.
 const COARSEST: f64 = 0.1 + 1e-9;
 
-/// The stock, and its resolution in words; `smallest` is the tool with the smallest diameter.
+/// Smallest cell, as a share of the diameter of the largest tool: a rim of thousands of cells takes minutes and shows no more.
+const FINEST: f64 = 1e-3;
+
+/// The stock, and its resolution in words, for tools from the smallest to the largest diameter.
 pub(super) fn stock(
     files: &InputFiles,
     job: &JobFile,
     table: &Spanned<StockTable>,
-    smallest: &Tool,
+    (smallest, largest): (&Tool, &Tool),
     files_read: &mut FilesOfCut,
 ) -> Answer<(Stock, String)> {
     let wrong = |error: CutError| refused(job, table, &error);
     let t = table.get_ref();
+    let finest = FINEST * largest.diameter_mm();
+    if let Some(cell) = &t.cell_mm
+        && *cell.get_ref() < finest
+    {
+        return Err(job.error(
+            cell,
+            &format!(
+                "cells of {} mm are finer than a thousandth of the tool's diameter of {} mm",
+                short(*cell.get_ref()),
+                short(largest.diameter_mm())
+            ),
+            &format!("write at least {}", short(finest)),
+        ));
+    }
     let mut settings = match &t.cell_mm {
         Some(cell) => StockSettings::with_cell_mm(*cell.get_ref()).map_err(wrong)?,
         None => StockSettings::for_tool(smallest).coarser_if_needed(),
@@ -94,7 +111,7 @@ pub(super) fn stock(
         false => "",
     };
     let words = format!(
-        "engagement from the stock, a height field of cells of {} mm{coarser}: no undercuts, tool along z of the part{walls}",
+        "engagement from the stock, a height field of cells of {} mm{coarser}, in the coordinates of the program with its work offsets: no undercuts, tool along z of the part{walls}",
         short(stock.cell_mm())
     );
     Ok((stock, words))
