@@ -7,6 +7,7 @@ pub(crate) mod checked;
 pub(crate) mod compensate;
 pub(crate) mod conclude;
 pub(crate) mod corner_steps;
+pub(crate) mod cutting;
 pub(crate) mod divide_again;
 pub(crate) mod first_look;
 pub(crate) mod following;

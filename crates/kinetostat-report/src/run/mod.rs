@@ -3,6 +3,8 @@
 //! Takes a run's result or all of its points; gives HTML or SVG.
 
 pub(crate) mod along;
+pub(crate) mod cutting;
+pub(crate) mod engagement;
 pub(crate) mod facts;
 pub(crate) mod meaning;
 pub(crate) mod page;
