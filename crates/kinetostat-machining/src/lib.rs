@@ -49,6 +49,7 @@ pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singu
 pub use placement::Placement;
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::figures::Figures;
+pub use result::force_band::ForceBand;
 pub use result::point::{PointKind, PointResult};
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};

@@ -94,7 +94,8 @@ fn look(whole: &Stock, left: &Stock, at: (f64, f64), heights: Option<(f64, f64)>
         });
     }
     match left.top_mm(at.0, at.1) {
-        Some(after) => Cell::Value(before - after),
+        // Depths are round numbers, and so are the ends of colours: rounding must not speckle them.
+        Some(after) => Cell::Value(1e-4 * (1e4 * (before - after)).round()),
         None => Cell::Other(0),
     }
 }

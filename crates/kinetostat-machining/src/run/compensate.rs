@@ -21,6 +21,7 @@ use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
 use crate::run::first_look::{first_look, folding_load};
 use crate::run::following::jump;
+use crate::run::force_band::force_band;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
@@ -51,8 +52,12 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
     refuse(folding_load(task, &load, watch)?)?;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
-    let (points, _) = solve(task, sites, false, watch)?;
-    Ok(conclude(task, &load, points, None, &Checked::default()))
+    let (mut points, _) = solve(task, sites, false, watch)?;
+    let checked = Checked {
+        force_band: force_band(task, &mut points, sites, watch)?,
+        ..Checked::default()
+    };
+    Ok(conclude(task, &load, points, None, &checked))
 }
 
 /// The compensated program, with deflections solved again from its bytes.
@@ -120,6 +125,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         speed_percent: 100.0 * check.largest_speed_error,
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        force_band: force_band(task, &mut points, sites, watch)?,
         divided_again: match within_before {
             true => None,
             false => again.description(allowed_mm),

@@ -86,7 +86,7 @@ impl Section {
     /// The section as high as it needs to be for its shape, with its size.
     pub(crate) fn fitted(&self) -> (Svg, (f64, f64)) {
         let height = match (edges(&self.x), edges(&self.y)) {
-            (Some(x), Some(y)) => 190.0 + (SIZE.0 - 220.0) * y.length() / x.length(),
+            (Some(x), Some(y)) => 135.0 + (SIZE.0 - 195.0) * y.length() / x.length(),
             _ => SIZE.1,
         };
         let height = height.clamp(330.0, 720.0);
@@ -178,7 +178,7 @@ impl Section {
             svg.rectangle("grey3 swatch", (at, top - 6.0), (22.0, 12.0), 0.0);
             let beside = (at + 28.0, top + 4.0);
             svg.text("name", beside, Anchor::Start, &self.grey_label);
-            at += 46.0 + text::width(&self.grey_label, TEXT_SIZE);
+            at += 56.0 + text::width(&self.grey_label, TEXT_SIZE);
         }
         let named = self.lines.iter().filter(|line| !line.name.is_empty());
         let entries: Vec<(&str, String)> = named.map(|l| (way(l), l.name.clone())).collect();

@@ -7,6 +7,7 @@ use crate::chart::label::Frame;
 use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet};
 use crate::chart::stack::stack;
 use crate::number::{self, MISSING, Rounding, norm};
+use crate::run::force_band;
 use crate::run::shown::Shown;
 use crate::svg::Svg;
 use crate::text;
@@ -23,15 +24,17 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     panels.extend(before_panel(result, &along, sheet));
     if result.run_inputs.compensated {
         panels.extend(after_panel(result, &along));
+        panels.extend(force_band::panel(result, &along));
     }
     let heights = if sheet.narrow() {
-        [170.0, 150.0]
+        [170.0, 150.0, 130.0]
     } else {
-        [210.0, 160.0]
+        [210.0, 160.0, 140.0]
     };
+    let names: Vec<_> = force_band::name(result).into_iter().collect();
     stacked(
         &panels,
-        &heights,
+        (&heights, &names),
         &along,
         sheet,
         "Distance of the tool from its programmed place along the path",
@@ -95,7 +98,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
     };
     stacked(
         &panels,
-        &heights,
+        (&heights, &[]),
         &along,
         sheet,
         "Smallest stiffness against a force and share of the way to buckling along the path",
@@ -144,6 +147,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
     let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let worst = force_band::largest_without_compensation(result).map_or(worst, |m| m.max(worst));
     let (unit, factor) = number::length_unit(worst);
     let most = &result.figures.error_before;
     Some(Panel {
@@ -156,7 +160,7 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
         .widened()
         .padded(0.0, 0.2),
         ticks: None,
-        areas: Vec::new(),
+        areas: force_band::without_compensation(result, along, factor),
         series: vec![Series {
             class: "line before",
             values: along.values(result.points, |p| Some(norm(&p.error_before_mm) * factor)),
@@ -313,7 +317,7 @@ fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
 /// Panels under each other as an element of the page; empty without panels.
 fn stacked(
     panels: &[Panel],
-    heights: &[f64],
+    (heights, names): (&[f64], &[(&str, String)]),
     along: &Along,
     sheet: Sheet,
     description: &str,
@@ -321,7 +325,7 @@ fn stacked(
     if panels.is_empty() {
         return String::new();
     }
-    let (svg, height) = stack(panels, heights, along, sheet.width(), &[]);
+    let (svg, height) = stack(panels, heights, along, sheet.width(), names);
     svg.inline(sheet.class(), (sheet.width(), height), description)
 }
 

@@ -50,6 +50,12 @@ pub(crate) fn charts(cutting: &CuttingResult, width: f64) -> Option<(Svg, f64)> 
     for (class, name) in PARTS {
         names.push((class, name.to_owned()));
     }
+    let limited = panels
+        .last()
+        .is_some_and(|p| p.series.iter().any(|s| s.class == "limit"));
+    if limited {
+        names.push(("limit", "torque that the spindle gives".to_owned()));
+    }
     let heights = [150.0, 130.0, 90.0, 90.0, 110.0];
     Some(stack(&panels, &heights, &along, width, &names))
 }
