@@ -19,6 +19,7 @@ mod curves_warned;
 mod cut;
 mod demo;
 mod draw;
+mod engagement;
 mod figures;
 mod force;
 mod identical;

@@ -217,10 +217,16 @@ impl Kept {
         keep.extend(self.open.iter().rposition(|p| !feed(p)));
         for figure in FIGURES {
             let places = || self.open.iter().enumerate().filter(|(_, p)| feed(p));
+            // Of several that are alike the first, as in the result's list of the largest.
             let order = |a: &(usize, &CutPlace), b: &(usize, &CutPlace)| {
                 figure(a.1).total_cmp(&figure(b.1))
             };
-            keep.extend(places().max_by(order).map(|(i, _)| i));
+            let first = |a: &(usize, &CutPlace), b: &(usize, &CutPlace)| b.0.cmp(&a.0);
+            keep.extend(
+                places()
+                    .max_by(|a, b| order(a, b).then(first(a, b)))
+                    .map(|(i, _)| i),
+            );
             keep.extend(places().min_by(order).map(|(i, _)| i));
         }
         keep.sort_unstable();

@@ -198,7 +198,10 @@ impl Section {
         let mut names = Names::within(*frame);
         for line in &self.lines {
             let pixels: Vec<_> = line.points.iter().map(pixel).collect();
-            ways.path(way(line), &path_data(&first_time(&pixels)));
+            let data = path_data(&first_time(&pixels));
+            // Light below dark: one of them is seen on every colour.
+            ways.path("way-ground", &data);
+            ways.path(way(line), &data);
         }
         svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();

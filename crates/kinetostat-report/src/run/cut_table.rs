@@ -4,7 +4,7 @@ use kinetostat_machining::{CutPlace, CuttingResult};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding};
-use crate::run::cutting::spread;
+use crate::run::cutting::{percent, share_of_spindle, spread};
 use crate::run::shown::Shown;
 
 /// The section's content; nothing where no force was computed from the cut or nothing is cut.
@@ -34,7 +34,7 @@ fn sentence(cut: &CuttingResult) -> String {
         ),
         false => String::new(),
     };
-    let spindle = match cut.nearest_to_spindle.as_ref().and_then(share) {
+    let spindle = match cut.nearest_to_spindle.as_ref().and_then(share_of_spindle) {
         Some(share) if share > 1.0 => {
             " The spindle has not the torque that is needed: see the warnings."
         }
@@ -53,19 +53,10 @@ fn row(p: &CutPlace) -> Value {
         force => number::fixed(p.force_n(), 1),
         parts => parts.map(|n| number::fixed(n, 1)).to_vec(),
         torque => digits(p.torque_n_m),
-        share => share(p).map_or_else(
-            || MISSING.to_owned(),
-            |share| number::with_unit(&number::fixed(100.0 * share, 0), "%"),
-        ),
+        share => share_of_spindle(p).map_or_else(|| MISSING.to_owned(), percent),
         power => digits(p.power_w),
         depth => number::fixed(p.depth_mm, 2),
         arc => number::fixed(p.arc_deg, 0),
         chip => digits(p.chip_mm),
     }
-}
-
-/// Torque as a share of what the spindle gives.
-fn share(p: &CutPlace) -> Option<f64> {
-    let gives = p.spindle_torque_n_m.filter(|gives| *gives > 0.0)?;
-    Some(p.torque_n_m / gives)
 }

@@ -119,7 +119,7 @@ fn force(cutting: &CuttingResult, along: &Along, most_marks: usize) -> Option<Pa
 fn parts(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
     let of = |figure: fn(&CutPlace) -> f64| along.values(&cutting.places, |p| Some(figure(p)));
     let panel = panel(
-        "Its parts, of which those across the tool bend the machine most".to_owned(),
+        "Parts of the force".to_owned(),
         "force, N",
         vec![
             (PARTS[0].0, of(|p| p.force_along_feed_n)),
@@ -151,7 +151,7 @@ fn arc(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
     let longest = largest(cutting, |p| p.arc_deg)?;
     let values = along.values(&cutting.places, |p| Some(p.arc_deg));
     let title = format!(
-        "Arc of the tool in the material (180 deg is a slot): up to {}",
+        "Arc in the material (180 deg is a slot): up to {}",
         at(longest, longest.arc_deg, "deg")
     );
     let panel = panel(title, "arc, deg", vec![("line strong", values)])?;
@@ -166,19 +166,21 @@ fn torque(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
     let power = cutting.largest_power?;
     let limit = cutting.nearest_to_spindle;
     let values = along.values(&cutting.places, |p| Some(p.torque_n_m));
-    let gives = match limit.and_then(|p| Some((p, p.spindle_torque_n_m?))) {
-        Some((place, gives)) => format!(
-            "; the spindle gives {} at {} rpm (line {})",
-            with_unit(gives, "N m"),
-            number::setting(place.rpm),
-            number::count(place.line)
+    let share = match limit.and_then(|p| Some((p, share_of_spindle(&p)?))) {
+        Some((place, share)) if place.line == largest.line => {
+            format!(", {} of what it gives", percent(share))
+        }
+        Some((place, share)) => format!(
+            ", at line {} {} of what it gives",
+            number::count(place.line),
+            percent(share)
         ),
         None => String::new(),
     };
     let title = format!(
-        "Torque of the spindle: up to {}, power up to {}{gives}",
+        "Torque of the spindle: up to {}{share}; power up to {}",
         at(&largest, largest.torque_n_m, "N m"),
-        at(&power, power.power_w, "W")
+        with_unit(power.power_w, "W")
     );
     let mut panel = panel(title, "torque, N m", vec![("line strong", values)])?;
     let limits = || cutting.places.iter().filter_map(|p| p.spindle_torque_n_m);
@@ -244,6 +246,17 @@ fn at(place: &CutPlace, value: f64, unit: &str) -> String {
 
 fn with_unit(value: f64, unit: &str) -> String {
     number::with_unit(&number::significant(value, 3, Rounding::Nearest), unit)
+}
+
+/// Torque as a share of what the spindle gives.
+pub(crate) fn share_of_spindle(place: &CutPlace) -> Option<f64> {
+    let gives = place.spindle_torque_n_m.filter(|gives| *gives > 0.0)?;
+    Some(place.torque_n_m / gives)
+}
+
+/// A share in whole percent.
+pub(crate) fn percent(share: f64) -> String {
+    number::with_unit(&number::fixed(100.0 * share, 0), "%")
 }
 
 /// The spread, as in `25 %`.
