@@ -14,6 +14,7 @@ mod curve;
 mod deflect;
 mod demo;
 mod end_condition;
+mod engagement;
 mod equilibria;
 mod files;
 mod force;
@@ -79,6 +80,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),
         Command::Force(args) => force::run(&args),
+        Command::Engagement(args) => engagement::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),

@@ -48,7 +48,9 @@ pub use load::tool::{Tool, straight_tool};
 pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
+pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::figures::Figures;
+pub use result::force_band::ForceBand;
 pub use result::point::{PointKind, PointResult};
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
@@ -60,6 +62,7 @@ pub use result::tolerance::{
 };
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
+pub use run::cutting::{cut_places, cutting_result};
 pub use table::{TableCorrection, correct_by_table, wide_table};
 pub use task::{NoMotion, RunError, Task};
 pub use warning::{Warning, WarningCode};

@@ -38,7 +38,7 @@ mod run;
 mod svg;
 mod text;
 
-use kinetostat_machining::{Run, RunResult};
+use kinetostat_machining::{CuttingResult, Run, RunResult};
 
 use run::shown::Shown;
 use run::{page, preview};
@@ -76,6 +76,20 @@ pub fn html(result: &RunResult) -> Result<String, ReportError> {
 /// [`ReportError::Template`] if the page template cannot be filled.
 pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
     Ok(page::render(&Shown::of_run(run))?)
+}
+
+/// The cut of a program as one picture: the stock seen from above, where there is one, and below it force with its band,
+/// parts of the force, depth, arc and torque along the path. `title` says what is shown to those who cannot see it.
+///
+/// ```
+/// use kinetostat_machining::CuttingResult;
+///
+/// let svg = kinetostat_report::engagement_svg(&CuttingResult::default(), None, "nothing");
+/// assert!(svg.contains("nothing is cut"));
+/// ```
+#[must_use]
+pub fn engagement_svg(cutting: &CuttingResult, map: Option<&Section>, title: &str) -> String {
+    run::engagement::draw(cutting, map, title)
 }
 
 /// One picture of the run, 900 by 420, for a README or a slide: the path from above with the deviation

@@ -93,10 +93,26 @@ impl Svg {
 
     /// Another drawing, so many pixels below the top of this one.
     pub(crate) fn below(&mut self, down: f64, other: &Self) {
+        self.at((0.0, down), other);
+    }
+
+    /// Another drawing with its corner at a place of this one.
+    pub(crate) fn at(&mut self, (right, down): (f64, f64), other: &Self) {
         let _ = write!(
             self.body,
-            "<g transform=\"translate(0 {})\">{}</g>",
+            "<g transform=\"translate({} {})\">{}</g>",
+            pixel(right),
             pixel(down),
+            other.body
+        );
+    }
+
+    /// What of another drawing lies in a rectangle of this one.
+    pub(crate) fn window(&mut self, corner: (f64, f64), size: (f64, f64), other: &Self) {
+        let [x, y, width, height] = [corner.0, corner.1, size.0, size.1].map(pixel);
+        let _ = write!(
+            self.body,
+            "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" viewBox=\"{x} {y} {width} {height}\">{}</svg>",
             other.body
         );
     }

@@ -12,6 +12,7 @@ use crate::compensate::arguments::CompensateArgs;
 use crate::curve::arguments::CurveArgs;
 use crate::deflect::arguments::DeflectArgs;
 use crate::demo::arguments::DemoArgs;
+use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::force::arguments::ForceArgs;
 use crate::import::arguments::ImportArgs;
@@ -44,6 +45,8 @@ use crate::stiffness::arguments::StiffnessArgs;
         "      push a chain together: which force, and where does it buckle?\n",
         "  kinetostat force --list-materials\n",
         "      what can be cut: then the force of one cut, from tool, width, depth, feed\n",
+        "  kinetostat engagement job.toml --plot cut.svg\n",
+        "      what does the program cut where, with which force and torque?\n",
         "  kinetostat check my_robot.toml\n",
         "      what does the model file say, in words?\n\n",
         "Exit codes:\n",
@@ -70,6 +73,7 @@ pub(crate) enum Command {
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),
     Force(Box<ForceArgs>),
+    Engagement(EngagementArgs),
     Check(CheckArgs),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

@@ -126,16 +126,15 @@ pub(crate) fn material_answer(material: &Material, applied: &Applied) -> Materia
 
 fn tool_answer(of: &CutTool) -> ToolAnswer {
     let tool = &of.tool;
-    let (shape, corner_radius_mm, lead_angle_deg) = match tool.shape() {
-        Shape::Flat => ("flat", None, None),
-        Shape::Ball => ("ball", None, None),
-        Shape::Bull { corner_radius_mm } => ("bull", Some(corner_radius_mm), None),
-        Shape::Face { lead_angle } => ("face", None, Some(lead_angle.to_degrees())),
+    let (corner_radius_mm, lead_angle_deg) = match tool.shape() {
+        Shape::Flat | Shape::Ball => (None, None),
+        Shape::Bull { corner_radius_mm } => (Some(corner_radius_mm), None),
+        Shape::Face { lead_angle } => (None, Some(lead_angle.to_degrees())),
     };
     ToolAnswer {
         number: of.number,
         name: of.name.clone(),
-        shape,
+        shape: tool.shape().word(),
         diameter_mm: tool.diameter_mm(),
         teeth: tool.teeth(),
         helix_deg: tool.helix().to_degrees(),

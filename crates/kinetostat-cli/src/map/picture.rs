@@ -115,7 +115,7 @@ impl Picture {
         if let Some(single) = single {
             let values = self.cells.iter().map(|c| match c {
                 Cell::Value(x) => *x,
-                Cell::Other(_) => f64::NAN,
+                Cell::Other(_) | Cell::Grey(_) => f64::NAN,
             });
             let points = self.along(1 - single).into_iter().zip(values).collect();
             return Plot {
@@ -143,6 +143,7 @@ impl Picture {
                 "outside limits".into(),
                 "not stable".into(),
             ],
+            ..Section::default()
         }
         .svg()
     }

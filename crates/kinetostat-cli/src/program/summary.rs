@@ -70,6 +70,10 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         text.push(' ');
         text.push_str(&corners);
     }
+    if let Some(band) = result.force_band_text() {
+        text.push(' ');
+        text.push_str(&band);
+    }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }

@@ -20,6 +20,7 @@ mod cut;
 mod cut_refused;
 mod demo;
 mod draw;
+mod engagement;
 mod figures;
 mod force;
 mod identical;

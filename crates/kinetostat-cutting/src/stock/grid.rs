@@ -179,6 +179,23 @@ impl Stock {
         self.columns.len() as u64 * BYTES_PER_CELL
     }
 
+    /// Lowest and highest x and y of the grid, mm: the stock with a ring of half a cell around it.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Stock, StockSettings};
+    ///
+    /// let stock = Stock::block([0.0; 3], [20.0, 10.0, 5.0], &StockSettings::with_cell_mm(0.5)?)?;
+    /// let [low, high] = stock.corners_mm();
+    /// assert_eq!(low, [-0.25, -0.25]);
+    /// assert!((high[0] - 20.25).abs() < 1e-9 && (high[1] - 10.25).abs() < 1e-9);
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn corners_mm(&self) -> [[f64; 2]; 2] {
+        let [nx, ny] = self.points;
+        [self.origin, self.place(nx - 1, ny - 1)]
+    }
+
     /// Top of the material at the grid point next to x and y, mm; `None` where there is no material.
     #[must_use]
     pub fn top_mm(&self, x: f64, y: f64) -> Option<f64> {

@@ -26,6 +26,25 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Its word: `flat`, `ball`, `bull` or `face`.
+    ///
+    /// ```
+    /// use kinetostat_cutting::Shape;
+    ///
+    /// assert_eq!(Shape::Bull { corner_radius_mm: 1.0 }.word(), "bull");
+    /// ```
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::Ball => "ball",
+            Self::Bull { .. } => "bull",
+            Self::Face { .. } => "face",
+        }
+    }
+}
+
 /// The axis of the teeth lies beside the axis of rotation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunOut {

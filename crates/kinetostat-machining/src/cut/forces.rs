@@ -1,7 +1,7 @@
 //! The forces of a program's cuts.
 
 use kinetostat::Wrench;
-use kinetostat_cutting::{Edge, Engagement, Feed};
+use kinetostat_cutting::{Edge, Engagement, Feed, Milling, Stock};
 use kinetostat_program::{Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
@@ -27,6 +27,18 @@ impl CutQuestion {
     /// # Errors
     /// A value that is stated nowhere, with its line; a tool of which nothing is known; a cut that cannot be made.
     pub fn along(&self, path: &Path, watch: &dyn Watch) -> Result<ForceAlongPath, CutFailure> {
+        Ok(self.along_and_left(path, watch)?.0)
+    }
+
+    /// The forces along a path, and what it leaves of the stock; `None` where the engagement comes from no stock.
+    ///
+    /// # Errors
+    /// As [`Self::along`].
+    pub fn along_and_left(
+        &self,
+        path: &Path,
+        watch: &dyn Watch,
+    ) -> Result<(ForceAlongPath, Option<Stock>), CutFailure> {
         if self.tools.is_empty()
             && let Some(first) = path.moves.iter().find(|m| m.kind == MoveKind::Feed)
         {
@@ -65,11 +77,12 @@ impl CutQuestion {
             };
             moves.push(stations);
         }
-        let along = ForceAlongPath::of(moves, findings.list());
-        Ok(along.with_resolution_mm(match &self.engagement {
+        let forces = ForceAlongPath::of(moves, findings.list());
+        let forces = forces.with_resolution_mm(match &self.engagement {
             EngagementSource::Stock(stock) => stock.cell_mm(),
             _ => f64::INFINITY,
-        }))
+        });
+        Ok((forces.asked(self), walk.left()))
     }
 
     /// Stated lines on which the program does not cut.
@@ -143,12 +156,17 @@ impl CutQuestion {
             let of = forces[tool].of(&met.engagement, feed, drive.rotation);
             let (force, torque) = of.map_err(cut)?;
             let wrench = Wrench::new(force.force_n, force.moment_n_mm * 1e-3);
+            let of_tool = drive.tool;
+            let cut = Milling::new(&of_tool.tool, &*of_tool.law, &met.engagement, feed);
             let station = CutStation {
                 share: met.share,
                 wrench: in_axes_of_load(wrench, &met.direction),
                 torque_n_m: 1e-3 * torque,
                 depth_mm: met.engagement.depth_mm(),
                 arc: arc_of(&met.engagement),
+                chip_mm: cut.turning(drive.rotation).largest_chip_mm(),
+                feed_per_tooth_mm: drive.per_tooth_mm,
+                rpm: drive.rpm,
             };
             let place = (&station, &met.engagement);
             self.look_at(place, (&drive, feed), motion.line, findings);

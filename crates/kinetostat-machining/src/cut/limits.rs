@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use kinetostat::number::larger;
-use kinetostat_cutting::{Contact, Edge, Engagement, Feed, Milling};
+use kinetostat_cutting::{Contact, Edge, Engagement, Feed};
 
 use crate::cut::drive::Drive;
 use crate::cut::finding::{CutFindingKind, Findings};
@@ -29,8 +29,7 @@ impl CutQuestion {
             });
         }
         if let Some((least, most)) = tool.law.known_between_mm() {
-            let cut = Milling::new(&tool.tool, &*tool.law, engagement, feed);
-            let thickest = cut.turning(drive.rotation).largest_chip_mm();
+            let thickest = station.chip_mm;
             let beyond = larger(thickest / most, least / thickest);
             if thickest > 0.0 && beyond > 1.0 {
                 findings.add(CutFindingKind::OutsideTheLaw, line, beyond, || {

@@ -2,8 +2,10 @@
 
 use kinetostat::Wrench;
 use kinetostat::number::larger;
+use kinetostat_cutting::SpindleCurve;
 
 use crate::cut::finding::CutFinding;
+use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 use crate::profile::by_move::{ByMove, Profile};
 use crate::profile::reduced::reduced;
@@ -20,6 +22,8 @@ pub struct ForceAlongPath {
     scale: Scale,
     resolution_mm: f64,
     largest: Wrench,
+    spindle: Option<SpindleCurve>,
+    spread: f64,
     /// What no such cut should be.
     pub findings: Vec<CutFinding>,
 }
@@ -48,8 +52,32 @@ impl ForceAlongPath {
             scale,
             resolution_mm: 0.0,
             largest,
+            spindle: None,
+            spread: 0.0,
             findings,
         }
+    }
+
+    /// With what the question says of the spindle and of how far the forces may be off.
+    pub(crate) fn asked(self, question: &CutQuestion) -> Self {
+        let spreads = question.tools.iter().map(|tool| tool.spread);
+        Self {
+            spindle: question.spindle.clone(),
+            spread: spreads.fold(0.0, larger),
+            ..self
+        }
+    }
+
+    /// Half width of the band in which the forces lie, as a share of them: the largest of the tools.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        self.spread
+    }
+
+    /// What the spindle can; `None` where it is not stated.
+    #[must_use]
+    pub fn spindle(&self) -> Option<&SpindleCurve> {
+        self.spindle.as_ref()
     }
 
     /// Stations of a move; none where it does not cut.

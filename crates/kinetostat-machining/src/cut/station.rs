@@ -24,6 +24,12 @@ pub struct CutStation {
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, rad: pi in a slot, 0 in air.
     pub arc: f64,
+    /// Thickest place of a chip, mm; 0 in air.
+    pub chip_mm: f64,
+    /// Feed per tooth, mm; 0 in air.
+    pub feed_per_tooth_mm: f64,
+    /// Speed of the spindle, rpm; 0 in air.
+    pub rpm: f64,
 }
 
 impl CutStation {
@@ -35,6 +41,9 @@ impl CutStation {
             torque_n_m: 0.0,
             depth_mm: 0.0,
             arc: 0.0,
+            chip_mm: 0.0,
+            feed_per_tooth_mm: 0.0,
+            rpm: 0.0,
         }
     }
 }

@@ -37,6 +37,14 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// What is left of the stock.
+    pub fn left(self) -> Option<Stock> {
+        match self {
+            Self::Told(_) => None,
+            Self::Stock(stock, _) => Some(*stock),
+        }
+    }
+
     /// What a tool (of this index) meets at the stations of a move; what it sweeps is removed.
     pub fn go(&mut self, motion: &Move, tool: usize) -> Result<Vec<Met>> {
         let mut met = Vec::new();

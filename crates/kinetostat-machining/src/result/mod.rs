@@ -1,7 +1,9 @@
 //! What a run gives: plain data with units in the names, and the figures and sentences made from them once, so that
 //! terminal, report and JSON say the same. Computes no posture.
 
+pub(crate) mod cutting;
 pub(crate) mod figures;
+pub(crate) mod force_band;
 pub(crate) mod point;
 pub(crate) mod run_inputs;
 pub(crate) mod run_result;

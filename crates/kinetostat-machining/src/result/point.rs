@@ -47,6 +47,13 @@ pub struct PointResult {
     pub error_before_mm: [f64; 3],
     /// The same for the written program.
     pub error_after_mm: [f64; 3],
+    /// Distance of the tool from where it should be, with the written program, if the force of the cut is larger by the
+    /// spread of its coefficients, mm; only where the load is computed from a cut and this was solved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_if_force_larger_mm: Option<f64>,
+    /// The same if it is smaller by the spread.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_if_force_smaller_mm: Option<f64>,
     /// Correction written, mm.
     pub correction_mm: [f64; 3],
     /// Load on the tool in program axes: force N.

@@ -5,6 +5,8 @@ use kinetostat_program::{Accounting, WriteOptions};
 use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
+use crate::result::cutting::CuttingResult;
+use crate::result::force_band::ForceBand;
 use crate::result::point::PointResult;
 use crate::result::run_inputs::RunInputs;
 use crate::result::summary::Summary;
@@ -30,6 +32,13 @@ pub struct RunResult {
     /// Model, program, load and tolerances of the run.
     #[serde(rename = "question")]
     pub run_inputs: RunInputs,
+    /// What the cut asks along the path, where the load is computed from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutting: Option<CuttingResult>,
+    /// What becomes of the errors if the force is as far off as its coefficients may be; none where the load is not computed
+    /// from a cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_band: Option<ForceBand>,
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.

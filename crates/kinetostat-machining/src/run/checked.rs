@@ -1,6 +1,7 @@
 //! What was checked of a written program besides its points.
 
 use crate::load::ramps::TooFast;
+use crate::result::force_band::ForceBand;
 use crate::warning::Warning;
 
 /// What was checked of a written program besides its points.
@@ -12,6 +13,8 @@ pub(crate) struct Checked {
     pub(crate) if_turns_mm: Option<f64>,
     /// The same, if the load follows the feed there.
     pub(crate) if_follows_mm: Option<f64>,
+    /// The errors with the force larger and smaller by its spread.
+    pub(crate) force_band: Option<ForceBand>,
     /// What was divided again because the tool was found off.
     pub(crate) divided_again: Option<Warning>,
     /// The program as it is keeps the tolerance, and was left so.

@@ -22,6 +22,7 @@ use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
 use crate::run::first_look::{first_look, folding_load, stiffness_at_first_look};
 use crate::run::following::jump;
+use crate::run::force_band::force_band;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
@@ -54,8 +55,12 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let stiffness = stiffness_at_first_look(task, &load, watch)?;
     let load = load.ramped(stiffness).acting;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
-    let (points, _) = solve(task, sites, false, watch)?;
-    Ok(conclude(task, &load, points, None, &Checked::default()))
+    let (mut points, _) = solve(task, sites, false, watch)?;
+    let checked = Checked {
+        force_band: force_band(task, &mut points, sites, watch)?,
+        ..Checked::default()
+    };
+    Ok(conclude(task, &load, points, None, &checked))
 }
 
 /// The compensated program, with deflections solved again from its bytes.
@@ -129,6 +134,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         speed_percent: 100.0 * check.largest_speed_error,
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        force_band: force_band(task, &mut points, sites, watch)?,
         divided_again: match within_before {
             true => None,
             false => again.description(allowed_mm),

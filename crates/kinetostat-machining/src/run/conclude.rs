@@ -14,6 +14,7 @@ use crate::result::selection::{thinned, worst};
 use crate::result::summary::Summary;
 use crate::result::tolerance::ToleranceResult;
 use crate::run::checked::Checked;
+use crate::run::cutting::cutting_result;
 use crate::run::following::following;
 use crate::run::nearest_singular::nearest_singular;
 use crate::run::summary::summarise;
@@ -74,6 +75,8 @@ pub(crate) fn conclude(
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceResult::default(),
         summary,
+        cutting: task.cut.map(|forces| cutting_result(forces, task.path)),
+        force_band: checked.force_band.clone(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,

@@ -215,6 +215,8 @@ fn point(
         position_mm: site.desired.into(),
         error_before_mm,
         error_after_mm,
+        error_if_force_larger_mm: None,
+        error_if_force_smaller_mm: None,
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
         residual_rotation_deg: after.rotation.to_degrees(),

@@ -37,7 +37,7 @@ pub(crate) struct Site {
 }
 
 /// Length of the path before every move, mm.
-fn starts(path: &Path) -> Vec<f64> {
+pub(crate) fn starts(path: &Path) -> Vec<f64> {
     let mut length = 0.0;
     path.moves
         .iter()

@@ -10,6 +10,7 @@
 
 mod again;
 mod cut_forces;
+mod force_band;
 mod internal;
 mod load;
 mod map;

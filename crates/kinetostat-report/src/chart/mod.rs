@@ -2,6 +2,7 @@
 //!
 //! Takes numbers with the words for their axes; gives SVG. Knows neither runs nor machines.
 
+pub(crate) mod area;
 pub(crate) mod axis;
 pub(crate) mod dashes;
 pub(crate) mod label;
@@ -10,4 +11,5 @@ pub(crate) mod panel;
 pub(crate) mod plot;
 pub(crate) mod point_names;
 pub(crate) mod section;
+pub(crate) mod stack;
 pub(crate) mod title;

@@ -1,7 +1,8 @@
 //! A panel with values over the length of the path.
 
-use kinetostat_machining::{PointKind, PointResult};
+use kinetostat_machining::{CutPlace, PointKind, PointResult};
 
+use crate::chart::area::area_data;
 use crate::chart::axis::{Scale, Span, Tick};
 use crate::chart::label::{Frame, Labels, TEXT_SIZE};
 use crate::chart::outline::{path_data, per_column};
@@ -41,6 +42,32 @@ impl Sheet {
     }
 }
 
+/// A place of a path.
+pub(crate) trait OnPath {
+    /// Length of the path up to it, mm.
+    fn path_mm(&self) -> f64;
+    /// What happens there.
+    fn kind(&self) -> PointKind;
+}
+
+impl OnPath for PointResult {
+    fn path_mm(&self) -> f64 {
+        self.path_mm
+    }
+    fn kind(&self) -> PointKind {
+        self.kind
+    }
+}
+
+impl OnPath for CutPlace {
+    fn path_mm(&self) -> f64 {
+        self.path_mm
+    }
+    fn kind(&self) -> PointKind {
+        self.kind
+    }
+}
+
 /// The axis along the path, common to all panels of a report.
 pub(crate) struct Along {
     pub(crate) span: Span,
@@ -53,8 +80,8 @@ pub(crate) struct Along {
 
 impl Along {
     /// None if no point has a place on the path.
-    pub(crate) fn of(points: &[PointResult]) -> Option<Self> {
-        let span = Span::of(points.iter().map(|p| p.path_mm))?;
+    pub(crate) fn of<P: OnPath>(points: &[P]) -> Option<Self> {
+        let span = Span::of(points.iter().map(OnPath::path_mm))?;
         let (factor, label) = if span.high > 20_000.0 {
             (0.001, "length of the path, m")
         } else {
@@ -63,10 +90,10 @@ impl Along {
         let mut rapids: Vec<(f64, f64)> = Vec::new();
         let mut previous = span.low.min(0.0);
         for point in points {
-            let Some(here) = number::drawable(point.path_mm) else {
+            let Some(here) = number::drawable(point.path_mm()) else {
                 continue;
             };
-            if point.kind == PointKind::Rapid && here > previous {
+            if point.kind() == PointKind::Rapid && here > previous {
                 match rapids.last_mut() {
                     Some(last) if last.1 >= previous * factor => last.1 = here * factor,
                     _ => rapids.push((previous * factor, here * factor)),
@@ -97,18 +124,18 @@ impl Along {
     }
 
     /// Values of cutting moves over the path; rapids lift the pen.
-    pub(crate) fn values(
+    pub(crate) fn values<P: OnPath>(
         &self,
-        points: &[PointResult],
-        value: impl Fn(&PointResult) -> Option<f64>,
+        points: &[P],
+        value: impl Fn(&P) -> Option<f64>,
     ) -> Vec<Option<(f64, f64)>> {
         points
             .iter()
             .map(|point| {
-                if point.kind == PointKind::Rapid {
+                if point.kind() == PointKind::Rapid {
                     return None;
                 }
-                let x = number::drawable(point.path_mm)? * self.factor;
+                let x = number::drawable(point.path_mm())? * self.factor;
                 let y = value(point).and_then(number::drawable)?;
                 Some((x, y))
             })
@@ -120,6 +147,12 @@ impl Along {
 pub(crate) struct Series {
     pub(crate) class: &'static str,
     pub(crate) values: Vec<Option<(f64, f64)>>,
+}
+
+/// An area between two lines over the same places.
+pub(crate) struct Area {
+    /// Place, lower and upper value; `None` ends a piece of the area.
+    pub(crate) values: Vec<Option<(f64, f64, f64)>>,
 }
 
 /// A level that means something.
@@ -142,6 +175,8 @@ pub(crate) struct Panel {
     pub(crate) span: Span,
     /// Ticks of the vertical axis; round ones if none are given.
     pub(crate) ticks: Option<Vec<Tick>>,
+    /// Below the lines.
+    pub(crate) areas: Vec<Area>,
     pub(crate) series: Vec<Series>,
     pub(crate) limits: Vec<Limit>,
     pub(crate) marks: Vec<Mark>,
@@ -234,6 +269,14 @@ impl Panel {
             .map(|m| (x.at(m.at.0), y.at(m.at.1)))
             .collect();
         let mut labels = Labels::default();
+        for area in &self.areas {
+            let pixels: Vec<_> = area
+                .values
+                .iter()
+                .map(|v| v.map(|(along, low, high)| [x.at(along), y.at(low), y.at(high)]))
+                .collect();
+            svg.path("area", &area_data(&pixels));
+        }
         self.draw_limits(svg, frame, &y, &marks, &mut labels);
         for series in &self.series {
             let pixels: Vec<_> = series
@@ -359,13 +402,14 @@ pub(crate) fn legend(
 ) -> f64 {
     let (mut x, mut y) = from;
     for (class, name) in entries {
-        let width = 30.0 + text::width(name, TEXT_SIZE);
+        // Some fonts are wider than the one that was measured.
+        let width = 30.0 + 1.06 * text::width(name, TEXT_SIZE);
         if x > from.0 && x + width > right {
             x = from.0;
             y += 19.0;
         }
-        if *class == "rapids" {
-            svg.rectangle("rapids swatch", (x, y - 10.0), (22.0, 12.0), 0.0);
+        if matches!(*class, "rapids" | "area") {
+            svg.rectangle(&format!("{class} swatch"), (x, y - 10.0), (22.0, 12.0), 0.0);
         } else {
             svg.line(class, (x, y - 4.0), (x + 22.0, y - 4.0));
         }

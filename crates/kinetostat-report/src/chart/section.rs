@@ -6,6 +6,10 @@ use std::fmt::Write as _;
 
 use crate::chart::axis::{Scale, Span};
 use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::outline::{first_time, path_data};
+use crate::chart::panel::legend;
+use crate::chart::plot::{PlotLine, PlotMark};
+use crate::chart::point_names::Names;
 use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
@@ -22,6 +26,8 @@ const STYLE: &str = concat!(
 const COLOURS: usize = 11;
 /// A span of more than this ratio is divided by ratios.
 const WIDE: f64 = 50.0;
+/// Greys of the style sheet, from dark to light.
+const GREYS: usize = 6;
 /// Width of the scale beside the section.
 const BAR: f64 = 18.0;
 
@@ -44,6 +50,14 @@ pub struct Section {
     pub cells: Vec<Cell>,
     /// Names of cells without a value, at most three kinds.
     pub others: Vec<String>,
+    /// What grey cells are, with what their shades mean; empty without such cells.
+    pub grey_label: String,
+    /// A value at which the scale of colours begins at the latest.
+    pub scale_from: Option<f64>,
+    /// Thin lines over the cells: solid, or dashed.
+    pub lines: Vec<PlotLine>,
+    /// Named places.
+    pub marks: Vec<PlotMark>,
 }
 
 /// What is known at a place.
@@ -53,33 +67,51 @@ pub enum Cell {
     Value(f64),
     /// None, for a reason: its number in [`Section::others`].
     Other(usize),
+    /// A shade of grey, from 0 (dark) to 1 (light): what is there and is not in question.
+    Grey(f64),
 }
 
 impl Section {
     /// The section as an SVG document with its own style; one unit is as long on both axes.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.draw().document(SIZE, &self.title, STYLE)
+        self.draw(SIZE.1).document(SIZE, &self.title, STYLE)
     }
 
-    fn draw(&self) -> Svg {
+    /// What its cells and lines need beside the style of plots.
+    pub(crate) fn style() -> &'static str {
+        include_str!("../template/section.css")
+    }
+
+    /// The section as high as it needs to be for its shape, with its size.
+    pub(crate) fn fitted(&self) -> (Svg, (f64, f64)) {
+        let height = match (edges(&self.x), edges(&self.y)) {
+            (Some(x), Some(y)) => 135.0 + (SIZE.0 - 195.0) * y.length() / x.length(),
+            _ => SIZE.1,
+        };
+        let height = height.clamp(330.0, 720.0);
+        (self.draw(height), (SIZE.0, height))
+    }
+
+    fn draw(&self, height: f64) -> Svg {
         let mut svg = Svg::default();
-        svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
+        let size = (SIZE.0, height);
+        svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
         let mut top = 28.0;
-        for line in title_lines(&self.title, SIZE.0 - 36.0) {
+        for line in title_lines(&self.title, size.0 - 36.0) {
             svg.text("title", (18.0, top), Anchor::Start, &line);
             top += 18.0;
         }
         let (Some(x_span), Some(y_span)) = (edges(&self.x), edges(&self.y)) else {
-            let middle = (0.5 * SIZE.0, 0.5 * SIZE.1);
+            let middle = (0.5 * size.0, 0.5 * size.1);
             svg.text("name", middle, Anchor::Middle, "no places to show");
             return svg;
         };
         let values = self.cells.iter().filter_map(|c| match c {
             Cell::Value(x) => number::drawable(*x),
-            Cell::Other(_) => None,
+            Cell::Other(_) | Cell::Grey(_) => None,
         });
-        let bands = Bands::of(values);
+        let bands = Bands::of(values, self.scale_from);
         top += self.reasons(&mut svg, top);
         let y_ticks = y_span.ticks(7);
         let widest = |labels: &mut dyn Iterator<Item = &str>| {
@@ -92,8 +124,8 @@ impl Section {
         let room = Frame {
             x: left,
             y: top,
-            width: SIZE.0 - left - scale - 20.0,
-            height: SIZE.1 - top - 54.0,
+            width: size.0 - left - scale - 20.0,
+            height: size.1 - top - 54.0,
         };
         let unit = (room.width / x_span.length()).min(room.height / y_span.length());
         let (width, height) = (unit * x_span.length(), unit * y_span.length());
@@ -107,6 +139,7 @@ impl Section {
         let y = Scale::new(y_span, frame.bottom(), frame.y);
         svg.rectangle("ground", (frame.x, frame.y), (width, height), 0.0);
         self.fill(&mut svg, &bands, &frame);
+        self.overlay(&mut svg, &frame, (&x, &y));
         for tick in &y_ticks {
             let at = y.at(tick.value);
             svg.line("axis", (frame.x - 4.0, at), (frame.x, at));
@@ -141,7 +174,45 @@ impl Section {
             svg.text("name", (at + 28.0, top + 4.0), Anchor::Start, name);
             at += 46.0 + text::width(name, TEXT_SIZE);
         }
+        if !self.grey_label.is_empty() {
+            svg.rectangle("grey3 swatch", (at, top - 6.0), (22.0, 12.0), 0.0);
+            let beside = (at + 28.0, top + 4.0);
+            svg.text("name", beside, Anchor::Start, &self.grey_label);
+            at += 56.0 + text::width(&self.grey_label, TEXT_SIZE);
+        }
+        let named = self.lines.iter().filter(|line| !line.name.is_empty());
+        let entries: Vec<(&str, String)> = named.map(|l| (way(l), l.name.clone())).collect();
+        if !entries.is_empty() {
+            return 1.0 + legend(svg, &entries, (at, top + 4.0), SIZE.0 - 18.0);
+        }
         if at > 18.0 { 20.0 } else { 0.0 }
+    }
+
+    /// Lines and named places over the cells.
+    fn overlay(&self, svg: &mut Svg, frame: &Frame, (x, y): (&Scale, &Scale)) {
+        let pixel = |p: &(f64, f64)| {
+            let at = (x.at(number::drawable(p.0)?), y.at(number::drawable(p.1)?));
+            Some(at)
+        };
+        let mut ways = Svg::default();
+        let mut names = Names::within(*frame);
+        for line in &self.lines {
+            let pixels: Vec<_> = line.points.iter().map(pixel).collect();
+            let data = path_data(&first_time(&pixels));
+            // Light below dark: one of them is seen on every colour.
+            ways.path("way-ground", &data);
+            ways.path(way(line), &data);
+        }
+        svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+        let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
+        for at in at.iter().flatten() {
+            names.mark(*at, 6.0);
+        }
+        for (mark, at) in self.marks.iter().zip(&at) {
+            let Some(at) = at else { continue };
+            names.write(svg, *at, &mark.name);
+            svg.marker("mark", *at, &mark.detail);
+        }
     }
 
     /// One path for all cells of a class, runs along the horizontal axis as one rectangle each.
@@ -151,6 +222,10 @@ impl Section {
         let class = |cell: &Cell| match cell {
             Cell::Value(x) => number::drawable(*x).map(|x| bands.class(x)),
             Cell::Other(kind) => Some(format!("other{kind}")),
+            Cell::Grey(shade) => {
+                let shade = number::drawable(*shade)?.clamp(0.0, 1.0);
+                Some(format!("grey{}", (shade * (GREYS - 1) as f64).round()))
+            }
         };
         let mut paths: std::collections::BTreeMap<String, String> = Default::default();
         for (row, cells) in self.cells.chunks(columns).take(rows).enumerate() {
@@ -173,6 +248,14 @@ impl Section {
     }
 }
 
+/// Class of a line over the cells.
+fn way(line: &PlotLine) -> &'static str {
+    match line.dashed {
+        true => "way dashed",
+        false => "way",
+    }
+}
+
 /// From half a step before the first place to half a step after the last.
 fn edges(places: &[f64]) -> Option<Span> {
     let (first, last) = (*places.first()?, *places.last()?);
@@ -191,7 +274,7 @@ struct Bands {
 }
 
 impl Bands {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
+    fn of(values: impl Iterator<Item = f64>, from: Option<f64>) -> Self {
         let none = Self {
             borders: Vec::new(),
             labels: Vec::new(),
@@ -199,10 +282,10 @@ impl Bands {
         let Some(span) = Span::of(values) else {
             return none;
         };
-        if span.low > 0.0 && span.high > WIDE * span.low {
+        if from.is_none() && span.low > 0.0 && span.high > WIDE * span.low {
             return Self::by_ratio(span);
         }
-        let span = span.widened();
+        let span = from.map_or(span, |from| span.including(from)).widened();
         // The lowest and the highest band reach beyond their borders.
         let inside = |wanted: usize| -> Vec<_> {
             let ticks = span.ticks(wanted).into_iter();
@@ -290,6 +373,7 @@ mod tests {
             y: vec![0.0, 10.0],
             cells,
             others: vec!["outside limits".into(), "unreachable".into()],
+            ..Section::default()
         }
     }
 
@@ -317,13 +401,13 @@ mod tests {
 
     #[test]
     fn a_wide_span_is_divided_by_ratios() {
-        let bands = Bands::of([0.3, 40.0].into_iter());
+        let bands = Bands::of([0.3, 40.0].into_iter(), None);
         assert_eq!(bands.borders, [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
         assert_eq!((bands.band(0.4), bands.band(40.0)), (0, 6));
         let classes: Vec<String> = (0..7).map(|b| bands.colour(b)).collect();
         assert_eq!((classes[0].as_str(), classes[6].as_str()), ("f0", "f10"));
         // All the same.
-        let flat = Bands::of([7.0, 7.0].into_iter());
+        let flat = Bands::of([7.0, 7.0].into_iter(), None);
         assert!(flat.borders.len() < 20);
     }
 }

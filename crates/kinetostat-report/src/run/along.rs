@@ -4,8 +4,10 @@ use kinetostat_machining::PointResult;
 
 use crate::chart::axis::Span;
 use crate::chart::label::Frame;
-use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet, legend};
+use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet};
+use crate::chart::stack::stack;
 use crate::number::{self, MISSING, Rounding, norm};
+use crate::run::force_band;
 use crate::run::shown::Shown;
 use crate::svg::Svg;
 use crate::text;
@@ -22,15 +24,17 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     panels.extend(before_panel(result, &along, sheet));
     if result.run_inputs.compensated {
         panels.extend(after_panel(result, &along));
+        panels.extend(force_band::panel(result, &along));
     }
     let heights = if sheet.narrow() {
-        [170.0, 150.0]
+        [170.0, 150.0, 130.0]
     } else {
-        [210.0, 160.0]
+        [210.0, 160.0, 140.0]
     };
-    stack(
+    let names: Vec<_> = force_band::name(result).into_iter().collect();
+    stacked(
         &panels,
-        &heights,
+        (&heights, &names),
         &along,
         sheet,
         "Distance of the tool from its programmed place along the path",
@@ -53,6 +57,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
             y_label: "stiffness, N/mm".to_owned(),
             span: span.with_near_zero().widened().padded(0.08, 0.08),
             ticks: None,
+            areas: Vec::new(),
             series: vec![Series {
                 class: "line strong",
                 values,
@@ -77,6 +82,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
             y_label: "share, %".to_owned(),
             span: span.widened().padded(0.08, 0.24),
             ticks: None,
+            areas: Vec::new(),
             series: vec![Series {
                 class: "line strong",
                 values,
@@ -90,9 +96,9 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
     } else {
         [160.0, 130.0]
     };
-    stack(
+    stacked(
         &panels,
-        &heights,
+        (&heights, &[]),
         &along,
         sheet,
         "Smallest stiffness against a force and share of the way to buckling along the path",
@@ -141,6 +147,7 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
     let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
+    let worst = force_band::largest_without_compensation(result).map_or(worst, |m| m.max(worst));
     let (unit, factor) = number::length_unit(worst);
     let most = &result.figures.error_before;
     Some(Panel {
@@ -153,6 +160,7 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
         .widened()
         .padded(0.0, 0.2),
         ticks: None,
+        areas: force_band::without_compensation(result, along, factor),
         series: vec![Series {
             class: "line before",
             values: along.values(result.points, |p| Some(norm(&p.error_before_mm) * factor)),
@@ -197,6 +205,7 @@ fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
         y_label: format!("distance, {unit}"),
         span: span.padded(0.0, 0.22),
         ticks: None,
+        areas: Vec::new(),
         series: vec![Series {
             class: "line after",
             values: along.values(result.points, |p| Some(norm(&p.error_after_mm) * factor)),
@@ -247,6 +256,7 @@ fn actuator_panel(
         y_label: text::shorten(unit, 8),
         span: span.with_near_zero().widened(),
         ticks: None,
+        areas: Vec::new(),
         series: vec![Series {
             class: if word == "correction" {
                 "line after"
@@ -304,10 +314,10 @@ fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
     Span::of(values.iter().flatten().map(|value| value.1))
 }
 
-/// Panels under each other with one axis along the path.
-fn stack(
+/// Panels under each other as an element of the page; empty without panels.
+fn stacked(
     panels: &[Panel],
-    heights: &[f64],
+    (heights, names): (&[f64], &[(&str, String)]),
     along: &Along,
     sheet: Sheet,
     description: &str,
@@ -315,32 +325,8 @@ fn stack(
     if panels.is_empty() {
         return String::new();
     }
-    let mut svg = Svg::default();
-    let heights = || heights.iter().copied().chain(std::iter::repeat(130.0));
-    let gutter = panels
-        .iter()
-        .zip(heights())
-        .map(|(p, h)| p.gutter(h))
-        .fold(0.0, f64::max);
-    let room = (4.0, sheet.width() - 4.0);
-    let mut y = 26.0;
-    for (index, (panel, height)) in panels.iter().zip(heights()).enumerate() {
-        y += panel.more_title(room.1 - room.0);
-        let frame = Frame {
-            x: gutter,
-            y,
-            width: sheet.width() - gutter - 14.0,
-            height,
-        };
-        panel.draw(&mut svg, frame, room, along, index + 1 == panels.len());
-        y += height + 42.0;
-    }
-    y += 14.0;
-    if along.has_rapids() {
-        let entries = [("rapids", "rapid move (nothing is cut)".to_owned())];
-        y += legend(&mut svg, &entries, (gutter, y), sheet.width());
-    }
-    svg.inline(sheet.class(), (sheet.width(), y - 8.0), description)
+    let (svg, height) = stack(panels, heights, along, sheet.width(), names);
+    svg.inline(sheet.class(), (sheet.width(), height), description)
 }
 
 /// Small panels in two columns, or one on a narrow sheet.

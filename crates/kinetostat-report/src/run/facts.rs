@@ -158,6 +158,17 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
          cannot turn it back; a side wall cut deep below the tip shows it."
             .to_owned(),
     )];
+    if let (Some(band), Some(text)) = (&result.force_band, result.force_band_text()) {
+        let error = band.max_error_mm();
+        rows.push(row(
+            "Force of the cut",
+            error.map_or_else(
+                || MISSING.to_owned(),
+                |error| number::length(error, 3, Rounding::Up),
+            ),
+            text,
+        ));
+    }
     if !run_inputs.compensated {
         return rows;
     }

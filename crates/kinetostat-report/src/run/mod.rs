@@ -3,7 +3,11 @@
 //! Takes a run's result or all of its points; gives HTML or SVG.
 
 pub(crate) mod along;
+pub(crate) mod cut_table;
+pub(crate) mod cutting;
+pub(crate) mod engagement;
 pub(crate) mod facts;
+pub(crate) mod force_band;
 pub(crate) mod meaning;
 pub(crate) mod page;
 pub(crate) mod plan;

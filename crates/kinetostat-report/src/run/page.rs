@@ -5,7 +5,7 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::number::{self, MISSING};
 use crate::run::shown::Shown;
-use crate::run::{along, facts, meaning, plan};
+use crate::run::{along, cut_table, cutting, facts, meaning, plan};
 use crate::text;
 
 /// The name ends in `.html`, which switches automatic escaping on.
@@ -48,6 +48,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         errors => figure(result, along::errors),
         views => figure(result, plan::views),
         magnification => plan::magnification(result).map(number::setting),
+        cutting => cut_table::cutting(result, figure(result, cutting::figure)),
         actuators => figure(result, along::actuators),
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
         stiffness => figure(result, along::stiffness),

@@ -85,6 +85,7 @@ fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
         title: "Distance from the programmed place".to_owned(),
         y_label: "distance".to_owned(),
         span,
+        areas: Vec::new(),
         ticks: Some(
             (span.low.ceil() as i32..=span.high.floor() as i32)
                 .map(decade)

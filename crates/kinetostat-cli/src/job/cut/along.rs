@@ -19,10 +19,17 @@ pub(crate) fn forces(
         return Ok(None);
     };
     let along = cut.question.along(path, watch);
-    along.map(Some).map_err(|failure| match failure {
+    along
+        .map(Some)
+        .map_err(|failure| stopped_or_within(failure, program))
+}
+
+/// Why a program has no cutting force, as a failure of the command.
+pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
+    match failure {
         CutFailure::Cancelled => Failure::new(Code::Stopped, failure),
         _ => Failure::input(failure).within(program),
-    })
+    }
 }
 
 /// What no such cut should be, as warnings.

@@ -1,0 +1,42 @@
+//! The answer of `engagement`, stable names with units.
+
+use kinetostat_machining::{CuttingResult, FileRead, Warning};
+use serde::Serialize;
+
+/// What a program cuts.
+#[derive(Serialize)]
+pub(crate) struct EngagementAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) program: String,
+    pub(crate) material: String,
+    pub(crate) files: Vec<FileRead>,
+    pub(crate) tools: Vec<ToolAnswer>,
+    /// Length of all feed moves from known places.
+    pub(crate) feed_length_mm: f64,
+    /// None where the engagement comes from no stock.
+    pub(crate) stock: Option<StockAnswer>,
+    pub(crate) cutting: CuttingResult,
+    /// What the numbers rest on, in sentences.
+    pub(crate) assumed: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// A tool; the number is none for that of blocks whose tool has no entry.
+#[derive(Serialize)]
+pub(crate) struct ToolAnswer {
+    pub(crate) number: Option<u32>,
+    pub(crate) shape: &'static str,
+    pub(crate) diameter_mm: f64,
+    pub(crate) teeth: usize,
+    pub(crate) helix_deg: f64,
+}
+
+/// What became of the stock.
+#[derive(Serialize)]
+pub(crate) struct StockAnswer {
+    pub(crate) volume_mm3: f64,
+    pub(crate) removed_mm3: f64,
+    pub(crate) removed_percent: f64,
+    pub(crate) cell_mm: f64,
+}

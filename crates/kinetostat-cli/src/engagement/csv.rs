@@ -1,0 +1,49 @@
+//! Every station of the cut as a table.
+
+use kinetostat_machining::{CutPlace, ForceAlongPath, PointKind, cut_places};
+use kinetostat_program::Path;
+
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::Answer;
+
+const HEADER: [&str; 19] = [
+    "line",
+    "move",
+    "share",
+    "path_mm",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "depth_mm",
+    "arc_deg",
+    "force_n",
+    "force_along_feed_n",
+    "force_left_n",
+    "force_up_n",
+    "torque_n_m",
+    "power_w",
+    "spindle_torque_n_m",
+    "chip_mm",
+    "feed_per_tooth_mm",
+    "rpm",
+];
+
+pub(crate) fn of_cut(forces: &ForceAlongPath, path: &Path) -> Answer<Vec<u8>> {
+    let mut rows = vec![HEADER.map(String::from).to_vec()];
+    let stations = cut_places(forces, path).filter(|place| place.kind != PointKind::Rapid);
+    rows.extend(stations.map(|place| row(&place)));
+    written(&rows)
+}
+
+fn row(p: &CutPlace) -> Vec<String> {
+    let [x, y, z] = p.position_mm;
+    let mut row = vec![p.line.to_string(), p.move_number.to_string()];
+    row.extend([p.share, p.path_mm, x, y, z, p.depth_mm, p.arc_deg].map(cell));
+    let parts = [p.force_along_feed_n, p.force_left_n, p.force_up_n];
+    row.push(cell(p.force_n()));
+    row.extend(parts.map(cell));
+    row.extend([p.torque_n_m, p.power_w].map(cell));
+    row.push(p.spindle_torque_n_m.map_or_else(String::new, cell));
+    row.extend([p.chip_mm, p.feed_per_tooth_mm, p.rpm].map(cell));
+    row
+}

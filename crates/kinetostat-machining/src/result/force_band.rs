@@ -1,0 +1,70 @@
+//! What becomes of the errors if the force of the cut is larger or smaller than its coefficients say.
+
+use serde::{Deserialize, Serialize};
+
+use crate::number::{Rounding, counted};
+use crate::number::{largest_length, significant};
+use crate::result::run_result::RunResult;
+
+/// The errors if the force of the cut is larger or smaller by the spread of its coefficients, and all else is as it was:
+/// where it was compensated, the program is the one that was written for the force as computed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ForceBand {
+    /// By how much the force is larger or smaller, percent of it.
+    pub spread_percent: f64,
+    /// Points at which the machine was solved so; where they are not all, those with the largest errors and the largest
+    /// forces for their stiffness are among them.
+    pub points: usize,
+    /// Points on cutting moves in all.
+    pub of_points: usize,
+    /// Largest distance of the tool from its programmed place with the larger force, mm; none where the machine has no
+    /// equilibrium under it.
+    pub max_error_if_larger_mm: Option<f64>,
+    /// The same with the smaller force.
+    pub max_error_if_smaller_mm: Option<f64>,
+    /// Line of the input program with the largest of both, or where there is no equilibrium.
+    pub line: usize,
+}
+
+impl ForceBand {
+    /// The larger of both errors, mm; none where one has no equilibrium.
+    ///
+    /// ```
+    /// assert_eq!(kinetostat_machining::ForceBand::default().max_error_mm(), None);
+    /// ```
+    #[must_use]
+    pub fn max_error_mm(&self) -> Option<f64> {
+        let (a, b) = (self.max_error_if_larger_mm?, self.max_error_if_smaller_mm?);
+        Some(kinetostat::number::larger(a, b))
+    }
+}
+
+impl RunResult {
+    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be; none where the load is not
+    /// computed from a cut.
+    #[must_use]
+    pub fn force_band_text(&self) -> Option<String> {
+        let band = self.force_band.as_ref()?;
+        let percent = significant(band.spread_percent, 2, Rounding::Nearest);
+        let all = band.points >= band.of_points;
+        let solved = match all {
+            true => String::new(),
+            false => format!(
+                ", solved at {} with the largest errors and forces among them",
+                counted(band.points, "point")
+            ),
+        };
+        Some(match band.max_error_mm() {
+            Some(error) => format!(
+                "If the force of the cut is {percent} % larger or smaller, as its coefficients may be, the tool is up to {} off (line {}{solved}).",
+                largest_length(error),
+                band.line
+            ),
+            None => format!(
+                "If the force of the cut is {percent} % larger or smaller, as its coefficients may be, the machine has no equilibrium at line {}.",
+                band.line
+            ),
+        })
+    }
+}
