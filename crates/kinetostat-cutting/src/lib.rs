@@ -16,6 +16,7 @@ mod material;
 mod milling;
 mod names;
 mod number;
+mod number_columns;
 mod source;
 mod spindle;
 mod stock;
