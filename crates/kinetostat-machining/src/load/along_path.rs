@@ -254,12 +254,14 @@ impl<'a> LoadAlongPath<'a> {
                 wrench,
             } => in_base(headed(&wrench, heading)),
             CuttingLoad::FromCut { .. } => {
-                let cut = self.cut.map(|cut| cut.wrench(move_index, share));
-                // Along the tool axis, forces of the cut are in axes of the part.
-                in_base(headed(
-                    &cut.unwrap_or_else(Wrench::zero),
-                    heading.or(Some(0.0)),
-                ))
+                let Some(cut) = self.cut else {
+                    return Wrench::zero();
+                };
+                in_base(match cut.wrench_in_part(move_index, share) {
+                    Some(in_part) => in_part,
+                    // Along the tool axis, forces of the cut are in axes of the part.
+                    None => headed(&cut.wrench(move_index, share), heading.or(Some(0.0))),
+                })
             }
             CuttingLoad::Milling {
                 radial,
