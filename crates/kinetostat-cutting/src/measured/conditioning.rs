@@ -1,5 +1,7 @@
 //! Outliers, drift and ripple, in this order.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::measured::drift::{self, DriftModel};
 use crate::measured::log::{CHANNELS, ForceLog};
@@ -15,7 +17,8 @@ const MOST_OUTLIERS: f64 = 0.01;
 const MOST_NAMED: usize = 1000;
 
 /// What is done with outliers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OutlierTreatment {
     /// Each is replaced by the median of the rows around it.
     #[default]

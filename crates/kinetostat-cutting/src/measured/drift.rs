@@ -1,11 +1,14 @@
 //! Drift of a dynamometer: what it shows while the tool is in air.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::measured::log::{CHANNELS, ForceLog};
 use crate::number::larger;
 
 /// How drift is drawn from stretch to stretch of air.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DriftModel {
     /// One straight line through all rows in air, by least squares.
     #[default]
