@@ -96,8 +96,8 @@ impl<'a> Correlation<'a> {
         coefficient(product, self.variance, variance)
     }
 
-    /// Integral of measured times expected.
-    fn product(&self, shift: f64) -> f64 {
+    /// Integral of measured times expected, where time of the measured course is that of the expected one plus `shift`.
+    pub fn product(&self, shift: f64) -> f64 {
         let of = self.expected.of;
         let origin = self.range[0];
         let pieces = of.at.windows(2).zip(of.values.windows(2));

@@ -14,7 +14,7 @@ const LEAST_LEAD: f64 = 0.05;
 const RIPPLE: f64 = 0.02;
 /// A shift is known to within this, s, or it is not known.
 const MOST_UNCERTAIN_S: f64 = 0.5;
-/// Share of the loss of correlation of the expected course with itself that a shift by as much must cost.
+/// Share of the force that a log exactly as expected would lose by a shift, which this one must lose at least.
 const LEAST_LOSS: f64 = 0.25;
 
 /// A shift at which a log agrees with what is expected.
@@ -26,8 +26,8 @@ pub struct ShiftMatch {
     pub correlation: f64,
     /// Shift (s) and coefficient of the next best peak, if there is another.
     pub next: Option<[f64; 2]>,
-    /// A shift that is off by this much, s, costs at least a quarter of the correlation that it would cost if the log were
-    /// exactly as expected; one that is off by less may not be told from this one.
+    /// A shift that is off by this much, s, leaves at least a quarter as much force where none is expected as it would if the log
+    /// were exactly as expected; one that is off by less may not be told from this one.
     pub within_s: f64,
 }
 
@@ -87,7 +87,7 @@ pub fn match_shift(log: &ForceLog, expected: &Activity) -> Result<ShiftMatch> {
             "one shift that is better than all others by 0.05: the log looks the same at both; state the shift",
         );
     }
-    let within_s = within(&correlation, log, expected, (shift_s, found));
+    let within_s = within(&correlation, log, expected, shift_s);
     if within_s > MOST_UNCERTAIN_S {
         return refuse(
             format!("a shift of {shift_s:.3} s that may as well be {within_s:.2} s more or less"),
@@ -127,16 +127,15 @@ fn refined(correlation: &Correlation<'_>, from: f64, grid: f64, rows: f64) -> (f
     best
 }
 
-/// How far a shift can be off before that costs correlation: in steps that double, up to a quarter of what is compared.
-fn within(
-    correlation: &Correlation<'_>,
-    log: &ForceLog,
-    expected: &Activity,
-    (shift, best): (f64, f64),
-) -> f64 {
+/// How far a shift can be off before that leaves measured force where none is expected: in steps that double, up to a quarter of
+/// what is compared. Correlation itself would not do: it grows, too, where the part of the program that does not fit is pushed
+/// over the end of the log.
+fn within(correlation: &Correlation<'_>, log: &ForceLog, expected: &Activity, shift: f64) -> f64 {
     let [from, to] = log.range();
     let (at, values) = expected.between(from - shift, to - shift);
+    // What a log that is exactly as expected would lose; it has no shift of its own.
     let with_itself = Correlation::new(&at, &values, expected);
+    let lost = |of: &Correlation<'_>, from: f64, to: f64| 1.0 - of.product(to) / of.product(from);
     let [first, last] = expected.range();
     let most = 0.25
         * match last - first < to - from {
@@ -147,10 +146,8 @@ fn within(
     let mut off = known;
     while off <= most {
         for off in [off, -off] {
-            let loss = (best - correlation.at(shift + off)) / best;
-            // What a log that is exactly as expected would lose; it has no shift of its own.
-            let of_itself = 1.0 - with_itself.at(off);
-            if loss < LEAST_LOSS * of_itself {
+            let loss = lost(correlation, shift, shift + off);
+            if loss < LEAST_LOSS * lost(&with_itself, 0.0, off) {
                 known = 2.0 * off.abs();
             }
         }

@@ -147,6 +147,13 @@ fn what_is_not_distinct_is_refused() {
         &expected(&[[0.0, 10.0]]),
         "hide when the cut begins",
     );
+    // Nor if the log ends with the feed, where a shift that pushes the feed over that end correlates best.
+    let log_that_ends = log(200.0, 19.0, 8.0, middle, &mut noise);
+    refused(
+        &log_that_ends,
+        &expected(&[[0.0, 10.0]]),
+        "hide when the cut begins",
+    );
     // A force that never changes.
     let at: Vec<f64> = (0..100).map(f64::from).collect();
     let constant = ForceLog::new(

@@ -13,6 +13,7 @@ mod cut_forces;
 mod internal;
 mod load;
 mod map;
+mod measured_forces;
 mod orientation_follows;
 mod runs;
 mod sampled_models;
