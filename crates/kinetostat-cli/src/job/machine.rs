@@ -109,7 +109,9 @@ pub(crate) fn machine_setup(
         run_inputs.model_deviations = deviation_descriptions(&model);
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
-        run_inputs.cut = cut.as_ref().map_or_else(Vec::new, |cut| cut.words.clone());
+        run_inputs.cut = cut.iter().flat_map(|cut| cut.words.clone()).collect();
+        let log = measured.iter().map(|measured| measured.words());
+        run_inputs.cut.extend(log);
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
         run_inputs.files = vec![model_file];

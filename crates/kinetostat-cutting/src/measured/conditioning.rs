@@ -31,7 +31,7 @@ pub enum OutlierTreatment {
 ///
 /// 1. Outliers (Hampel filter: eleven rows, six scaled median deviations) are replaced by the median of the rows around them.
 ///    A peak that is narrower than five rows counts as one; where more than one row in a hundred would, nothing is replaced and
-///    the log is refused.
+///    the log is refused. In fewer than fifty rows none are looked for.
 /// 2. Drift is removed: what the log shows in stretches in which the tool is in air, as a straight line through all of them by
 ///    least squares, or as straight lines from stretch to stretch. With one stretch its mean is removed; without any, nothing.
 /// 3. The mean over a window around each row takes the place of its value; at the ends of the log the window shrinks on both
@@ -121,9 +121,11 @@ impl Conditioning {
             let expected = format!("0 to {} {unit}, the length of the log", to - from);
             return refuse("window of the mean", found, expected);
         }
-        let found = match self.outliers {
-            OutlierTreatment::Replace => found_in(log)?,
-            OutlierTreatment::Keep => Vec::new(),
+        let look =
+            self.outliers == OutlierTreatment::Replace && log.rows() >= outliers::FEWEST_ROWS;
+        let found = match look {
+            true => found_in(log)?,
+            false => Vec::new(),
         };
         let mut log = log.clone();
         for outlier in &found {
@@ -145,7 +147,7 @@ impl Conditioning {
             outlier_count: found.len(),
             worst_outlier: worst(&found),
             outliers: found.into_iter().take(MOST_NAMED).collect(),
-            outliers_looked_for: self.outliers == OutlierTreatment::Replace,
+            outliers_looked_for: look,
             drift,
             window: self.window,
             spacing: log.spacing(),

@@ -11,6 +11,8 @@ use crate::number::larger;
 
 /// Rows on each side of the one that is looked at.
 pub(crate) const SIDE: usize = 5;
+/// In logs of fewer rows no value can be told from its neighbours.
+pub(crate) const FEWEST_ROWS: usize = 50;
 /// Spreads from the median.
 pub(crate) const SPREADS: f64 = 6.0;
 /// Rows whose spreads are taken together.

@@ -2,7 +2,7 @@
 
 use crate::measured::drift::DriftRemoved;
 use crate::measured::log::{CHANNELS, LoggedBy};
-use crate::measured::outliers::{Outlier, SIDE, SPREADS};
+use crate::measured::outliers::{FEWEST_ROWS, Outlier, SIDE, SPREADS};
 
 /// What was done to a log.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +49,9 @@ impl ConditioningReport {
     }
 
     fn of_outliers(&self) -> String {
+        if self.rows < FEWEST_ROWS {
+            return format!("outliers: not looked for in fewer than {FEWEST_ROWS} rows");
+        }
         if !self.outliers_looked_for {
             return "outliers: not looked for, as stated".to_owned();
         }

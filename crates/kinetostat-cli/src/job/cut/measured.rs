@@ -20,6 +20,14 @@ pub(crate) struct MeasuredSetup {
     pub(crate) files: FilesOfCut,
 }
 
+impl MeasuredSetup {
+    /// Which log it is.
+    pub(crate) fn words(&self) -> String {
+        let names = self.files.read.iter().map(|file| file.name.clone());
+        format!("log of forces: {}", names.collect::<String>())
+    }
+}
+
 /// The measured forces of a job; `None` where it has none.
 pub(crate) fn measured_setup(
     files: &InputFiles,
