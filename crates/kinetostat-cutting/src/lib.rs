@@ -13,9 +13,11 @@ mod error;
 mod fitting;
 mod law;
 mod material;
+mod measured;
 mod milling;
 mod names;
 mod number;
+mod number_columns;
 mod source;
 mod spindle;
 mod stock;
@@ -32,6 +34,10 @@ pub use law::{
     Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
 };
 pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
+pub use measured::{
+    Activity, Conditioned, Conditioning, ConditioningReport, DriftModel, DriftRemoved, ForceLog,
+    LoggedBy, Outlier, OutlierTreatment, ShiftMatch, match_shift,
+};
 pub use milling::{
     ChipThickness, CutForce, Feed, Harmonic, MeanTable, Milling, Revolution, Rotation, Wall,
 };

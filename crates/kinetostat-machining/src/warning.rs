@@ -100,6 +100,16 @@ pub enum WarningCode {
     SpindleExceeded,
     /// A cut that is deeper than the edges of its tool, or than the tool stands out of its holder.
     ToolTooShort,
+    /// Values of a log that no neighbour bears out.
+    OutliersInLog,
+    /// A time or length over which a log has no rows.
+    GapInLog,
+    /// Moves that the log of the forces does not cover.
+    NotMeasured,
+    /// A force that was measured in a rapid.
+    ForceInRapid,
+    /// A move of which nobody knows how long it takes.
+    TimeUnknown,
 }
 
 /// Something a person should know and did not ask for.

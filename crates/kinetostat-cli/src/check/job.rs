@@ -24,7 +24,7 @@ use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
-use crate::program::solve::{computed, with_task};
+use crate::program::solve::{computed, forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
@@ -120,8 +120,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     ));
     let read = (&program, &motion);
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
-    let cut = machine.cut.as_ref();
-    let forces = along::forces(cut, &setting.program_name, &motion, &Unwatched)?;
+    let forces = forces_of(&machine, &setting.program_name, &motion, &Unwatched)?;
     let forces = forces.as_ref();
     let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, forces, check)?;
     warnings.extend(along::warnings(forces));

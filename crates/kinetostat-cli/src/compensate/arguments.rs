@@ -88,6 +88,12 @@ A job file:
   # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2, largest_step_mm_per_mm = 0.5
   # at_corners = "turns"           # or "follows_feed"
 
+  # [measured]                     # instead of [load]: a log of the forces
+  # file = "log.csv"               # time_s or along_mm, fx_n, fy_n, fz_n
+  # acts_on = "part"               # or "tool"; axes = "part" or "feed"
+  # rapid_mm_per_min = 10000, shift_s = 2.5, air_s = [[0, 1], [58, 60]]
+  # smooth_s = 0.01, drift = "line", outliers = "replace"
+
   [reading]
   # units = "mm", arc_tolerance_mm = 0.005, block_delete = "run"
   # axes_stand_still = true   (a program with words of A B C U V W)

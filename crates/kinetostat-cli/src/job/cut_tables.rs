@@ -1,7 +1,7 @@
 //! The tables of a job that say what is cut.
 
-use kinetostat_cutting::{Coolant, CuttingMaterial, Rotation, Side};
-use kinetostat_machining::ForceChoice;
+use kinetostat_cutting::{Coolant, CuttingMaterial, DriftModel, OutlierTreatment, Rotation, Side};
+use kinetostat_machining::{ActsOn, ForceChoice, MeasuredAxes};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
@@ -118,4 +118,35 @@ pub(crate) struct SpindleTable {
     pub most_rpm: Option<f64>,
     /// Which force of the revolution bends the machine.
     pub force: Option<ForceChoice>,
+}
+
+/// Forces that were measured: `[measured]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MeasuredTable {
+    /// CSV with a column `time_s` or `along_mm`.
+    pub file: Spanned<String>,
+    /// What the logged force acts on.
+    pub acts_on: ActsOn,
+    /// Axes of the log.
+    #[serde(default)]
+    pub axes: MeasuredAxes,
+    /// Time of the log at which the first cut begins; by correlation without it.
+    pub shift_s: Option<Spanned<f64>>,
+    /// Window of the mean, of a log over time; a revolution of the spindle without it.
+    pub smooth_s: Option<Spanned<f64>>,
+    /// The same of a log along the path.
+    pub smooth_mm: Option<Spanned<f64>>,
+    /// Speed of rapids.
+    pub rapid_mm_per_min: Option<Spanned<f64>>,
+    /// Stretches in which the tool is in air, of a log over time.
+    pub air_s: Option<Spanned<Vec<[f64; 2]>>>,
+    /// The same of a log along the path.
+    pub air_mm: Option<Spanned<Vec<[f64; 2]>>>,
+    /// How drift is drawn through them.
+    #[serde(default)]
+    pub drift: DriftModel,
+    /// What is done with outliers.
+    #[serde(default)]
+    pub outliers: OutlierTreatment,
 }

@@ -8,7 +8,9 @@ use kinetostat_model::schema::{Deviation, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::cut_tables::{EngagementTable, MaterialTable, SpindleTable, StockTable};
+use crate::job::cut_tables::{
+    EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
+};
 use crate::job::source::Source;
 use crate::ui::failure::Failure;
 
@@ -44,6 +46,8 @@ pub(crate) struct Job {
     /// Where the tool is in the material, without a stock.
     pub engagement: Option<Spanned<EngagementTable>>,
     pub spindle: Option<Spanned<SpindleTable>>,
+    /// Forces that were measured along the program.
+    pub measured: Option<Spanned<MeasuredTable>>,
     #[serde(default)]
     pub reading: ReadingTable,
     #[serde(default)]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::Mechanism;
-use kinetostat_machining::{Bounds, Placement, ProgramLoad, RunInputs, ToolGiven};
+use kinetostat_machining::{Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven};
 use kinetostat_model::Model;
 use kinetostat_program::WriteOptions;
 
@@ -11,7 +11,7 @@ use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
-use crate::job::cut::{CutSetup, cut_setup};
+use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_setup};
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
@@ -29,6 +29,8 @@ pub(crate) struct MachineSetup {
     pub(crate) load: ProgramLoad,
     /// The cuts that the load is computed from, where the job names a material.
     pub(crate) cut: Option<CutSetup>,
+    /// Forces that were measured, where the job has them.
+    pub(crate) measured: Option<MeasuredSetup>,
     /// Tools by number, each with its machine and load.
     pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
     pub(crate) run_inputs: RunInputs,
@@ -82,7 +84,13 @@ pub(crate) fn machine_setup(
     let placement = placement(job, flags, &mechanism)?;
     let load = load(job, job.map(|j| &j.job.load), flags)?;
     let cut = cut_setup(files, job, flags, &placement)?;
-    inputs.extend(cut.iter().flat_map(|cut| cut.files.paths.clone()));
+    let measured = measured_setup(files, job, flags, &placement)?;
+    let of_cut = cut.iter().map(|cut| &cut.files);
+    let read: Vec<&FilesOfCut> = of_cut
+        .chain(measured.iter().map(|measured| &measured.files))
+        .collect();
+    inputs.extend(read.iter().flat_map(|files| files.paths.clone()));
+    let files_of_cut: Vec<FileRead> = read.iter().flat_map(|files| files.read.clone()).collect();
     let mut given = vec![ToolGiven {
         number: None,
         pose: tool,
@@ -101,13 +109,13 @@ pub(crate) fn machine_setup(
         run_inputs.model_deviations = deviation_descriptions(&model);
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
-        run_inputs.cut = cut.as_ref().map_or_else(Vec::new, |cut| cut.words.clone());
+        run_inputs.cut = cut.iter().flat_map(|cut| cut.words.clone()).collect();
+        let log = measured.iter().map(|measured| measured.words());
+        run_inputs.cut.extend(log);
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
         run_inputs.files = vec![model_file];
-        run_inputs
-            .files
-            .extend(cut.iter().flat_map(|cut| cut.files.read.clone()));
+        run_inputs.files.extend(files_of_cut);
         run_inputs
     };
     Ok((
@@ -116,6 +124,7 @@ pub(crate) fn machine_setup(
             placement,
             load,
             cut,
+            measured,
             tools,
             run_inputs,
             bounds: Bounds {

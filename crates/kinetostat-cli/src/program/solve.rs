@@ -3,12 +3,13 @@
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
-    Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, ProgramLoad, Run, Task, Tool, Warning,
-    WarningCode, analyse, compensate_program, load_description, origin_in_metres,
+    Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, Task,
+    Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
+    origin_in_metres,
 };
 use kinetostat_program::{Path as ToolPath, Program};
 
-use crate::job::cut::along::{forces, warnings};
+use crate::job::cut::along::{forces, measured, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
@@ -33,11 +34,25 @@ fn tools<'m>(machine: &'m MachineSetup, forces: Option<&ForceAlongPath>) -> Vec<
 /// A load, or that of the cut.
 pub(crate) fn computed(load: ProgramLoad, forces: Option<&ForceAlongPath>) -> ProgramLoad {
     let cutting = forces.map(|forces| CuttingLoad::FromCut {
+        origin: forces.origin(),
         largest: forces.largest(),
     });
     ProgramLoad {
         cutting: cutting.unwrap_or(load.cutting),
         ..load
+    }
+}
+
+/// The forces along the program of a job that has them measured, or computed from its cuts.
+pub(crate) fn forces_of(
+    machine: &MachineSetup,
+    program: &str,
+    path: &ToolPath,
+    watch: &dyn Watch,
+) -> Answer<Option<ForceAlongPath>> {
+    match &machine.measured {
+        Some(setup) => measured(setup, program, path, watch).map(Some),
+        None => forces(machine.cut.as_ref(), program, path, watch),
     }
 }
 
@@ -57,6 +72,10 @@ pub(crate) fn with_task<R>(
     run_inputs.files.insert(0, setting.program_file.clone());
     run_inputs.files.extend(setting.job_file.clone());
     run_inputs.date = crate::files::origin::day();
+    let report = forces.and_then(|forces| forces.measured.as_ref());
+    run_inputs
+        .cut
+        .extend(report.into_iter().flat_map(MeasuredReport::sentences));
     let mut writing = setting.writing.clone();
     run_inputs.tolerance_from = "as stated".to_owned();
     if aim == Aim::Compensate {
@@ -128,12 +147,7 @@ pub(crate) fn solve(
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
     let progress = Progress::new();
-    let forces = forces(
-        machine.cut.as_ref(),
-        &setting.program_name,
-        &path,
-        &progress,
-    )?;
+    let forces = forces_of(machine, &setting.program_name, &path, &progress)?;
     let read = (&program, &path);
     let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
         in_threads(threads, || match aim {

@@ -36,7 +36,7 @@ fn place(job: &str, program: &str) -> tempfile::TempDir {
 }
 
 /// Tool and correction of the written program where it passes an x, mm: from its words, read here.
-fn written_y_at(here: &Path, x: f64) -> f64 {
+pub(crate) fn written_y_at(here: &Path, x: f64) -> f64 {
     let text = std::fs::read_to_string(here.join("out.ngc")).unwrap();
     let word = |line: &str, letter: char| -> Option<f64> {
         let after = line.split_whitespace().find(|w| w.starts_with(letter))?;

@@ -33,6 +33,7 @@ mod library;
 mod loads_that_swing;
 mod machine_checks;
 mod map;
+mod measured;
 mod places_by_position;
 mod plausibility_checks;
 mod programs;

@@ -2,9 +2,11 @@
 
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::fitting::cut::MeasuredCut;
+use crate::number_columns::{NumberColumns, Separator};
 
 const FEED: &str = "feed_mm_per_tooth";
 const FORCES: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
+const COLUMNS: [&str; 4] = [FEED, FORCES[0], FORCES[1], FORCES[2]];
 const MOST_ROWS: usize = 100_000;
 
 /// Mean force on the tool at a feed.
@@ -57,85 +59,32 @@ impl Series {
     /// As [`Series::new`]; no header, columns that are unknown, missing or there twice, cells that are no numbers; with file
     /// and line.
     pub fn read(name_of_file: &str, text: &str, cut: MeasuredCut) -> Result<Self> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let at = |line: usize| move |error: CutError| error.at(name_of_file, Some(line));
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let headers = reader.headers().map_err(|e| at(1)(broken(&e)))?.clone();
-        let first = line_of(text, headers.position());
-        let columns = Columns::of(&headers).map_err(at(first))?;
+        let columns = NumberColumns {
+            known: &COLUMNS,
+            separator: Separator::Comma,
+        };
         let mut rows = Vec::new();
-        let mut last = first;
-        for record in reader.records() {
-            let record = record.map_err(|e| at(line_of(text, e.position()))(broken(&e)))?;
-            last = line_of(text, record.position());
-            most_rows(rows.len() + 1).map_err(at(last))?;
-            let row = columns.row(&record).map_err(at(last))?;
-            checked(&row).map_err(at(last))?;
+        let last = columns.read(name_of_file, text, accepted, |cells, _| {
+            most_rows(rows.len() + 1)?;
+            let row = MeanForce {
+                feed_mm_per_tooth: cells[0].unwrap_or(f64::NAN),
+                force_n: [cells[1], cells[2], cells[3]],
+            };
+            checked(&row)?;
             rows.push(row);
-        }
-        different_feeds(&rows).map_err(at(last))?;
+            Ok(())
+        })?;
+        different_feeds(&rows).map_err(|error| error.at(name_of_file, Some(last)))?;
         Ok(Self { cut, rows })
     }
 }
 
-/// Which column holds what.
-struct Columns {
-    feed: usize,
-    forces: [Option<usize>; 3],
-}
-
-impl Columns {
-    fn of(headers: &csv::StringRecord) -> Result<Self> {
-        let all = format!("{FEED},{}", FORCES.join(","));
-        let refuse = |found: String| {
-            Err(CutError::new(
-                CutErrorKind::File,
-                "header",
-                found,
-                format!("the columns {all}, with commas between them"),
-            ))
-        };
-        for (index, name) in headers.iter().enumerate() {
-            if name != FEED && !FORCES.contains(&name) {
-                return refuse(format!("column `{}`", shown(name)));
-            }
-            if headers.iter().take(index).any(|before| before == name) {
-                return refuse(format!("column `{name}` twice"));
-            }
-        }
-        let place = |name: &str| headers.iter().position(|header| header == name);
-        let forces = FORCES.map(place);
-        match place(FEED) {
-            Some(feed) if forces.iter().any(Option::is_some) => Ok(Self { feed, forces }),
-            Some(_) => refuse("no column of a force".to_owned()),
-            None => refuse(format!("no column `{FEED}`")),
-        }
-    }
-
-    fn row(&self, record: &csv::StringRecord) -> Result<MeanForce> {
-        let number = |name: &str, column: usize| {
-            let cell = record.get(column).unwrap_or_default();
-            cell.parse::<f64>().map_err(|_| {
-                let found = format!("`{}`", shown(cell));
-                CutError::new(
-                    CutErrorKind::File,
-                    name,
-                    found,
-                    "a number with a decimal point",
-                )
-            })
-        };
-        let mut force_n = [None; 3];
-        for (force, (name, column)) in force_n.iter_mut().zip(FORCES.iter().zip(self.forces)) {
-            *force = column.map(|column| number(name, column)).transpose()?;
-        }
-        Ok(MeanForce {
-            feed_mm_per_tooth: number(FEED, self.feed)?,
-            force_n,
-        })
+/// A feed and some force must be there.
+fn accepted(there: &[bool]) -> std::result::Result<(), String> {
+    match (there[0], there[1..].contains(&true)) {
+        (true, true) => Ok(()),
+        (true, false) => Err("no column of a force".to_owned()),
+        (false, _) => Err(format!("no column `{FEED}`")),
     }
 }
 
@@ -191,31 +140,4 @@ fn different_feeds(rows: &[MeanForce]) -> Result<()> {
             "two different feeds at least, better five: one alone cannot tell the edge force from that of the chip",
         )),
     }
-}
-
-fn broken(error: &csv::Error) -> CutError {
-    let found = match error.kind() {
-        csv::ErrorKind::UnequalLengths {
-            expected_len, len, ..
-        } => format!("{len} cells under {expected_len} columns"),
-        _ => error.to_string(),
-    };
-    let expected = "as many cells as the header has, with commas between them";
-    CutError::new(CutErrorKind::File, "row", found, expected)
-}
-
-/// Line of the record that is read from a position on: comments and empty lines before it are passed over.
-fn line_of(text: &str, position: Option<&csv::Position>) -> usize {
-    let Some(position) = position else { return 1 };
-    let from = usize::try_from(position.byte()).unwrap_or(text.len());
-    let rest = text.as_bytes().get(from..).unwrap_or_default();
-    let passed = rest
-        .split_inclusive(|byte| *byte == b'\n')
-        .take_while(|line| matches!(*line, b"\n" | b"\r\n" | [b'#', ..]))
-        .count();
-    usize::try_from(position.line()).unwrap_or(1) + passed
-}
-
-fn shown(cell: &str) -> String {
-    cell.chars().take(40).collect()
 }

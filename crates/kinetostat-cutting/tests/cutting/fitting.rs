@@ -8,6 +8,8 @@ use kinetostat_cutting::{
 };
 use proptest::prelude::*;
 
+use crate::noise::Noise;
+
 const STEEL: ([f64; 3], [f64; 3]) = ([1700.0, 650.0, 300.0], [25.0, 35.0, 5.0]);
 
 /// A cut as plain numbers: teeth, depth, arc.
@@ -81,24 +83,6 @@ impl Plain {
         };
         let rows = feeds.iter().map(row).collect();
         Series::new(self.measured(), rows).unwrap()
-    }
-}
-
-/// Numbers of a normal distribution, always the same ones: a congruential generator and the method of Box and Muller.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (self.uniform(), self.uniform());
-        (-2.0 * a.ln()).sqrt() * (TAU * b).cos()
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn of_law(cutting: CuttingLoad, placement: &Placement) -> Wrench {
             tangential,
             axial,
         } => Wrench::new(Vector3::new(tangential, -radial, axial), Vector3::zeros()),
-        CuttingLoad::FromCut { largest } => largest,
+        CuttingLoad::FromCut { largest, .. } => largest,
         CuttingLoad::Constant { axes, wrench } => match axes {
             LoadAxes::Feed => wrench,
             LoadAxes::Base => wrench.rotated(&part_from_base),

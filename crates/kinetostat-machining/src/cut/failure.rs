@@ -42,6 +42,12 @@ pub enum CutFailure {
         /// What is wrong.
         error: Box<CutError>,
     },
+    /// A log of forces that cannot be used, or does not belong to this program.
+    #[error("measured forces: {error}")]
+    Log {
+        /// What is wrong.
+        error: Box<CutError>,
+    },
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,

@@ -24,6 +24,12 @@ pub enum CutFindingKind {
     /// The tool goes down into material where its end is, as the whole tool is, in contact: tools that do not cut at the centre
     /// cannot.
     Plunge,
+    /// The log of the forces does not cover a move.
+    NotMeasured,
+    /// A force was measured in a rapid.
+    ForceInRapid,
+    /// How long a move takes is not known, for its way is not.
+    TimeUnknown,
 }
 
 /// A finding on the line where it is worst.

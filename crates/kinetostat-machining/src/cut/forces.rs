@@ -51,7 +51,7 @@ impl CutQuestion {
         self.lines_without_a_cut(path, &mut findings);
         let mut moves: Vec<Vec<CutStation>> = Vec::with_capacity(path.moves.len());
         // The last feed move without a rapid since, and not so short that it has no direction.
-        let mut before: Option<usize> = None;
+        let (mut before, mut since_mm): (Option<usize>, f64) = (None, 0.0);
         watch.stage("engagement", path.moves.len());
         for (i, motion) in path.moves.iter().enumerate() {
             if i % MOVES_PER_LOOK == 0 {
@@ -62,7 +62,7 @@ impl CutQuestion {
             }
             let mut stations = self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?;
             match before {
-                Some(before) if is_short(motion) => {
+                Some(before) if is_short(motion, since_mm) => {
                     stations = moves[before].last().map_or_else(Vec::new, standing);
                 }
                 Some(before) if self.goes_on(path, before, i) => {
@@ -70,10 +70,12 @@ impl CutQuestion {
                 }
                 _ => {}
             }
-            before = match motion.kind {
-                MoveKind::Feed if is_short(motion) => before,
-                MoveKind::Feed if motion.known == Knowledge::Whole => Some(i),
-                _ => None,
+            (before, since_mm) = match motion.kind {
+                MoveKind::Feed if before.is_some() && is_short(motion, since_mm) => {
+                    (before, since_mm + motion.length_mm())
+                }
+                MoveKind::Feed if motion.known == Knowledge::Whole => (Some(i), 0.0),
+                _ => (None, 0.0),
             };
             moves.push(stations);
         }
@@ -176,11 +178,12 @@ impl CutQuestion {
     }
 }
 
-/// Feed moves that are so short that their own direction says nothing.
-fn is_short(motion: &Move) -> bool {
+/// Feed moves that are so short, or so close to the last cut that was looked at, that their own direction says nothing.
+fn is_short(motion: &Move, since_mm: f64) -> bool {
+    let length = motion.length_mm();
     motion.kind == MoveKind::Feed
         && motion.known == Knowledge::Whole
-        && motion.length_mm() < SHORT_MM
+        && (length < 0.1 * SHORT_MM || since_mm + length < 0.5 * SHORT_MM)
 }
 
 /// What acts on the tool while it does not go on: what acted before.

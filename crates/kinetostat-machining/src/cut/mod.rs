@@ -2,10 +2,12 @@
 //!
 //! Takes the motion of a program with its feeds and spindle words, tools with their materials, and where the tool is in the
 //! material: the same everywhere, by lines, or from a stock that the program itself cuts. Gives force, moment, torque and power
-//! at stations along the path, and what no such cut should be. Knows no machine: the load that comes of it is
+//! at stations along the path, and what no such cut should be. Forces that were measured are laid along the path in their place
+//! ([`crate::MeasuredForces`]): a log over time by the time that each move takes. Knows no machine: the load that comes of it is
 //! [`crate::CuttingLoad::FromCut`].
 
 pub(crate) mod choice;
+pub(crate) mod clock;
 pub(crate) mod cutting_tool;
 pub(crate) mod drive;
 pub(crate) mod engagement_source;
@@ -14,7 +16,13 @@ pub(crate) mod finding;
 pub(crate) mod force;
 pub(crate) mod forces;
 pub(crate) mod limits;
+pub(crate) mod measured;
+pub(crate) mod measured_findings;
+pub(crate) mod measured_report;
+pub(crate) mod measured_stations;
+pub(crate) mod origin;
 pub(crate) mod profile;
 pub(crate) mod question;
 pub(crate) mod station;
+pub(crate) mod vertices;
 pub(crate) mod walk;

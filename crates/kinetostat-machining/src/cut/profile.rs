@@ -5,56 +5,75 @@ use kinetostat::number::larger;
 use kinetostat_cutting::SpindleCurve;
 
 use crate::cut::finding::CutFinding;
+use crate::cut::measured_report::MeasuredReport;
+use crate::cut::origin::ForceOrigin;
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
-use crate::profile::by_move::{ByMove, Profile};
-use crate::profile::reduced::reduced;
-
-/// A part of the largest force or moment that does not matter.
-const NEGLIGIBLE: f64 = 0.005;
+use crate::cut::vertices::Vertices;
+use crate::profile::by_move::ByMove;
 
 /// The force of the cut along a path.
 #[derive(Clone, Debug)]
 pub struct ForceAlongPath {
     stations: ByMove<CutStation>,
     /// Those between which the load is linear.
-    vertices: Profile<6>,
-    scale: Scale,
+    vertices: Vertices,
+    /// The same in axes of the part, for forces that were measured in them: these do not turn with the feed at corners.
+    in_part: Option<Vertices>,
     resolution_mm: f64,
     largest: Wrench,
     spindle: Option<SpindleCurve>,
     spread: f64,
     /// What no such cut should be.
     pub findings: Vec<CutFinding>,
+    /// What was done to forces that were measured; `None` for computed ones.
+    pub measured: Option<MeasuredReport>,
 }
 
 impl ForceAlongPath {
     /// Of the stations of each move, in the order of the path.
     pub(crate) fn of(moves: Vec<Vec<CutStation>>, findings: Vec<CutFinding>) -> Self {
-        let (mut force, mut moment, mut largest) = (0.0, 0.0, Wrench::zero());
-        for station in moves.iter().flatten() {
-            moment = larger(moment, station.wrench.moment().norm());
-            if station.wrench.force().norm() > force {
-                force = station.wrench.force().norm();
-                largest = station.wrench;
-            }
-        }
-        let scale = Scale { force, moment };
-        let (mut stations, mut vertices) = (ByMove::new(), ByMove::new());
+        let vertices = Vertices::of(&moves);
+        let largest = moves.iter().flatten().map(|station| station.wrench);
+        let largest = largest.max_by(|a, b| a.force().norm().total_cmp(&b.force().norm()));
+        let mut stations = ByMove::new();
         for own in moves {
-            let all: Vec<_> = own.iter().map(|s| (s.share, s.wrench.0.into())).collect();
-            vertices.push(scale.needed(&all));
             stations.push(own);
         }
         Self {
             stations,
             vertices,
-            scale,
+            in_part: None,
             resolution_mm: 0.0,
-            largest,
+            largest: largest.unwrap_or_else(Wrench::zero),
             spindle: None,
             spread: 0.0,
             findings,
+            measured: None,
+        }
+    }
+
+    /// Of stations that were measured, with those in axes of the part where that is how they were measured.
+    pub(crate) fn of_measured(
+        moves: Vec<Vec<CutStation>>,
+        in_part: Option<&[Vec<CutStation>]>,
+        findings: Vec<CutFinding>,
+        report: MeasuredReport,
+    ) -> Self {
+        let in_part = in_part.map(Vertices::of);
+        Self {
+            in_part,
+            measured: Some(report),
+            ..Self::of(moves, findings)
+        }
+    }
+
+    /// Whether it was computed or measured.
+    #[must_use]
+    pub fn origin(&self) -> ForceOrigin {
+        match self.measured {
+            Some(_) => ForceOrigin::Measured,
+            None => ForceOrigin::Computed,
         }
     }
 
@@ -95,18 +114,22 @@ impl ForceAlongPath {
     /// Force (N) and moment (N m) on the tool's tip at a share of a move: x along the feed, z along the part's z, y to the left.
     #[must_use]
     pub fn wrench(&self, move_index: usize, share: f64) -> Wrench {
-        let value = self.vertices.at(move_index, share);
+        let value = self.vertices.profile.at(move_index, share);
         value.map_or_else(Wrench::zero, |value| Wrench(value.into()))
     }
 
     /// Shares inside a move at which the load has another slope.
     #[must_use]
     pub fn breaks(&self, move_index: usize) -> Vec<f64> {
-        self.vertices.breaks(move_index).collect()
+        self.of_load().0.profile.breaks(move_index).collect()
     }
 
-    pub(crate) fn vertices(&self) -> &Profile<6> {
-        &self.vertices
+    /// The vertices of the load, and the axes of its wrenches.
+    pub(crate) fn of_load(&self) -> (&Vertices, CutAxes) {
+        match &self.in_part {
+            Some(in_part) => (in_part, CutAxes::Part),
+            None => (&self.vertices, CutAxes::Feed),
+        }
     }
 
     /// The same of forces whose places are known to within a length, mm: the size of a cell; infinite where an engagement was
@@ -122,35 +145,13 @@ impl ForceAlongPath {
     pub(crate) fn resolution_mm(&self) -> f64 {
         self.resolution_mm
     }
-
-    pub(crate) fn scale(&self) -> Scale {
-        self.scale
-    }
 }
 
-/// The largest force (N) and moment (N m) along a path.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Scale {
-    pub force: f64,
-    pub moment: f64,
-}
-
-impl Scale {
-    /// Size of a wrench; 1 where it is no longer negligible.
-    pub fn size(&self, wrench: &[f64; 6]) -> f64 {
-        let wrench = Wrench((*wrench).into());
-        let relative = |size: f64, largest: f64| match size > 0.0 {
-            true => size / (NEGLIGIBLE * largest),
-            false => 0.0,
-        };
-        larger(
-            relative(wrench.force().norm(), self.force),
-            relative(wrench.moment().norm(), self.moment),
-        )
-    }
-
-    /// The vertices without which the load would be another.
-    pub fn needed(&self, vertices: &[(f64, [f64; 6])]) -> Vec<(f64, [f64; 6])> {
-        reduced(vertices, |off| self.size(off))
-    }
+/// Axes of the load of a cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CutAxes {
+    /// Of the feed: they turn with it at corners.
+    Feed,
+    /// Of the part.
+    Part,
 }

@@ -17,20 +17,22 @@ use kinetostat::Wrench;
 use kinetostat_program::{Curve, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
-use crate::cut::profile::{ForceAlongPath, Scale};
+use crate::cut::profile::{CutAxes, ForceAlongPath};
+use crate::cut::vertices::Scale;
 use crate::load::headings::{Headings, heading, headings};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;
 use crate::profile::by_move::Profile;
 
-/// Forces of the cut, in axes of the feed.
+/// Forces of the cut.
 #[derive(Clone, Debug)]
 pub(crate) struct OfCut<'a> {
     pub profile: Cow<'a, Profile<6>>,
     pub scale: Scale,
     /// Length within which the places of the forces are known, mm.
     pub resolution_mm: f64,
+    pub axes: CutAxes,
 }
 
 /// A [`ProgramLoad`] along one path.
@@ -39,7 +41,6 @@ pub struct LoadAlongPath<'a> {
     load: ProgramLoad,
     path: &'a Path,
     tools: &'a [Tool<'a>],
-    /// Forces of the cut, in axes of the feed.
     pub(crate) cut: Option<OfCut<'a>>,
     /// The part of a stated load that acts; all of it on moves of which nothing is said.
     part: Option<Profile<1>>,
@@ -86,10 +87,14 @@ impl<'a> LoadAlongPath<'a> {
     /// The same with the forces of the cut, for loads that are [`CuttingLoad::FromCut`].
     #[must_use]
     pub fn with_cut(mut self, cut: Option<&'a ForceAlongPath>) -> Self {
-        self.cut = cut.map(|cut| OfCut {
-            profile: Cow::Borrowed(cut.vertices()),
-            scale: cut.scale(),
-            resolution_mm: cut.resolution_mm(),
+        self.cut = cut.map(|cut| {
+            let (vertices, axes) = cut.of_load();
+            OfCut {
+                profile: Cow::Borrowed(&vertices.profile),
+                scale: vertices.scale,
+                resolution_mm: cut.resolution_mm(),
+                axes,
+            }
         });
         self
     }
@@ -221,11 +226,16 @@ impl<'a> LoadAlongPath<'a> {
                 wrench,
             } => in_base(headed(&wrench, heading)),
             CuttingLoad::FromCut { .. } => {
-                let cut = self.cut.as_ref();
-                let cut = cut.and_then(|cut| cut.profile.at(move_index, share));
-                let wrench = cut.map_or_else(Wrench::zero, |cut| Wrench(cut.into()));
-                // Along the tool axis, forces of the cut are in axes of the part.
-                in_base(headed(&wrench, heading.or(Some(0.0))))
+                let Some(cut) = &self.cut else {
+                    return Wrench::zero();
+                };
+                let wrench = cut.profile.at(move_index, share);
+                let wrench = wrench.map_or_else(Wrench::zero, |wrench| Wrench(wrench.into()));
+                in_base(match cut.axes {
+                    CutAxes::Part => wrench,
+                    // Along the tool axis, forces of the cut are in axes of the part.
+                    CutAxes::Feed => headed(&wrench, heading.or(Some(0.0))),
+                })
             }
             CuttingLoad::Milling {
                 radial,

@@ -3,6 +3,8 @@
 use kinetostat::Wrench;
 use serde::{Deserialize, Serialize};
 
+use crate::cut::origin::ForceOrigin;
+
 /// Axes of a constant wrench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -37,8 +39,11 @@ pub enum CuttingLoad {
         /// Along the part frame's z.
         axial: f64,
     },
-    /// Computed from the cut, another at every place: see [`crate::ForceAlongPath`].
+    /// Computed from the cut or measured, another at every place: see [`crate::ForceAlongPath`].
     FromCut {
+        /// Whether it was computed or measured.
+        #[serde(default)]
+        origin: ForceOrigin,
         /// The one with the largest force, N and N m, x along the feed, z along the part frame's z, y to the left.
         largest: Wrench,
     },
@@ -141,10 +146,14 @@ impl ProgramLoad {
             } => format!(
                 "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
             ),
-            CuttingLoad::FromCut { largest } => {
+            CuttingLoad::FromCut { origin, largest } => {
                 let f = largest.force();
+                let origin = match origin {
+                    ForceOrigin::Computed => "computed from the cut",
+                    ForceOrigin::Measured => "measured along the program",
+                };
                 format!(
-                    "computed from the cut; at most {:.1} N ({:.1} along the feed, {:.1} to the left, {:.1} along z)",
+                    "{origin}; at most {:.1} N ({:.1} along the feed, {:.1} to the left, {:.1} along z)",
                     f.norm(),
                     f.x,
                     f.y,

@@ -10,7 +10,7 @@ use kinetostat::Wrench;
 use kinetostat::number::larger;
 use kinetostat_program::{Curve, Move};
 
-use crate::cut::profile::Scale;
+use crate::cut::vertices::Scale;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::{CuttingLoad, ProgramLoad};
 use crate::load::runs::{begins, of_run, runs};

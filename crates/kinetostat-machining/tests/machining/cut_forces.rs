@@ -101,6 +101,7 @@ fn the_force_turns_with_the_feed() {
         ));
         let along = along(EngagementSource::Constant(constant), &path);
         let load = ProgramLoad::new(CuttingLoad::FromCut {
+            origin: kinetostat_machining::ForceOrigin::Computed,
             largest: along.largest(),
         });
         let load = LoadAlongPath::new(load, &path).with_cut(Some(&along));
@@ -268,6 +269,7 @@ fn a_plunge_at_an_edge_pushes_sideways() {
         ));
         let along = along(block([0.0, -20.0, -10.0], [40.0, 20.0, 0.0]), &path);
         let load = ProgramLoad::new(CuttingLoad::FromCut {
+            origin: kinetostat_machining::ForceOrigin::Computed,
             largest: along.largest(),
         });
         let load = LoadAlongPath::new(load, &path).with_cut(Some(&along));

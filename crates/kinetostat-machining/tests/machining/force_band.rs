@@ -5,9 +5,9 @@ use std::sync::Arc;
 use kinetostat::Mechanism;
 use kinetostat_cutting::{Engagement, Linear, Shape, Side, Tool};
 use kinetostat_machining::{
-    Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, Placement,
-    ProgramLoad, Run, RunInputs, Task, Unwatched, analyse, compensate_program, cut_places,
-    cutting_result,
+    Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
+    Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, analyse, compensate_program,
+    cut_places, cutting_result,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -81,6 +81,7 @@ fn run(
         placement: Placement::at(origin),
         load: ProgramLoad::new(CuttingLoad::FromCut {
             largest: forces.largest(),
+            origin: ForceOrigin::Computed,
         }),
         tools: &[],
         cut: Some(&forces),

@@ -14,6 +14,7 @@ mod force_band;
 mod internal;
 mod load;
 mod map;
+mod measured_forces;
 mod orientation_follows;
 mod ramps;
 mod runs;

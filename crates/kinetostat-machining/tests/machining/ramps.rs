@@ -4,7 +4,7 @@ use kinetostat::Mechanism;
 use kinetostat_cutting::{Linear, Shape, Stock, StockSettings, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceAlongPath, ForceChoice,
-    Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode, analyse,
+    ForceOrigin, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode, analyse,
     compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
@@ -163,6 +163,7 @@ fn a_plunge_into_a_block_is_met_from_the_air() {
         largest_step,
         ..ProgramLoad::new(CuttingLoad::FromCut {
             largest: along.largest(),
+            origin: ForceOrigin::Computed,
         })
     };
     let run = |step| run(text, load(step), Some(&along));
@@ -201,6 +202,7 @@ fn a_jump_inside_a_cut_is_named_with_its_line() {
         largest_step: step,
         ..ProgramLoad::new(CuttingLoad::FromCut {
             largest: along.largest(),
+            origin: ForceOrigin::Computed,
         })
     };
     let found = run(&text, load, Some(&along));

@@ -1,10 +1,12 @@
 //! Forces of the cut along the program of a job.
 
 use kinetostat_machining::{
-    CutFailure, CutFindingKind, ForceAlongPath, Warning, WarningCode, Watch,
+    CutFailure, CutFindingKind, ExpectedForce, ForceAlongPath, MeasuredReport, Warning,
+    WarningCode, Watch,
 };
 use kinetostat_program::Path as ToolPath;
 
+use crate::job::cut::measured::MeasuredSetup;
 use crate::job::cut::question::CutSetup;
 use crate::ui::failure::{Answer, Code, Failure};
 
@@ -24,6 +26,20 @@ pub(crate) fn forces(
         .map_err(|failure| stopped_or_within(failure, program))
 }
 
+/// Measured forces along the program.
+pub(crate) fn measured(
+    setup: &MeasuredSetup,
+    program: &str,
+    path: &ToolPath,
+    watch: &dyn Watch,
+) -> Answer<ForceAlongPath> {
+    let along = setup.forces.along(path, ExpectedForce::InFeedMoves, watch);
+    along.map_err(|failure| match failure {
+        CutFailure::Log { .. } => Failure::input(failure).within(&setup.name),
+        _ => stopped_or_within(failure, program),
+    })
+}
+
 /// Why a program has no cutting force, as a failure of the command.
 pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
     match failure {
@@ -35,16 +51,36 @@ pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
 /// What no such cut should be, as warnings.
 pub(crate) fn warnings(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
     let found = forces.iter().flat_map(|forces| &forces.findings);
-    found
-        .map(|finding| {
-            let more = match finding.lines {
-                0 | 1 => String::new(),
-                n => format!(" (the worst of {n} lines)"),
-            };
-            let text = format!("{}{more}", finding.text);
-            Warning::at_line(code(finding.kind), finding.line, text)
-        })
-        .collect()
+    let of_moves = found.map(|finding| {
+        let more = match finding.lines {
+            0 | 1 => String::new(),
+            n => format!(" (the worst of {n} lines)"),
+        };
+        let text = format!("{}{more}", finding.text);
+        Warning::at_line(code(finding.kind), finding.line, text)
+    });
+    let log = forces.and_then(|forces| forces.measured.as_ref());
+    log.into_iter().flat_map(of_log).chain(of_moves).collect()
+}
+
+/// What is wrong with a log as a whole.
+fn of_log(report: &MeasuredReport) -> Vec<Warning> {
+    let done = &report.conditioning;
+    let unit = done.by.unit();
+    let outliers = done.worst().map(|worst| {
+        let text = match done.outlier_count {
+            1 => format!("the log of the forces has an outlier: {worst}"),
+            n => format!("the log of the forces has {n} outliers; the worst: {worst}"),
+        };
+        Warning::new(WarningCode::OutliersInLog, text)
+    });
+    let gap = report.gap().map(|[at, length]| {
+        let text = format!(
+            "the log of the forces has no rows for {length:.4} {unit} from {at:.4} {unit} on: the force is taken to be a straight line there"
+        );
+        Warning::new(WarningCode::GapInLog, text)
+    });
+    outliers.into_iter().chain(gap).collect()
 }
 
 /// The word for programs that read the JSON.
@@ -57,6 +93,9 @@ fn code(kind: CutFindingKind) -> WarningCode {
         CutFindingKind::ShortEdges => WarningCode::ToolTooShort,
         CutFindingKind::LinesWithoutCut => WarningCode::LoadNeverActs,
         CutFindingKind::Plunge => WarningCode::Plunge,
+        CutFindingKind::NotMeasured => WarningCode::NotMeasured,
+        CutFindingKind::ForceInRapid => WarningCode::ForceInRapid,
+        CutFindingKind::TimeUnknown => WarningCode::TimeUnknown,
         // Kinds that this program does not know have no word of their own yet.
         _ => WarningCode::Program,
     }

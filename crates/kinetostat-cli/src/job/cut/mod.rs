@@ -1,4 +1,4 @@
-//! Cutting forces in a job file: `[material]`, `[stock]`, `[engagement]`, `[spindle]` and the `cutter` of a tool.
+//! Cutting forces in a job file: `[material]`, `[stock]`, `[engagement]`, `[spindle]` and the `cutter` of a tool; `[measured]`.
 //!
 //! Takes the tables; gives the question for [`kinetostat_machining::CutQuestion`] and what was assumed, in words.
 
@@ -6,8 +6,10 @@ pub(crate) mod along;
 mod engagement;
 mod files_of_cut;
 mod material;
+mod measured;
 mod question;
 mod stock;
+mod twice;
 
 use kinetostat_cutting::CutError;
 use serde_spanned::Spanned;
@@ -15,6 +17,8 @@ use serde_spanned::Spanned;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Failure;
 
+pub(crate) use files_of_cut::FilesOfCut;
+pub(crate) use measured::{MeasuredSetup, measured_setup};
 pub(crate) use question::{CutSetup, cut_setup};
 
 /// An error of the library where the job states what it is about; in a file of its own, it names that.

@@ -14,8 +14,8 @@ use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::{MaterialSetup, material};
 use crate::job::cut::refused;
 use crate::job::cut::stock::stock;
+use crate::job::cut::twice::{MATERIAL, not_typed_too};
 use crate::job::cut_tables::{MaterialTable, SpindleTable};
-use crate::job::format::LoadTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
@@ -40,7 +40,7 @@ pub(crate) fn cut_setup(
     let Some(table) = &j.job.material else {
         return no_material(j).map(|()| None);
     };
-    typed_force(j, flags, table)?;
+    not_typed_too(j, flags, table, &MATERIAL)?;
     stands_along_the_part(j, table, placement)?;
     let mut read = FilesOfCut::default();
     let MaterialSetup { applied, mut words } = material(files, j, table.get_ref(), &mut read)?;
@@ -141,31 +141,6 @@ fn no_material(j: &JobFile) -> Answer<()> {
             spindle,
             "there is a spindle, and no material to be cut",
             help,
-        ));
-    }
-    Ok(())
-}
-
-/// A force that is typed in stands against one that is computed.
-fn typed_force(j: &JobFile, flags: &ProgramArgs, table: &Spanned<MaterialTable>) -> Answer<()> {
-    let typed = |load: &LoadTable| {
-        load.force_n.is_some() || load.moment_n_m.is_some() || load.milling.is_some()
-    };
-    let of_tools = j
-        .job
-        .tools
-        .iter()
-        .filter_map(|tool| tool.get_ref().load.as_ref());
-    if typed(&j.job.load) || of_tools.into_iter().any(typed) {
-        return Err(j.error(
-            table,
-            "the load is given twice: a force, and a material to compute it from",
-            "keep [load] or [material]",
-        ));
-    }
-    if flags.force.is_some() || flags.moment.is_some() || flags.milling.is_some() {
-        return Err(Failure::input(
-            "the load is given twice: on the command line, and by the material of the job file; keep one of them",
         ));
     }
     Ok(())

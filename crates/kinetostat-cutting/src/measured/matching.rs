@@ -1,0 +1,157 @@
+//! The shift between a log and what is expected.
+
+use crate::error::{CutError, CutErrorKind, Result};
+use crate::measured::activity::Activity;
+use crate::measured::correlation::Correlation;
+use crate::measured::log::{ForceLog, LoggedBy};
+use crate::measured::search::Shifts;
+
+/// Smallest correlation that a match may have.
+const LEAST_CORRELATION: f64 = 0.5;
+/// By how much the best shift must be better than the next peak.
+const LEAST_LEAD: f64 = 0.05;
+/// A peak stands out from its surroundings by so much.
+const RIPPLE: f64 = 0.02;
+/// A shift is known to within this, s, or it is not known.
+const MOST_UNCERTAIN_S: f64 = 0.5;
+/// Share of the force that a log exactly as expected would lose by a shift, which this one must lose at least.
+const LEAST_LOSS: f64 = 0.25;
+
+/// A shift at which a log agrees with what is expected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShiftMatch {
+    /// Time of the log less time of what is expected, s.
+    pub shift_s: f64,
+    /// Pearson's coefficient of the size of the force with what is expected, over all of the log.
+    pub correlation: f64,
+    /// Shift (s) and coefficient of the next best peak, if there is another.
+    pub next: Option<[f64; 2]>,
+    /// A shift that is off by this much, s, leaves at least a quarter as much force where none is expected as it would if the log
+    /// were exactly as expected; one that is off by less may not be told from this one.
+    pub within_s: f64,
+}
+
+/// Finds the shift of a log over time against an expected course of the force.
+///
+/// At every shift the size of the logged force is compared with what is expected, over all of the log: where nothing is
+/// expected, before and after the course too, the force should be small. The best of all shifts is found on a grid by fast
+/// Fourier transform and then refined far below the time from row to row.
+///
+/// ```
+/// use kinetostat_cutting::{Activity, ForceLog, LoggedBy, match_shift};
+///
+/// // Cuts of 2 and 3 s with a second between them, in a log that begins 1.2345 s earlier.
+/// let cut = |t: f64| (0.0..2.0).contains(&t) || (3.0..6.0).contains(&t);
+/// let at: Vec<f64> = (0..1000).map(|i| f64::from(i) * 0.01).collect();
+/// let fx = at.iter().map(|t| if cut(t - 1.2345) { 80.0 } else { 1.0 }).collect();
+/// let log = ForceLog::new(LoggedBy::Time, at, [fx, vec![0.0; 1000], vec![0.0; 1000]], None)?;
+///
+/// let expected = vec![[0.0, 1.0], [2.0, 1.0], [2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [6.0, 1.0]];
+/// let found = match_shift(&log, &Activity::new(expected)?)?;
+/// assert!((found.shift_s - 1.2345).abs() < 0.01);
+/// assert!(found.correlation > 0.99 && found.next.unwrap()[1] < 0.8);
+/// # Ok::<(), kinetostat_cutting::CutError>(())
+/// ```
+///
+/// # Errors
+/// A log along the path; no shift with a correlation of 0.5; another shift that is as good to within 0.05; a peak so flat that
+/// the shift is not known to within half a second (cuts that begin or end in air look so).
+pub fn match_shift(log: &ForceLog, expected: &Activity) -> Result<ShiftMatch> {
+    if log.by() != LoggedBy::Time {
+        return refuse(
+            "a log along the path",
+            "a log over time; one along the path has no shift",
+        );
+    }
+    let sizes = log.sizes();
+    let correlation = Correlation::new(&log.at, &sizes, expected);
+    let rows = log.spacing();
+    let shifts = Shifts::of(&correlation, log.range(), expected.range(), rows);
+    let best = shifts.best();
+    let next = shifts.next(best, RIPPLE);
+    let next = next.map(|i| [shifts.shift(i), shifts.correlation[i]]);
+    let (shift_s, found) = refined(&correlation, shifts.shift(best), shifts.step, rows);
+    if !found.is_finite() || found < LEAST_CORRELATION {
+        return refuse(
+            format!("a correlation of {found:.2} at most, at {shift_s:.3} s"),
+            "0.5 at least: this log does not look like the program; state the shift",
+        );
+    }
+    if let Some([other, also]) = next
+        && also > found - LEAST_LEAD
+    {
+        return refuse(
+            format!(
+                "a correlation of {found:.3} at {shift_s:.3} s and of {also:.3} at {other:.3} s"
+            ),
+            "one shift that is better than all others by 0.05: the log looks the same at both; state the shift",
+        );
+    }
+    let within_s = within(&correlation, log, expected, shift_s);
+    if within_s > MOST_UNCERTAIN_S {
+        return refuse(
+            format!("a shift of {shift_s:.3} s that may as well be {within_s:.2} s more or less"),
+            "a shift that is known to within 0.5 s: feed moves that begin or end in air hide when the cut begins; state the shift",
+        );
+    }
+    Ok(ShiftMatch {
+        shift_s,
+        correlation: found,
+        next,
+        within_s,
+    })
+}
+
+fn refuse<T>(found: impl ToString, expected: &str) -> Result<T> {
+    Err(CutError::new(
+        CutErrorKind::Measurement,
+        "shift by correlation",
+        found,
+        expected,
+    ))
+}
+
+/// The best shift around one of a grid, by halving the step until it is far below the time from row to row.
+fn refined(correlation: &Correlation<'_>, from: f64, grid: f64, rows: f64) -> (f64, f64) {
+    let mut best = (from, correlation.at(from));
+    let mut step = grid;
+    while step > rows / 100.0 {
+        for shift in [best.0 - step, best.0 + step] {
+            let here = correlation.at(shift);
+            if here > best.1 {
+                best = (shift, here);
+            }
+        }
+        step *= 0.5;
+    }
+    best
+}
+
+/// How far a shift can be off before that leaves measured force where none is expected: in steps that double, up to a quarter of
+/// what is compared. Correlation itself would not do: it grows, too, where the part of the program that does not fit is pushed
+/// over the end of the log.
+fn within(correlation: &Correlation<'_>, log: &ForceLog, expected: &Activity, shift: f64) -> f64 {
+    let [from, to] = log.range();
+    let (at, values) = expected.between(from - shift, to - shift);
+    // What a log that is exactly as expected would lose; it has no shift of its own.
+    let with_itself = Correlation::new(&at, &values, expected);
+    let lost = |of: &Correlation<'_>, from: f64, to: f64| 1.0 - of.product(to) / of.product(from);
+    let [first, last] = expected.range();
+    let most = 0.25
+        * match last - first < to - from {
+            true => last - first,
+            false => to - from,
+        };
+    let mut known = log.spacing();
+    let mut off = known;
+    while off <= most {
+        for off in [off, -off] {
+            let loss = lost(correlation, shift, shift + off);
+            if loss < LEAST_LOSS * lost(&with_itself, 0.0, off) {
+                known = 2.0 * off.abs();
+            }
+        }
+        off *= 2.0;
+    }
+    known
+}

@@ -1,0 +1,138 @@
+//! When each move of a program is made, or where it lies along the program's cuts.
+
+use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+
+use crate::cut::failure::CutFailure;
+
+/// Where each move lies: from and to, in s or mm, the first cut beginning at 0.
+#[derive(Debug)]
+pub(crate) struct Clock {
+    pub spans: Vec<[f64; 2]>,
+    /// Indices of moves behind the first cut and before the last whose way is not known.
+    pub unknown: Vec<usize>,
+}
+
+/// A feed move whose place is known.
+pub(crate) fn cuts(motion: &Move) -> bool {
+    motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && motion.has_length()
+}
+
+impl Clock {
+    /// Time of each move, s: length over feed, and over the speed of rapids; moves whose way is not known take none.
+    pub fn by_time(
+        path: &Path,
+        rapid_mm_per_minute: Option<f64>,
+        rpm: Option<f64>,
+    ) -> Result<Self, CutFailure> {
+        let first = path.moves.iter().position(cuts);
+        let last = path.moves.iter().rposition(cuts);
+        let between = |i: usize| first.is_some_and(|first| i > first) && Some(i) < last;
+        let mut durations = Vec::with_capacity(path.moves.len());
+        let mut unknown = Vec::new();
+        for (i, motion) in path.moves.iter().enumerate() {
+            if motion.known != Knowledge::Whole && between(i) {
+                unknown.push(i);
+            }
+            let timed = motion.known == Knowledge::Whole && motion.has_length();
+            let speed = match (timed, motion.kind) {
+                (false, _) => None,
+                (true, MoveKind::Feed) => Some(feed(path, motion, rpm)?),
+                (true, MoveKind::Rapid) if rapid_mm_per_minute.is_none() && between(i) => {
+                    return Err(CutFailure::Missing {
+                        line: motion.line,
+                        what: "how long a rapid takes is not known",
+                        help: "give the speed of rapids (rapid_mm_per_min)",
+                    });
+                }
+                (true, MoveKind::Rapid) => rapid_mm_per_minute,
+            };
+            durations.push(speed.map_or(0.0, |speed| 60.0 * motion.length_mm() / speed));
+        }
+        Ok(Self {
+            spans: spans(&durations, first),
+            unknown,
+        })
+    }
+
+    /// Length along the cuts up to and behind each move, mm.
+    pub fn by_length(path: &Path) -> Self {
+        let length = |m: &Move| if cuts(m) { m.length_mm() } else { 0.0 };
+        let lengths: Vec<f64> = path.moves.iter().map(length).collect();
+        Self {
+            spans: spans(&lengths, Some(0)),
+            unknown: Vec::new(),
+        }
+    }
+
+    /// From the first cut to the last: 1 in feed moves, 0 between them.
+    pub fn activity(&self, path: &Path) -> Vec<[f64; 2]> {
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        let moves = path.moves.iter().zip(&self.spans);
+        for (_, [from, to]) in moves.filter(|(motion, _)| cuts(motion)) {
+            match points.last_mut() {
+                Some(last) if last[0] == *from => last[0] = *to,
+                before => {
+                    if let Some([at, _]) = before.copied() {
+                        points.extend([[at, 0.0], [*from, 0.0]]);
+                    }
+                    points.extend([[*from, 1.0], [*to, 1.0]]);
+                }
+            }
+        }
+        points
+    }
+}
+
+/// Spans that follow each other, that of the move `zero` beginning at 0.
+fn spans(sizes: &[f64], zero: Option<usize>) -> Vec<[f64; 2]> {
+    let before: f64 = sizes.iter().take(zero.unwrap_or(0)).sum();
+    let mut at = -before;
+    let mut next = |size: &f64| {
+        let from = at;
+        at += size;
+        [from, at]
+    };
+    let mut all: Vec<[f64; 2]> = sizes.iter().map(&mut next).collect();
+    if let Some(first) = zero.and_then(|zero| all.get_mut(zero)) {
+        first[0] = 0.0;
+    }
+    all
+}
+
+/// Speed of a feed move, mm/min.
+fn feed(path: &Path, motion: &Move, rpm: Option<f64>) -> Result<f64, CutFailure> {
+    let line = motion.line;
+    let missing = |what, help| CutFailure::Missing { line, what, help };
+    let rpm = rpm.or_else(|| path.spindle_on(line).rpm());
+    let speed = match motion.feed.map(|feed| feed.mode) {
+        Some(kinetostat_program::FeedMode::PerRevolution) => {
+            let rpm = rpm.filter(|rpm| *rpm > 0.0).ok_or_else(|| {
+                missing(
+                    "the feed counts by revolutions (G95), and no speed of the spindle is known (S with G97)",
+                    "add the S word to the program",
+                )
+            })?;
+            motion.feed_mm_per_minute(rpm)
+        }
+        _ => motion.feed_mm_per_minute(0.0),
+    };
+    speed.filter(|speed| *speed > 0.0).ok_or_else(|| {
+        missing(
+            "how long a feed move takes is not known (F)",
+            "add the F word to the program",
+        )
+    })
+}
+
+/// The longest revolution of the spindle in a cut, s, or the longest way in one, mm.
+pub(crate) fn longest_revolution(
+    path: &Path,
+    rpm: Option<f64>,
+    size: impl Fn(&Move, f64) -> Option<f64>,
+) -> Option<f64> {
+    let sizes = path.moves.iter().filter(|m| cuts(m)).filter_map(|motion| {
+        let rpm = rpm.or_else(|| path.spindle_on(motion.line).rpm());
+        size(motion, rpm.filter(|rpm| *rpm > 0.0)?)
+    });
+    sizes.reduce(|a, b| if b > a { b } else { a })
+}

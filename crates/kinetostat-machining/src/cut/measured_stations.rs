@@ -1,0 +1,131 @@
+//! Measured forces at stations along the moves of a program.
+
+use kinetostat::Wrench;
+use kinetostat_cutting::ForceLog;
+use kinetostat_program::{Move, Path};
+use nalgebra::{Rotation3, Vector3};
+
+use crate::cut::clock::{Clock, cuts};
+use crate::cut::measured_report::{ActsOn, MeasuredAxes};
+use crate::cut::station::{ACROSS, CutStation};
+
+/// Most stations of a program.
+const MOST_STATIONS: f64 = 500_000.0;
+
+/// A log laid along a program.
+pub(crate) struct Laid<'a> {
+    pub log: &'a ForceLog,
+    pub clock: &'a Clock,
+    /// Time or length of the log less that of the program.
+    pub shift: f64,
+    pub axes: MeasuredAxes,
+    pub acts_on: ActsOn,
+    /// Distance of stations, s or mm.
+    pub step: f64,
+}
+
+/// Distance of stations: four in a window of the mean, none closer than the rows, and not too many of them.
+pub(crate) fn step(log: &ForceLog, window: f64, clock: &Clock) -> f64 {
+    let all: f64 = clock.spans.iter().map(|[from, to]| to - from).sum();
+    let steps = [0.25 * window, log.spacing(), all / MOST_STATIONS];
+    steps.into_iter().fold(0.0, kinetostat::number::larger)
+}
+
+impl Laid<'_> {
+    /// Where a move lies in the log, s or mm.
+    pub fn span(&self, move_index: usize) -> [f64; 2] {
+        self.clock.spans[move_index].map(|at| at + self.shift)
+    }
+
+    /// The part of a move that the log covers, s or mm; `None` for nothing.
+    pub fn covered(&self, move_index: usize) -> Option<[f64; 2]> {
+        let [from, to] = self.span(move_index);
+        let [first, last] = self.log.range();
+        let (from, to) = (from.clamp(first, last), to.clamp(first, last));
+        (to > from).then_some([from, to])
+    }
+
+    /// Size of the force at a place of the log, N.
+    pub fn size(&self, at: f64) -> f64 {
+        let force = self.log.at(at).map_or([0.0; 3], |(force, _)| force);
+        Vector3::from(force).norm()
+    }
+
+    /// Stations of a move in axes of the feed, and the same in axes of the part where these are those of the log.
+    pub fn stations(&self, path: &Path, move_index: usize) -> [Vec<CutStation>; 2] {
+        let motion = &path.moves[move_index];
+        let mut all = [Vec::new(), Vec::new()];
+        if !cuts(motion) {
+            return all;
+        }
+        let [from, to] = self.span(move_index);
+        let share = |at: f64| ((at - from) / (to - from)).clamp(0.0, 1.0);
+        let mut add = |share: f64, wrench: Option<Wrench>| {
+            let none = CutStation::air(share);
+            let Some(logged) = wrench else {
+                all[0].push(none);
+                all[1].push(none);
+                return;
+            };
+            let (in_feed, in_part) = self.in_axes(motion, share, logged);
+            let station = |wrench| CutStation { wrench, ..none };
+            all[0].push(station(in_feed));
+            all[1].push(station(in_part));
+        };
+        // What is not covered has no force: a jump where the log begins or ends.
+        match self.covered(move_index) {
+            None => {
+                add(0.0, None);
+                add(1.0, None);
+            }
+            Some([first, last]) => {
+                if first > from {
+                    add(0.0, None);
+                    add(share(first), None);
+                }
+                let pieces = ((last - first) / self.step)
+                    .ceil()
+                    .clamp(1.0, MOST_STATIONS) as usize;
+                for i in 0..=pieces {
+                    // The last is not behind the end of the log by rounding.
+                    let at = match i == pieces {
+                        true => last,
+                        false => first + (last - first) * i as f64 / pieces as f64,
+                    };
+                    add(share(at), Some(self.on_the_tool(at)));
+                }
+                if last < to {
+                    add(share(last), None);
+                    add(1.0, None);
+                }
+            }
+        }
+        all
+    }
+
+    /// What acts on the tool at a place of the log, in its axes.
+    fn on_the_tool(&self, at: f64) -> Wrench {
+        let (force, moment) = self.log.at(at).unwrap_or_default();
+        let sign = match self.acts_on {
+            ActsOn::Tool => 1.0,
+            ActsOn::Part => -1.0,
+        };
+        Wrench::new(sign * Vector3::from(force), sign * Vector3::from(moment))
+    }
+
+    /// In axes of the feed, and of the part.
+    fn in_axes(&self, motion: &Move, share: f64, logged: Wrench) -> (Wrench, Wrench) {
+        let tangent = motion.tangent(share).unwrap_or_default();
+        // Straight up and down there is no feed across the axis: axes of the part then.
+        let angle = match tangent.xy().norm() > ACROSS {
+            true => tangent.y.atan2(tangent.x),
+            false => 0.0,
+        };
+        let turned =
+            |angle: f64| logged.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle));
+        match self.axes {
+            MeasuredAxes::Part => (turned(-angle), logged),
+            MeasuredAxes::Feed => (logged, turned(angle)),
+        }
+    }
+}
