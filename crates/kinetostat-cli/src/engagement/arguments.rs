@@ -31,11 +31,11 @@ Exit codes:
   130  stopped with Ctrl-C; nothing was written";
 
 const ENGAGEMENT_HELP: &str = r#"Examples:
-  kinetostat engagement job.toml
-  kinetostat engagement job.toml --plot cut.svg --csv cut.csv
-  kinetostat engagement job.toml --program other.ngc --json
+  kinetostat engagement milling.toml
+  kinetostat engagement milling.toml --plot cut.svg --csv cut.csv
+  kinetostat engagement milling.toml --program part.ngc --json
 
-A job file for it:
+A job file:
   schema = 1
   program = "part.ngc"
 
@@ -56,8 +56,10 @@ A job file for it:
   # [engagement]                   # in place of a stock
   # width_mm = 2, depth_mm = 3, part = "right"
 
-  [spindle]                        # if its limits are to be compared
-  power_w = 800
+  [spindle]
+  rpm = 12000                      # in place of the program's S
+  rotation = "clockwise"           # in place of its M3 or M4
+  power_w = 800                    # if its limits are to be compared
   base_rpm = 10000
   most_rpm = 24000
 

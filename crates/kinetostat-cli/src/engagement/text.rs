@@ -70,8 +70,8 @@ fn result_text(a: &EngagementAnswer) -> String {
 
 fn volume(mm3: f64) -> String {
     match mm3.abs() < 1e5 {
-        true => format!("{} mm3", number(mm3, 4)),
-        false => format!("{} cm3", number(1e-3 * mm3, 4)),
+        true => format!("{} mm3", number(mm3, 3)),
+        false => format!("{} cm3", number(1e-3 * mm3, 3)),
     }
 }
 

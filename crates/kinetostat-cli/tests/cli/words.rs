@@ -354,6 +354,10 @@ fn examples_in_the_help_can_be_copied() {
         "stiffness_n_mm_rad,x,y,z,rx,ry,rz\nx,1e5,0,0,0,0,0\ny,0,1e4,0,0,0,-1e6\nz,0,0,1e4,0,1e6,0\nrx,0,0,0,1e8,0,0\nry,0,0,1e6,0,2e8,0\nrz,0,-1e6,0,0,0,2e8\n",
     );
     put(
+        "milling.toml",
+        "schema = 1\nprogram = \"part.ngc\"\n[tool]\ncutter = { shape = \"flat\", diameter_mm = 6, teeth = 2 }\n[material]\nname = \"C45\"\n[stock]\nblock_mm = [[-30, -30, -5], [30, 30, 0]]\n[spindle]\nrpm = 8000\nrotation = \"clockwise\"\n",
+    );
+    put(
         "tools.toml",
         "[[tool]]\nnumber = 3\nshape = \"flat\"\ndiameter_mm = 12\nteeth = 4\n",
     );
@@ -367,6 +371,7 @@ fn examples_in_the_help_can_be_copied() {
         "curve",
         "equilibria",
         "force",
+        "engagement",
         "check",
         "import",
         "import urdf",
@@ -404,7 +409,7 @@ fn examples_in_the_help_can_be_copied() {
         }
     }
     assert!(examples.len() >= 28, "{}: {examples:#?}", examples.len());
-    assert_eq!(jobs, 1);
+    assert_eq!(jobs, 2);
     let mut skipped = Vec::new();
     let given: Vec<_> = contents(here.path()).into_keys().collect();
     for example in &examples {

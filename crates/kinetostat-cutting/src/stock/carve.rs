@@ -137,7 +137,9 @@ impl Stock {
             let height = sweep.height(profile, &seen, reach).max(0.0) as f32;
             let column = &mut columns[index];
             let lowered = column.top - height;
-            if lowered > skin || depth > column.rise {
+            // Beside the stock, the outline stands below a tool that passes above the bottom.
+            let beside = column.top <= 0.0 && height > skin;
+            if !beside && (lowered > skin || depth > column.rise) {
                 column.rise = depth;
             }
             if lowered <= 0.0 {

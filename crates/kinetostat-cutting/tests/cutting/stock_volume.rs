@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use kinetostat_cutting::{Probe, Shape, Stock, Tool};
+use kinetostat_cutting::{Probe, Shape, Stock, StockSettings, Tool};
 
 use crate::stock_support::{block, circle, flat};
 
@@ -156,4 +156,33 @@ fn below_the_bottom_there_is_nothing_to_remove() {
         .cut(&mut stock, [5.0, 5.0, 9.0], [5.0, 5.0, -3.0])
         .unwrap();
     assert_eq!(stock.volume_mm3(), 0.0);
+}
+
+/// A pass along an edge takes width, depth and length, wherever the edge lies between the points; so does the pass below it.
+#[test]
+fn passes_along_an_edge_leave_the_edge_below_where_it_is() {
+    let tool = Tool::new(Shape::Flat, 6.0, 2).unwrap();
+    let mut compared = 0;
+    for cell in [0.15, 0.23, 0.3, 0.31, 0.37, 0.4] {
+        let settings = StockSettings::with_cell_mm(cell).unwrap();
+        let mut stock = Stock::block([-30.0, -20.0, -20.0], [30.0, 20.0, 0.0], &settings).unwrap();
+        let mut probe = Probe::new(&tool);
+        let mut before = stock.volume_mm3();
+        for z in [-3.0, -7.0] {
+            probe
+                .cut(&mut stock, [-45.0, 21.0, z], [45.0, 21.0, z])
+                .unwrap();
+            let after = stock.volume_mm3();
+            let depth = if z == -3.0 { 3.0 } else { 4.0 };
+            let exact = 2.0 * depth * 60.0;
+            assert!(
+                (before - after - exact).abs() < 0.01 * exact,
+                "cell {cell}, z {z}: {} instead of {exact}",
+                before - after
+            );
+            before = after;
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 12);
 }

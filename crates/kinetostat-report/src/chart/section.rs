@@ -181,7 +181,7 @@ impl Section {
             at += 56.0 + text::width(&self.grey_label, TEXT_SIZE);
         }
         let named = self.lines.iter().filter(|line| !line.name.is_empty());
-        let entries: Vec<(&str, String)> = named.map(|l| (way(l), l.name.clone())).collect();
+        let entries: Vec<(&str, String)> = named.map(|l| (key(l), l.name.clone())).collect();
         if !entries.is_empty() {
             return 1.0 + legend(svg, &entries, (at, top + 4.0), SIZE.0 - 18.0);
         }
@@ -200,7 +200,12 @@ impl Section {
             let pixels: Vec<_> = line.points.iter().map(pixel).collect();
             let data = path_data(&first_time(&pixels));
             // Light below dark: one of them is seen on every colour.
-            ways.path("way-ground", &data);
+            let ground = if line.dashed {
+                "way-ground dashed"
+            } else {
+                "way-ground"
+            };
+            ways.path(ground, &data);
             ways.path(way(line), &data);
         }
         svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
@@ -253,6 +258,14 @@ fn way(line: &PlotLine) -> &'static str {
     match line.dashed {
         true => "way dashed",
         false => "way",
+    }
+}
+
+/// Class of its sample beside its name, which stands on the card's own ground.
+fn key(line: &PlotLine) -> &'static str {
+    match line.dashed {
+        true => "feed dashed",
+        false => "feed",
     }
 }
 

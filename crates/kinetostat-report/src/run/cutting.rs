@@ -105,7 +105,7 @@ fn force(cutting: &CuttingResult, along: &Along, most_marks: usize) -> Option<Pa
             at(&largest, largest.force_n(), "N")
         ),
         "force, N",
-        vec![("line strong", values)],
+        vec![strong(values)],
     )?;
     panel.span = panel.span.including((1.0 + share) * largest.force_n());
     panel.span = panel.span.padded(0.0, 0.2);
@@ -117,14 +117,17 @@ fn force(cutting: &CuttingResult, along: &Along, most_marks: usize) -> Option<Pa
 }
 
 fn parts(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
-    let of = |figure: fn(&CutPlace) -> f64| along.values(&cutting.places, |p| Some(figure(p)));
+    let of = |k: usize, figure: fn(&CutPlace) -> f64| Series {
+        class: PARTS[k].0,
+        values: along.values(&cutting.places, |p| Some(figure(p))),
+    };
     let panel = panel(
         "Parts of the force".to_owned(),
         "force, N",
         vec![
-            (PARTS[0].0, of(|p| p.force_along_feed_n)),
-            (PARTS[1].0, of(|p| p.force_left_n)),
-            (PARTS[2].0, of(|p| p.force_up_n)),
+            of(0, |p| p.force_along_feed_n),
+            of(1, |p| p.force_left_n),
+            of(2, |p| p.force_up_n),
         ],
     )?;
     Some(Panel {
@@ -140,7 +143,7 @@ fn depth(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
         "Depth in the material: up to {}",
         at(deepest, deepest.depth_mm, "mm")
     );
-    let panel = panel(title, "depth, mm", vec![("line strong", values)])?;
+    let panel = panel(title, "depth, mm", vec![strong(values)])?;
     Some(Panel {
         span: panel.span.padded(0.0, 0.12),
         ..panel
@@ -154,7 +157,7 @@ fn arc(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
         "Arc in the material (180 deg is a slot): up to {}",
         at(longest, longest.arc_deg, "deg")
     );
-    let panel = panel(title, "arc, deg", vec![("line strong", values)])?;
+    let panel = panel(title, "arc, deg", vec![strong(values)])?;
     Some(Panel {
         span: panel.span.padded(0.0, 0.12),
         ..panel
@@ -182,7 +185,7 @@ fn torque(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
         at(&largest, largest.torque_n_m, "N m"),
         with_unit(power.power_w, "W")
     );
-    let mut panel = panel(title, "torque, N m", vec![("line strong", values)])?;
+    let mut panel = panel(title, "torque, N m", vec![strong(values)])?;
     let limits = || cutting.places.iter().filter_map(|p| p.spindle_torque_n_m);
     let highest = limits().reduce(kinetostat::number::larger);
     let lowest = limits().reduce(kinetostat::number::smaller);
@@ -206,13 +209,17 @@ fn torque(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
     Some(panel)
 }
 
+/// The one line of a panel.
+fn strong(values: Vec<Option<(f64, f64)>>) -> Series {
+    Series {
+        class: "line strong",
+        values,
+    }
+}
+
 /// A panel of lines from zero; none if nothing can be drawn.
-fn panel(
-    title: String,
-    y_label: &str,
-    lines: Vec<(&'static str, Vec<Option<(f64, f64)>>)>,
-) -> Option<Panel> {
-    let all = lines.iter().flat_map(|(_, values)| values.iter().flatten());
+fn panel(title: String, y_label: &str, series: Vec<Series>) -> Option<Panel> {
+    let all = series.iter().flat_map(|line| line.values.iter().flatten());
     let span = Span::of(all.map(|(_, y)| *y))?;
     Some(Panel {
         title,
@@ -220,10 +227,7 @@ fn panel(
         span: span.including(0.0).widened(),
         ticks: None,
         areas: Vec::new(),
-        series: lines
-            .into_iter()
-            .map(|(class, values)| Series { class, values })
-            .collect(),
+        series,
         limits: Vec::new(),
         marks: Vec::new(),
     })

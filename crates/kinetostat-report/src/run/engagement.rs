@@ -10,6 +10,9 @@ use crate::svg::{Anchor, Svg};
 /// Width of the picture, that of a section, pixels.
 const WIDTH: f64 = 760.0;
 
+/// Style of bands.
+const AREA: &str = include_str!("../template/area.css");
+
 /// Room around the charts, pixels.
 const MARGIN: f64 = 16.0;
 
@@ -42,6 +45,6 @@ pub(crate) fn draw(cutting: &CuttingResult, map: Option<&Section>, title: &str) 
     card.rectangle("card", (0.5, 0.5), (WIDTH - 1.0, height - 1.0), 10.0);
     svg.below(down, &card);
     svg.below(down, &lower);
-    let style = format!("{}{}", Plot::style(), Section::style());
+    let style = [Plot::style(), Section::style(), AREA].concat();
     svg.document((WIDTH, down + height), title, &style)
 }

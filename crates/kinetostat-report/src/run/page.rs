@@ -14,6 +14,7 @@ const PAGE: &str = "report.html";
 const STYLE: &str = concat!(
     include_str!("../template/palette.css"),
     include_str!("../template/plot.css"),
+    include_str!("../template/area.css"),
     include_str!("../template/page.css")
 );
 
