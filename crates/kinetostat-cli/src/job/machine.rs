@@ -83,8 +83,8 @@ pub(crate) fn machine_setup(
     let mechanism = model.mechanism.with_tool(&tool);
     let placement = placement(job, flags, &mechanism)?;
     let load = load(job, job.map(|j| &j.job.load), flags)?;
-    let cut = cut_setup(files, job, flags, &placement)?;
     let measured = measured_setup(files, job, flags, &placement)?;
+    let cut = cut_setup(files, job, flags, &placement)?;
     let of_cut = cut.iter().map(|cut| &cut.files);
     let read: Vec<&FilesOfCut> = of_cut
         .chain(measured.iter().map(|measured| &measured.files))

@@ -60,6 +60,7 @@ impl LoggedBy {
 /// let (force_n, moment_n_m) = log.at(0.002).unwrap();
 /// assert_eq!((force_n, moment_n_m), ([3.0, 2.0, 0.0], [0.0; 3]));
 /// assert_eq!(log.at(0.004), None);
+/// assert_eq!(log.rows_between(0.0005, 0.002), [0.001]);
 ///
 /// let forces = [vec![1.0, 3.0, 3.0], vec![0.0, 0.0, 4.0], vec![0.0; 3]];
 /// let same = ForceLog::new(LoggedBy::Time, vec![0.0, 0.001, 0.003], forces, None)?;
@@ -149,6 +150,14 @@ impl ForceLog {
     pub fn spacing(&self) -> f64 {
         let [from, to] = self.range();
         (to - from) / (self.rows() - 1) as f64
+    }
+
+    /// Times or lengths of the rows from one place to another, s or mm: between them the log is straight.
+    #[must_use]
+    pub fn rows_between(&self, from: f64, to: f64) -> &[f64] {
+        let first = self.at.partition_point(|at| *at < from);
+        let end = self.at.partition_point(|at| *at <= to);
+        self.at.get(first..end).unwrap_or_default()
     }
 
     /// Force (N) and moment (N m; zero without columns of moments) at a time or length, on straight lines between the rows;

@@ -70,6 +70,7 @@ pub fn match_shift(log: &ForceLog, expected: &Activity) -> Result<ShiftMatch> {
     let best = shifts.best();
     let next = shifts.next(best, RIPPLE);
     let next = next.map(|i| [shifts.shift(i), shifts.correlation[i]]);
+    let next = next.filter(|[_, also]| *also > 0.0);
     let (shift_s, found) = refined(&correlation, shifts.shift(best), shifts.step, rows);
     if !found.is_finite() || found < LEAST_CORRELATION {
         return refuse(

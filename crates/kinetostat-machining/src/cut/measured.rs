@@ -30,7 +30,7 @@ pub enum ExpectedForce<'a> {
 ///
 /// ```
 /// use kinetostat_cutting::{ForceLog, LoggedBy};
-/// use kinetostat_machining::{ActsOn, ExpectedForce, MeasuredAxes, MeasuredForces, Unwatched};
+/// use kinetostat_machining::{ActsOn, ExpectedForce, ForceOrigin, MeasuredAxes, MeasuredForces, Unwatched};
 /// use kinetostat_program::{Program, ReadOptions, interpret};
 ///
 /// // Two cuts of 4 and 2 s with a rapid of 1 s between them; a log that begins 1.5 s before the first.
@@ -47,6 +47,7 @@ pub enum ExpectedForce<'a> {
 /// let forces = measured.along(&path, ExpectedForce::InFeedMoves, &Unwatched)?;
 /// let report = forces.measured.as_ref().unwrap();
 /// assert!((report.shift_s.unwrap() - 1.5).abs() < 0.01);
+/// assert_eq!(forces.origin(), ForceOrigin::Measured);
 /// assert!(report.gap().is_none() && report.sentences()[0].starts_with("measured: 1000 rows"));
 /// // On the tool it acts along +y of the part: to the left of the feed on the way out, to the right on the way back.
 /// assert!((forces.wrench(1, 0.5).force().y - 30.0).abs() < 1e-9);
@@ -132,7 +133,7 @@ impl MeasuredForces {
             shift,
             axes: self.axes,
             acts_on: self.acts_on,
-            step: step(&done.log, window, &clock),
+            step: step(window, &clock),
         };
         let mut moves = Vec::with_capacity(path.moves.len());
         let mut in_part = Vec::new();

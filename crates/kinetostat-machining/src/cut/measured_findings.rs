@@ -77,7 +77,7 @@ fn not_measured(laid: &Laid<'_>, motion: &Move, i: usize, findings: &mut Finding
 
 /// The largest force between two places of the log, N.
 fn largest_in(laid: &Laid<'_>, [from, to]: [f64; 2]) -> f64 {
-    let pieces = ((to - from) / laid.step).ceil().clamp(1.0, 1e5) as usize;
-    let at = |i: usize| from + (to - from) * i as f64 / pieces as f64;
-    (0..=pieces).map(|i| laid.size(at(i))).fold(0.0, larger)
+    let rows = laid.log.rows_between(from, to).iter().copied();
+    let places = rows.chain([from, to]);
+    places.map(|at| laid.size(at)).fold(0.0, larger)
 }

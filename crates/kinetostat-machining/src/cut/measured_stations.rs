@@ -1,16 +1,24 @@
 //! Measured forces at stations along the moves of a program.
 
 use kinetostat::Wrench;
+use kinetostat::number::larger;
 use kinetostat_cutting::ForceLog;
-use kinetostat_program::{Move, Path};
+use kinetostat_program::{Curve, Move, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::clock::{Clock, cuts};
 use crate::cut::measured_report::{ActsOn, MeasuredAxes};
 use crate::cut::station::{ACROSS, CutStation};
 
-/// Most stations of a program.
+/// Most stations of a program, but for the ends of moves and for arcs.
 const MOST_STATIONS: f64 = 500_000.0;
+
+/// On an arc a force in axes of the part turns against the feed from station to station by at most this, rad: on straight lines
+/// between them it is off by 0.03 %.
+const MOST_TURN: f64 = 0.05;
+
+/// Most stations that an arc has for that.
+const MOST_ON_AN_ARC: f64 = 10_000.0;
 
 /// A log laid along a program.
 pub(crate) struct Laid<'a> {
@@ -20,15 +28,14 @@ pub(crate) struct Laid<'a> {
     pub shift: f64,
     pub axes: MeasuredAxes,
     pub acts_on: ActsOn,
-    /// Distance of stations, s or mm.
+    /// Least distance of stations, s or mm.
     pub step: f64,
 }
 
-/// Distance of stations: four in a window of the mean, none closer than the rows, and not too many of them.
-pub(crate) fn step(log: &ForceLog, window: f64, clock: &Clock) -> f64 {
+/// Least distance of stations: four in a window of the mean, and not too many of them.
+pub(crate) fn step(window: f64, clock: &Clock) -> f64 {
     let all: f64 = clock.spans.iter().map(|[from, to]| to - from).sum();
-    let steps = [0.25 * window, log.spacing(), all / MOST_STATIONS];
-    steps.into_iter().fold(0.0, kinetostat::number::larger)
+    larger(0.25 * window, all / MOST_STATIONS)
 }
 
 impl Laid<'_> {
@@ -83,15 +90,7 @@ impl Laid<'_> {
                     add(0.0, None);
                     add(share(first), None);
                 }
-                let pieces = ((last - first) / self.step)
-                    .ceil()
-                    .clamp(1.0, MOST_STATIONS) as usize;
-                for i in 0..=pieces {
-                    // The last is not behind the end of the log by rounding.
-                    let at = match i == pieces {
-                        true => last,
-                        false => first + (last - first) * i as f64 / pieces as f64,
-                    };
+                for at in self.places(motion, [first, last], to - from) {
                     add(share(at), Some(self.on_the_tool(at)));
                 }
                 if last < to {
@@ -101,6 +100,30 @@ impl Laid<'_> {
             }
         }
         all
+    }
+
+    /// Places of stations from one place of the log to another, on a move that takes `whole`: rows of the log, as between them
+    /// it is straight, none closer than the step; more of them on an arc.
+    fn places(&self, motion: &Move, [first, last]: [f64; 2], whole: f64) -> Vec<f64> {
+        let mut places = vec![first];
+        let mut before = first;
+        let rows = self.log.rows_between(first, last).iter().copied();
+        for at in rows.filter(|at| last - at >= self.step).chain([last]) {
+            if at <= before || (at - before < self.step && at < last) {
+                continue;
+            }
+            let turn = match (motion.curve, self.axes) {
+                (Curve::Arc(arc), MeasuredAxes::Part) => arc.sweep.abs() * (at - before) / whole,
+                _ => 0.0,
+            };
+            let pieces = (turn / MOST_TURN).ceil().clamp(1.0, MOST_ON_AN_ARC) as usize;
+            for i in 1..pieces {
+                places.push(before + (at - before) * i as f64 / pieces as f64);
+            }
+            places.push(at);
+            before = at;
+        }
+        places
     }
 
     /// What acts on the tool at a place of the log, in its axes.

@@ -212,6 +212,37 @@ fn a_constant_force_along_the_path() {
     assert!(worst.value() < 1e-9, "{worst:?}");
 }
 
+/// A log of few rows: every one of them is a kink of the force, at its place.
+#[test]
+fn rows_of_a_sparse_log_stay_where_they_are() {
+    let path = path("G21 G90\nS6000 M3\nG0 X0 Y0 Z0\nG1 X100 F600\n");
+    let rows = [
+        [0.0, 0.0],
+        [24.0, 0.0],
+        [25.0, 40.0],
+        [70.0, 30.0],
+        [71.0, 0.0],
+        [100.0, 0.0],
+    ];
+    let of = |axis: usize| rows.iter().map(|row| row[axis]).collect::<Vec<f64>>();
+    let zero = vec![0.0; rows.len()];
+    let forces = [of(1), zero.clone(), zero];
+    let log = ForceLog::new(LoggedBy::AlongPath, of(0), forces, None).unwrap();
+    let mut measured = MeasuredForces::new(log, ActsOn::Tool);
+    measured.smooth = Some(0.0);
+    let forces = along(&measured, &path);
+    let mut worst = Worst::new();
+    for x in 0..=1000 {
+        let x = 0.1 * f64::from(x);
+        let mut pieces = rows.windows(2);
+        let piece = pieces.find(|p| x <= p[1][0]).unwrap();
+        let part = (x - piece[0][0]) / (piece[1][0] - piece[0][0]);
+        let truth = piece[0][1] + part * (piece[1][1] - piece[0][1]);
+        worst.add(forces.wrench(1, x / 100.0).force().x - truth);
+    }
+    assert!(worst.value() < 1e-9, "{worst:?}");
+}
+
 /// Short logs name the lines that they do not cover.
 #[test]
 fn what_is_not_covered_has_no_force_and_is_named() {
