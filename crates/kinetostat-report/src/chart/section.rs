@@ -218,7 +218,9 @@ impl Section {
             ways.path(ground, &data);
             ways.path(way(line), &data);
         }
-        svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+        if !self.lines.is_empty() {
+            svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+        }
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
             names.mark(*at, 6.0);
