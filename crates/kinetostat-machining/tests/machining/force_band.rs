@@ -107,7 +107,7 @@ fn one_spring_gives_way_by_the_spread() {
         *place.expect("a place")
     };
     let forces = [of_line(4).force_left_n, of_line(5).force_along_feed_n];
-    assert!(forces.iter().all(|force| force.abs() > 10.0), "{forces:?}");
+    assert!(forces.iter().all(|force| force.abs() > 5.0), "{forces:?}");
     let slack = 1e-3;
     let mut compared = [0; 2];
     for point in &run.points {
@@ -193,7 +193,7 @@ fn a_long_program_keeps_its_extremes() {
     let result = cutting_result(&forces, &path);
     assert!(all.len() > 2 * count as usize, "{}", all.len());
     assert!(result.places.len() <= kinetostat_machining::CuttingResult::MAX_PLACES);
-    assert!(result.places.len() > 500);
+    assert!(result.places.len() > 400);
     let largest = result.largest_force.expect("a force");
     assert_eq!(largest.line, 4 + 4321);
     assert_eq!(result.worst_lines[0].line, 4 + 4321);
