@@ -180,8 +180,8 @@ const FIGURES: [fn(&CutPlace) -> f64; 4] = [
     |p| p.arc_deg,
 ];
 
-/// Places of a stretch: its ends of rapids count once, and its first place.
-const PER_STRETCH: usize = 2 * FIGURES.len() + 2;
+/// Places of a stretch: its first and last one, the last end of a rapid, and the largest and smallest of the figures.
+const PER_STRETCH: usize = 2 * FIGURES.len() + 3;
 
 /// The envelope of the figures over stretches of as many places each.
 struct Kept {
@@ -213,7 +213,7 @@ impl Kept {
 
     fn close(&mut self) {
         let feed = |p: &CutPlace| p.kind != PointKind::Rapid;
-        let mut keep = vec![0];
+        let mut keep = vec![0, self.open.len() - 1];
         keep.extend(self.open.iter().rposition(|p| !feed(p)));
         for figure in FIGURES {
             let places = || self.open.iter().enumerate().filter(|(_, p)| feed(p));

@@ -402,8 +402,7 @@ pub(crate) fn legend(
 ) -> f64 {
     let (mut x, mut y) = from;
     for (class, name) in entries {
-        // Some fonts are wider than the one that was measured.
-        let width = 30.0 + 1.06 * text::width(name, TEXT_SIZE);
+        let width = 30.0 + text::width(name, TEXT_SIZE);
         if x > from.0 && x + width > right {
             x = from.0;
             y += 19.0;

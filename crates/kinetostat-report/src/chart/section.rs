@@ -22,6 +22,9 @@ const STYLE: &str = concat!(
     include_str!("../template/section.css")
 );
 
+/// Style of grey cells and of lines over the cells.
+const OVER: &str = include_str!("../template/map.css");
+
 /// Colours of the style sheet, from low to high.
 const COLOURS: usize = 11;
 /// A span of more than this ratio is divided by ratios.
@@ -75,12 +78,19 @@ impl Section {
     /// The section as an SVG document with its own style; one unit is as long on both axes.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.draw(SIZE.1).document(SIZE, &self.title, STYLE)
+        let style = match self.lines.is_empty() && self.grey_label.is_empty() {
+            true => STYLE.to_owned(),
+            false => [STYLE, OVER].concat(),
+        };
+        self.draw(SIZE.1).document(SIZE, &self.title, &style)
     }
 
     /// What its cells and lines need beside the style of plots.
     pub(crate) fn style() -> &'static str {
-        include_str!("../template/section.css")
+        concat!(
+            include_str!("../template/section.css"),
+            include_str!("../template/map.css")
+        )
     }
 
     /// The section as high as it needs to be for its shape, with its size.
@@ -208,7 +218,9 @@ impl Section {
             ways.path(ground, &data);
             ways.path(way(line), &data);
         }
-        svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+        if !self.lines.is_empty() {
+            svg.window((frame.x, frame.y), (frame.width, frame.height), &ways);
+        }
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
             names.mark(*at, 6.0);

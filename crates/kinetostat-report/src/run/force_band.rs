@@ -57,13 +57,7 @@ fn seen(result: &Shown<'_>) -> Option<f64> {
 pub(crate) fn name(result: &Shown<'_>) -> Option<(&'static str, String)> {
     let band = result.force_band.as_ref()?;
     seen(result)?;
-    Some((
-        "area",
-        format!(
-            "if the force of the cut is {} larger or smaller",
-            spread(band)
-        ),
-    ))
+    Some(("area", format!("force {} larger or smaller", spread(band))))
 }
 
 /// The band around the error of a program that is only analysed.
