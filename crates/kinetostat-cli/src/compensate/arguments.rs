@@ -85,8 +85,18 @@ A job file:
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
   # or force_n = [0, 0, -200], moment_n_m = [0, 0, 1], axes = "base"
-  # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2, largest_step_mm_per_mm = 0.5
+  # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2
+  # largest_step_mm_per_mm = 0.5   # of the correction, outside sharp corners
   # at_corners = "turns"           # or "follows_feed"
+
+  # [material]                     # instead of [load]: the force of the cut
+  # name = "AlMg4.5Mn"             # `kinetostat force --list-materials`
+  # [cutters]                      # or cutter = { ... } under [tool]
+  # file = "tools.toml"
+  # [stock]                        # or [engagement] width_mm, depth_mm, part
+  # block_mm = [[0, 0, -10], [90, 60, 0]]
+  # [spindle]                      # rpm, rotation, force = "mean"
+  # power_w = 800, base_rpm = 10000, most_rpm = 24000
 
   # [measured]                     # instead of [load]: a log of the forces
   # file = "log.csv"               # time_s or along_mm, fx_n, fy_n, fz_n

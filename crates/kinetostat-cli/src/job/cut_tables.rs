@@ -5,6 +5,8 @@ use kinetostat_machining::{ActsOn, ForceChoice, MeasuredAxes};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
+use crate::job::format::UnitsWord;
+
 /// What is cut: `[material]`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,6 +29,18 @@ pub(crate) struct MaterialTable {
     /// How the cut is cooled.
     #[serde(default)]
     pub coolant: Coolant,
+}
+
+/// Cutters of the tools that the program calls, from tables: `[cutters]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CuttersTable {
+    /// A table of tools in TOML, with `[[tool]]`.
+    pub file: Spanned<String>,
+    /// A `tool.tbl` of LinuxCNC, which gives diameters that the table leaves out.
+    pub tool_tbl: Option<Spanned<String>>,
+    /// Its unit; mm without it.
+    pub tool_tbl_unit: Option<UnitsWord>,
 }
 
 /// The stock before the program: `[stock]`. One of block, cylinder, stl, height_map.

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_spanned::Spanned;
 
 use crate::job::cut_tables::{
-    EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
+    CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::source::Source;
 use crate::ui::failure::Failure;
@@ -41,6 +41,8 @@ pub(crate) struct Job {
     pub load: LoadTable,
     /// What is cut: the load is computed from the cut.
     pub material: Option<Spanned<MaterialTable>>,
+    /// Tables of the cutters.
+    pub cutters: Option<Spanned<CuttersTable>>,
     /// The stock before the program.
     pub stock: Option<Spanned<StockTable>>,
     /// Where the tool is in the material, without a stock.

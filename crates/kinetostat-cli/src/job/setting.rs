@@ -76,7 +76,8 @@ pub(crate) fn setting(
     })
 }
 
-fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<PathBuf> {
+/// The program's file, of the command line or of the job.
+pub(crate) fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<PathBuf> {
     match (&flags.program, job.and_then(|j| j.job.program.as_ref())) {
         (Some(path), _) => Ok(path.clone()),
         (None, Some(written)) => Ok(job

@@ -274,6 +274,61 @@ fn files_of_the_cut_are_inputs() {
     );
 }
 
+/// Cutters from a table of tools are those that the job would state, with what `tool.tbl` adds; a tool of which nothing is known
+/// is named where it cuts, and tools that the program does not call do not matter.
+#[test]
+fn cutters_from_a_table() {
+    let program = PASS.replace("S12000", "T3 M6\nS12000");
+    let with = |job: &str, table: &str| {
+        let here = place(job, &program);
+        std::fs::write(here.path().join("tools.toml"), table).unwrap();
+        std::fs::write(
+            here.path().join("tool.tbl"),
+            "T3 P1 D6 Z50 ;end mill\nT4 P2 D1\n",
+        )
+        .unwrap();
+        let said = run(here.path(), &["compensate", "job.toml"]);
+        (here, said)
+    };
+    let stated = "cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 }\n";
+    let (own, said) = with(JOB, "");
+    said.answered();
+    let cutters = "[cutters]\nfile = \"tools.toml\"\ntool_tbl = \"tool.tbl\"\n[material]";
+    let job = JOB.replace(stated, "").replace("[material]", cutters);
+    let fine = "[[tool]]\nnumber = 9\nshape = \"ball\"\ndiameter_mm = 0.2\nteeth = 2\n";
+    let table =
+        format!("{fine}[[tool]]\nnumber = 3\nshape = \"flat\"\nteeth = 2\nhelix_deg = 30\n");
+    let (tabled, said) = with(&job, &table);
+    said.answered();
+    let read = |here: &Path| std::fs::read(here.join("out.ngc")).unwrap();
+    assert_eq!(read(own.path()), read(tabled.path()));
+    let result = std::fs::read_to_string(tabled.path().join("result.json")).unwrap();
+    assert!(
+        result.contains("tools.toml") && result.contains("tool.tbl"),
+        "their hashes are in the result"
+    );
+    // A rake angle of the table has its factor.
+    let (raked, said) = with(
+        &job,
+        &table.replace("helix_deg = 30", "helix_deg = 30\nrake_deg = 12"),
+    );
+    let said = said.answered();
+    assert!(said.out.contains("tool 3: factor K_gamma"), "{}", said.out);
+    assert_ne!(read(own.path()), read(raked.path()));
+    // Nothing is known of tool 3.
+    let other = table.replace("number = 3", "number = 5");
+    let (_, said) = with(&job.replace("tool_tbl = \"tool.tbl\"\n", ""), &other);
+    assert_eq!(said.code, 1, "{said:?}");
+    let (_, said) = with(
+        &format!(
+            "{}\n",
+            job.replace("[tool]\n", &format!("[tool]\n{stated}"))
+        ),
+        &other,
+    );
+    said.answered();
+}
+
 /// A cylinder as long across as its diameter.
 #[test]
 fn a_cylinder_has_its_radius() {

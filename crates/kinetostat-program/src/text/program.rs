@@ -1,5 +1,6 @@
 //! A program as it was written: every byte, divided into lines and words.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
@@ -96,6 +97,26 @@ impl Program {
 
     pub(crate) fn lines(&self) -> &[Line] {
         &self.lines
+    }
+
+    /// Numbers of all T words, whether their blocks are run or not.
+    ///
+    /// ```
+    /// use kinetostat_program::Program;
+    ///
+    /// let program = Program::read("T3 M6\nG1 X1 (T9)\nT1\n")?;
+    /// assert_eq!(program.tool_numbers().into_iter().collect::<Vec<_>>(), [1, 3]);
+    /// # Ok::<(), kinetostat_program::ProgramError>(())
+    /// ```
+    #[must_use]
+    pub fn tool_numbers(&self) -> BTreeSet<u32> {
+        let words = self.lines().iter().flat_map(|line| self.words(line));
+        let called = words.filter(|word| word.letter == b'T');
+        let whole = |value: f64| value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0;
+        called
+            .filter(|word| whole(word.value))
+            .map(|word| word.value as u32)
+            .collect()
     }
 
     pub(crate) fn words(&self, line: &Line) -> &[Word] {

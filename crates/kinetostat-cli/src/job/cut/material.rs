@@ -1,8 +1,7 @@
 //! The material of a job.
 
-use std::sync::Arc;
-
-use kinetostat_cutting::{Applied, Correction, Materials};
+use kinetostat_cutting::{Applied, Correction, Material, Materials};
+use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::cut::files_of_cut::FilesOfCut;
@@ -11,10 +10,38 @@ use crate::job::cut_tables::MaterialTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
-/// The law of the material with its factors, and what was assumed.
+/// The material, how it is cut, and what was assumed.
 pub(super) struct MaterialSetup {
-    pub(super) applied: Arc<Applied>,
+    material: Material,
+    correction: Correction,
+    name: Spanned<String>,
     pub(super) words: Vec<String>,
+}
+
+impl MaterialSetup {
+    /// Its law with the factors for a tool: the rake of its edges, where the job states none for all.
+    pub(super) fn for_tool(
+        &self,
+        job: &JobFile,
+        number: Option<u32>,
+        rake_deg: Option<f64>,
+        words: &mut Vec<String>,
+    ) -> Answer<Applied> {
+        let own = self.correction.rake_deg.is_none() && rake_deg.is_some();
+        let correction = Correction {
+            rake_deg: self.correction.rake_deg.or(rake_deg),
+            ..self.correction.clone()
+        };
+        let applied = self.material.for_milling(&correction);
+        let applied = applied.map_err(|error| refused(job, &self.name, &error))?;
+        if own {
+            let tool = number.map_or_else(|| "the tool".to_owned(), |n| format!("tool {n}"));
+            let all = applied.factors.iter();
+            let of_rake = all.filter(|factor| factor.symbol == "K_gamma");
+            words.extend(of_rake.map(|factor| format!("{tool}: factor {factor}")));
+        }
+        Ok(applied)
+    }
 }
 
 pub(super) fn material(
@@ -53,7 +80,9 @@ pub(super) fn material(
         100.0 * applied.spread
     ));
     Ok(MaterialSetup {
-        applied: Arc::new(applied),
+        material: found.clone(),
+        correction,
+        name: table.name.clone(),
         words,
     })
 }

@@ -3,6 +3,7 @@
 //! Takes the tables; gives the question for [`kinetostat_machining::CutQuestion`] and what was assumed, in words.
 
 pub(crate) mod along;
+mod cutters;
 mod engagement;
 mod files_of_cut;
 mod material;

@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
-use kinetostat_cutting::{Engagement, SpindleCurve, Tool, ToolEntry, WrittenTool};
+use kinetostat_cutting::{Engagement, SpindleCurve, Tool};
 use kinetostat_machining::{CutQuestion, CuttingTool, Placement};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cut::cutters::cutters;
 use crate::job::cut::engagement::engagement;
 use crate::job::cut::files_of_cut::FilesOfCut;
-use crate::job::cut::material::{MaterialSetup, material};
+use crate::job::cut::material::material;
 use crate::job::cut::refused;
 use crate::job::cut::stock::stock;
 use crate::job::cut::twice::{MATERIAL, not_typed_too};
@@ -43,14 +44,15 @@ pub(crate) fn cut_setup(
     not_typed_too(j, flags, table, &MATERIAL)?;
     stands_along_the_part(j, table, placement)?;
     let mut read = FilesOfCut::default();
-    let MaterialSetup { applied, mut words } = material(files, j, table.get_ref(), &mut read)?;
+    let of_material = material(files, j, table.get_ref(), &mut read)?;
+    let mut words = of_material.words.clone();
     let mut tools = Vec::new();
-    let entries = cutters(j)?;
-    for (number, entry) in entries {
+    for (number, entry) in cutters(files, j, flags, &mut read)? {
+        let applied = of_material.for_tool(j, number, entry.rake_deg, &mut words)?;
         tools.push(CuttingTool {
             number,
             tool: entry.tool,
-            law: Arc::new(applied.law.clone()),
+            law: Arc::new(applied.law),
             spread: applied.spread,
             max_chip_mm: entry.max_chip_mm,
             flute_length_mm: entry.flute_length_mm,
@@ -64,7 +66,7 @@ pub(crate) fn cut_setup(
         return Err(j.error(
             table,
             "a material is named, and no tool has a cutter",
-            "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]])",
+            "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]]), or [cutters] file = \"tools.toml\"",
         ));
     };
     let (source, source_words) = where_it_cuts((files, &mut read), j, table, (smallest, largest))?;
@@ -144,30 +146,6 @@ fn no_material(j: &JobFile) -> Answer<()> {
         ));
     }
     Ok(())
-}
-
-/// The cutters of a job, by the numbers of the tools.
-fn cutters(j: &JobFile) -> Answer<Vec<(Option<u32>, ToolEntry)>> {
-    let file = j.path.display().to_string();
-    let read = |number: Option<u32>, cutter: &Spanned<WrittenTool>| {
-        if let Some((key, span)) = cutter.get_ref().key_of_a_table() {
-            return Err(j.error(
-                &Spanned::new(span, ()),
-                &format!("{key} is no part of a cutter in a job"),
-                "number and length_mm stand beside it, under [tool] or [[tools]]",
-            ));
-        }
-        let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
-        entry.map(|entry| (number, entry)).map_err(Failure::input)
-    };
-    let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
-    let numbered = j.job.tools.iter().filter_map(|tool| {
-        let tool = tool.get_ref();
-        tool.cutter
-            .as_ref()
-            .map(|cutter| read(Some(tool.number), cutter))
-    });
-    one.chain(numbered).collect()
 }
 
 fn where_it_cuts(

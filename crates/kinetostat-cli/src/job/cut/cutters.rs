@@ -1,0 +1,80 @@
+//! The cutters of a job: stated in it, or from tables of tools.
+
+use kinetostat_cutting::{LinuxCncTable, MachineUnit, ToolEntry, ToolTable, WrittenTool};
+use kinetostat_program::Program;
+use serde_spanned::Spanned;
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::ProgramArgs;
+use crate::job::cut::files_of_cut::FilesOfCut;
+use crate::job::cut_tables::CuttersTable;
+use crate::job::format::UnitsWord;
+use crate::job::job_file::JobFile;
+use crate::job::setting::program_path;
+use crate::ui::failure::{Answer, Failure};
+
+/// The number of a tool, and its edges; without a number it is that of all others.
+type Cutter = (Option<u32>, ToolEntry);
+
+/// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls.
+pub(super) fn cutters(
+    files: &InputFiles,
+    j: &JobFile,
+    flags: &ProgramArgs,
+    files_read: &mut FilesOfCut,
+) -> Answer<Vec<Cutter>> {
+    let file = j.path.display().to_string();
+    let read = |number: Option<u32>, cutter: &Spanned<WrittenTool>| {
+        if let Some((key, span)) = cutter.get_ref().key_of_a_table() {
+            return Err(j.error(
+                &Spanned::new(span, ()),
+                &format!("{key} is no part of a cutter in a job"),
+                "number and length_mm stand beside it, under [tool] or [[tools]]",
+            ));
+        }
+        let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
+        entry.map(|entry| (number, entry)).map_err(Failure::input)
+    };
+    let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
+    let numbered = j.job.tools.iter().filter_map(|tool| {
+        let tool = tool.get_ref();
+        tool.cutter
+            .as_ref()
+            .map(|cutter| read(Some(tool.number), cutter))
+    });
+    let mut all: Vec<Cutter> = one.chain(numbered).collect::<Answer<_>>()?;
+    if let Some(table) = &j.job.cutters {
+        let table = table_of(files, j, table.get_ref(), files_read)?;
+        let path = program_path(Some(j), flags)?;
+        let program = Program::read(files.bytes("program", &path)?).map_err(Failure::input)?;
+        for number in program.tool_numbers() {
+            let known = all.iter().any(|(own, _)| *own == Some(number));
+            // A tool that cuts and is not in the table is named with its line where it cuts.
+            if let (false, Ok(entry)) = (known, table.tool(number)) {
+                all.push((Some(number), entry.clone()));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// The table of tools, completed by that of the machine.
+fn table_of(
+    files: &InputFiles,
+    j: &JobFile,
+    table: &CuttersTable,
+    files_read: &mut FilesOfCut,
+) -> Answer<ToolTable> {
+    let (text, name) = files_read.text(files, j, "table of tools", table.file.get_ref())?;
+    let Some(machine) = &table.tool_tbl else {
+        return ToolTable::read(&name, &text).map_err(Failure::input);
+    };
+    let (bytes, of_machine) =
+        files_read.bytes(files, j, "table of the machine", machine.get_ref())?;
+    let unit = match table.tool_tbl_unit {
+        Some(UnitsWord::Inch) => MachineUnit::Inches,
+        Some(UnitsWord::Mm) | None => MachineUnit::Millimetres,
+    };
+    let machine = LinuxCncTable::read(&of_machine, &bytes, unit).map_err(Failure::input)?;
+    ToolTable::completing(&name, &text, machine).map_err(Failure::input)
+}
