@@ -112,7 +112,8 @@ impl Program {
     pub fn tool_numbers(&self) -> BTreeSet<u32> {
         let words = self.lines().iter().flat_map(|line| self.words(line));
         let called = words.filter(|word| word.letter == b'T');
-        let whole = |value: f64| value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0;
+        let whole =
+            |value: f64| value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0;
         called
             .filter(|word| whole(word.value))
             .map(|word| word.value as u32)

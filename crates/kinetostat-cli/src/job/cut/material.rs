@@ -30,7 +30,7 @@ impl MaterialSetup {
         let own = self.correction.rake_deg.is_none() && rake_deg.is_some();
         let correction = Correction {
             rake_deg: self.correction.rake_deg.or(rake_deg),
-            ..self.correction.clone()
+            ..self.correction
         };
         let applied = self.material.for_milling(&correction);
         let applied = applied.map_err(|error| refused(job, &self.name, &error))?;

@@ -18,7 +18,7 @@ use crate::job::cut::stock::stock;
 use crate::job::cut::twice::{MATERIAL, not_typed_too};
 use crate::job::cut_tables::{MaterialTable, SpindleTable};
 use crate::job::job_file::JobFile;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::Answer;
 
 /// The cuts of a job.
 pub(crate) struct CutSetup {
