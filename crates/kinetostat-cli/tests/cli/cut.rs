@@ -316,7 +316,7 @@ fn cutters_from_a_table() {
     assert!(said.out.contains("tool 3: factor K_gamma"), "{}", said.out);
     assert_ne!(read(own.path()), read(raked.path()));
     // Nothing is known of tool 3.
-    let other = table.replace("number = 3", "number = 5");
+    let other = table.replace("number = 3", "number = 5\ndiameter_mm = 6");
     let (_, said) = with(&job.replace("tool_tbl = \"tool.tbl\"\n", ""), &other);
     assert_eq!(said.code, 1, "{said:?}");
     let (_, said) = with(

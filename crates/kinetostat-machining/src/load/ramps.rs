@@ -15,7 +15,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::load::law::{CuttingLoad, ProgramLoad};
 use crate::load::runs::{begins, of_run, runs};
 use crate::profile::by_move::{ByMove, Profile};
-use crate::profile::limited::limited;
+use crate::profile::limited::{Begins, limited};
 use crate::profile::reduced::reduced;
 
 /// A change of the force inside a cut that is faster than the correction may follow, where that is worst.
@@ -181,7 +181,12 @@ impl Limit<'_, '_> {
             }
             let places = of_run(path, &run, |i| self.vertices(cut, i));
             let rate = self.rate(load);
-            let Some(found) = limited(&places, &rate, begins(path, run[0])) else {
+            // A force that is known to act where a rapid ends acts there at once.
+            let begins = match self.resolution_mm.is_finite() {
+                true => Begins::Anyhow,
+                false => begins(path, run[0]),
+            };
+            let Some(found) = limited(&places, &rate, begins) else {
                 continue;
             };
             for (place, value, length_mm) in found {

@@ -41,8 +41,10 @@ proptest! {
         for &(place, value, _) in places.iter().filter(|p| p.2) {
             // By how much two values that count are too far apart for the way between them, here half of it is left.
             let counting = || places.iter().filter(|p| p.2);
-            let low = counting().map(|p| p.1 - rate * (p.0 - place).abs()).fold(f64::MIN, f64::max);
-            let high = counting().map(|p| p.1 + rate * (p.0 - place).abs()).fold(f64::MAX, f64::min);
+            let bound = |p: &&(f64, f64, bool), sign: f64| p.1 + sign * rate * (p.0 - place).abs();
+            let low = counting().map(|p| bound(&p, -1.0)).reduce(|a, b| if b > a { b } else { a });
+            let high = counting().map(|p| bound(&p, 1.0)).reduce(|a, b| if b < a { b } else { a });
+            let (low, high) = (low.unwrap(), high.unwrap());
             let expected = if low > high { 0.5 * (low + high) } else { value };
             prop_assert!(at(&found, place).all(|v| (v - expected).abs() < 1e-9), "{place}: {expected}");
             prop_assert!(at(&found, place).count() > 0);
