@@ -17,6 +17,7 @@ mod curves_of_machines;
 mod curves_refused;
 mod curves_warned;
 mod cut;
+mod cut_end_to_end;
 mod demo;
 mod draw;
 mod figures;
