@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, builds, cargo, counts, root, step};
+use crate::{bench, builds, cargo, counts, cutting, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -73,13 +73,13 @@ impl Drop for Scratch {
 }
 
 /// What a finished command used.
-struct Used {
-    seconds: f64,
+pub struct Used {
+    pub seconds: f64,
     /// Largest resident memory, MB, where the system tells.
     memory_mb: Option<f64>,
-    success: bool,
-    stdout: String,
-    stderr: String,
+    pub success: bool,
+    pub stdout: String,
+    pub stderr: String,
 }
 
 fn program() -> PathBuf {
@@ -88,7 +88,7 @@ fn program() -> PathBuf {
     folder.join("release").join("kinetostat")
 }
 
-fn measure(folder: &Path, arguments: &[&str]) -> Result<Used> {
+pub fn measure(folder: &Path, arguments: &[&str]) -> Result<Used> {
     let start = Instant::now();
     let mut child = Command::new(program())
         .args(arguments)
@@ -138,15 +138,16 @@ fn measure(folder: &Path, arguments: &[&str]) -> Result<Used> {
 
 /// Measures everything and prints it.
 pub fn run(options: &[&str]) -> Result<()> {
-    let (mut json, mut quick, mut only_builds) = (false, false, false);
+    let (mut json, mut quick, mut only_builds, mut only_cutting) = (false, false, false, false);
     for option in options {
         match *option {
             "--json" => json = true,
             "--quick" => quick = true,
             "--builds" => only_builds = true,
-            other => {
-                bail!("figures: unknown option {other}; there are --json, --quick and --builds")
-            }
+            "--cutting" => only_cutting = true,
+            other => bail!(
+                "figures: unknown option {other}; there are --json, --quick, --builds and --cutting"
+            ),
         }
     }
     let mut figures = Vec::new();
@@ -158,11 +159,16 @@ pub fn run(options: &[&str]) -> Result<()> {
         "build",
         cargo().args(["build", "--release", "--quiet", "-p", "kinetostat-cli"]),
     )?;
+    if only_cutting {
+        cutting::measured(&mut figures)?;
+        return print(&figures, json);
+    }
     demo(&mut figures)?;
     pocket(&mut figures)?;
     maps(&mut figures)?;
     real_programs(&mut figures)?;
-    golden(&mut figures)?;
+    golden(&mut figures, &GOLDEN)?;
+    cutting::measured(&mut figures)?;
     cost_growth(&mut figures)?;
     speed(&mut figures)?;
     if !quick {
@@ -249,7 +255,7 @@ fn demo(figures: &mut Vec<Figure>) -> Result<()> {
 }
 
 /// Folder of real programs beside the project, where this checkout has one.
-fn data() -> Option<PathBuf> {
+pub fn data() -> Option<PathBuf> {
     let folder = root().join("../shared/data/gcode");
     folder.is_dir().then_some(folder)
 }
@@ -482,30 +488,22 @@ fn real_programs(figures: &mut Vec<Figure>) -> Result<()> {
     Ok(())
 }
 
+/// Crates whose tests print figures, but for that of the cut, which has figures of its own.
+const GOLDEN: [&str; 6] = [
+    "kinetostat",
+    "kinetostat-cli",
+    "kinetostat-model",
+    "kinetostat-reproduce",
+    "kinetostat-import",
+    "kinetostat-links",
+];
+
 /// Golden and property tests print `figure {json}` for every number that they reached.
-fn golden(figures: &mut Vec<Figure>) -> Result<()> {
+pub fn golden(figures: &mut Vec<Figure>, crates: &[&str]) -> Result<()> {
     let output = cargo()
-        .args([
-            "test",
-            "--release",
-            "--quiet",
-            "-p",
-            "kinetostat",
-            "-p",
-            "kinetostat-cli",
-            "-p",
-            "kinetostat-model",
-            "-p",
-            "kinetostat-reproduce",
-            "-p",
-            "kinetostat-import",
-            "-p",
-            "kinetostat-links",
-            "--",
-            "--nocapture",
-            "--test-threads=2",
-            "figure",
-        ])
+        .args(["test", "--release", "--quiet"])
+        .args(crates.iter().flat_map(|name| ["-p", *name]))
+        .args(["--", "--nocapture", "--test-threads=2", "figure"])
         .current_dir(root())
         .stderr(Stdio::inherit())
         .output()
@@ -560,7 +558,7 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
 }
 
 /// A program of a crate that prints tables, which go to stderr, and figures.
-fn tables(figures: &mut Vec<Figure>, program: &[&str]) -> Result<()> {
+pub fn tables(figures: &mut Vec<Figure>, program: &[&str]) -> Result<()> {
     let name = program.get(2).unwrap_or(&"");
     let output = cargo()
         .args(["run", "--release", "--quiet", "-p"])

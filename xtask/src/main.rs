@@ -4,6 +4,7 @@ mod bench;
 mod book;
 mod builds;
 mod counts;
+mod cutting;
 mod figures;
 mod fuzz;
 mod test;
@@ -23,6 +24,7 @@ Tasks of the project
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache
+  cargo xtask figures --cutting those of cutting forces and of the stock alone
   cargo xtask figures --builds  those of builds and tests from a clean clone alone: about half an hour
   cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
                                 repeats one

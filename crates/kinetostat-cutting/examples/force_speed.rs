@@ -1,4 +1,4 @@
-//! Time of one mean force, by kind of cut: `cargo run --release -p kinetostat-cutting --example force_speed`.
+//! Time of one mean force, by kind of cut, as `cargo xtask figures` reads it: `cargo run --release -p kinetostat-cutting --example force_speed`.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -7,8 +7,28 @@ use kinetostat_cutting::{
     Engagement, Feed, ForceLaw, Kienzle, Linear, MeanTable, Milling, Rotation, RunOut, Shape, Side,
     Tool,
 };
+use kinetostat_testing::figure::{at_most, computed_s};
 
-const REPEATS: u32 = 200_000;
+/// Calls between two looks at the clock.
+const BATCH: u32 = 1000;
+/// Shortest time of all, s: long against the steps in which a system counts time.
+const LEAST_S: f64 = 0.2;
+/// Largest time of one mean force, us.
+const MOST_US: f64 = 5.0;
+
+/// Time of one call, us.
+fn time_us(mut call: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    let (before, mut calls) = (computed_s(start), 0.0);
+    loop {
+        (0..BATCH).for_each(|_| call());
+        calls += f64::from(BATCH);
+        let used = computed_s(start) - before;
+        if used > LEAST_S {
+            return 1e6 * used / calls;
+        }
+    }
+}
 
 fn main() -> kinetostat_cutting::Result<()> {
     let linear = Linear::new([796.0, 168.0, 222.0], [27.7, 30.8, 1.4])?;
@@ -25,22 +45,18 @@ fn main() -> kinetostat_cutting::Result<()> {
                 .with_run_out(run_out)?;
             for (law_name, law) in laws {
                 let engagement = Engagement::straight(3.0, 2.0, 2.5, Side::Right)?;
-                let start = Instant::now();
-                for i in 0..REPEATS {
-                    let feed = Feed::level(0.05 + 1e-9 * f64::from(i))?;
+                let feed = Feed::level(0.05)?;
+                let us = time_us(|| {
+                    let feed = black_box(feed);
                     black_box(Milling::new(&tool, law, &engagement, feed).mean());
-                }
-                let us = 1e6 * start.elapsed().as_secs_f64() / f64::from(REPEATS);
+                });
                 let table = MeanTable::new(&tool, law, 0.05, Rotation::Clockwise)?;
-                let start = Instant::now();
-                for _ in 0..REPEATS {
+                let by_table = time_us(|| {
                     black_box(table.mean(black_box(&engagement)));
-                }
-                let by_table = 1e6 * start.elapsed().as_secs_f64() / f64::from(REPEATS);
-                #[allow(clippy::print_stdout)] // what the example is for
-                {
-                    println!("{name}, {law_name}{with}: {us:.2} us, by table {by_table:.3} us");
-                }
+                });
+                let case = format!("mean force, {name}, {law_name}{with}");
+                at_most(&format!("{case}: by quadrature"), us, MOST_US, "us");
+                at_most(&format!("{case}: by table"), by_table, MOST_US, "us");
             }
         }
     }

@@ -1,4 +1,5 @@
-//! Blocks per second of the stock: a pocket in small moves of random length.
+//! Memory of a stock, and its blocks per second: a pocket in small moves of random length. `cargo xtask figures` reads the
+//! memory.
 //!
 //! `cargo run --release -p kinetostat-cutting --example stock_speed`
 
@@ -7,6 +8,7 @@
 use std::time::Instant;
 
 use kinetostat_cutting::{Probe, Result, Shape, Stock, StockSettings, Tool};
+use kinetostat_testing::figure::{at_most, computed_s, peak_memory_mb};
 
 /// A spiral out from the middle of a pocket, `over` mm per turn, with moves of 0.3 to 1 mm.
 fn spiral(over: f64, widest: f64, z: f64) -> Vec<[f64; 3]> {
@@ -27,7 +29,24 @@ fn spiral(over: f64, widest: f64, z: f64) -> Vec<[f64; 3]> {
     places
 }
 
+/// A block of 500 mm with a pass across it, in cells of a twentieth of a tool of 6 mm.
+fn memory() -> Result<()> {
+    let tool = Tool::new(Shape::Flat, 6.0, 2)?;
+    let settings = StockSettings::for_tool(&tool);
+    let mut stock = Stock::block([0.0; 3], [500.0, 500.0, 20.0], &settings)?;
+    Probe::new(&tool).cut(&mut stock, [-9.0, 9.0, 15.0], [509.0, 480.0, 15.0])?;
+    let name = "stock of 500 x 500 mm, cells of 0.3 mm";
+    let own = 1e-6 * stock.memory_bytes() as f64;
+    at_most(&format!("{name}: its own memory"), own, 500.0, "MB");
+    if let Some(all) = peak_memory_mb() {
+        at_most(&format!("{name}: peak of the program"), all, 500.0, "MB");
+    }
+    Ok(())
+}
+
 fn main() -> Result<()> {
+    memory()?;
+    let start = Instant::now();
     let shapes = [
         (Shape::Flat, 3.0, 3.0),
         (Shape::Ball, 1.0, 1.0),
@@ -47,18 +66,18 @@ fn main() -> Result<()> {
             let mut probe = Probe::new(&tool);
             let places = spiral(over, 100.0, 10.0 - depth);
             let mut removing = stock.clone();
-            let started = Instant::now();
+            let before = computed_s(start);
             probe.cut_along(&mut removing, &places)?;
-            let cut = started.elapsed().as_secs_f64();
+            let cut = computed_s(start) - before;
             let (mut stations, mut met) = (0, 0);
-            let started = Instant::now();
+            let before = computed_s(start);
             for ends in places.windows(2) {
                 probe.walk(&mut stock, ends[0], ends[1], |_, engagement| {
                     stations += 1;
                     met += usize::from(!engagement.is_air());
                 })?;
             }
-            let both = started.elapsed().as_secs_f64();
+            let both = computed_s(start) - before;
             let blocks = places.len() as f64;
             println!(
                 "{shape:?}, {depth} mm deep, {over} mm over, cells of d/{divisor}: {:.0} blocks/s ({:.0} with removal alone), {stations} stations, {met} in contact",

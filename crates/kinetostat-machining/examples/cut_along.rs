@@ -1,19 +1,45 @@
-//! Time of the stock and the forces of a program: `cargo run --release -p kinetostat-machining --example cut_along PROGRAM`.
+//! Time of the stock and of the forces of a program, the first as `cargo xtask figures` reads it: `cargo run --release -p kinetostat-machining --example cut_along PROGRAM`.
 
 #![allow(clippy::print_stdout)] // what the example is for
 
 use std::sync::Arc;
 use std::time::Instant;
 
-use kinetostat_cutting::{Linear, Rotation, Shape, Stock, StockSettings, Tool};
+use kinetostat_cutting::{Linear, Probe, Rotation, Shape, Stock, StockSettings, Tool};
 use kinetostat_machining::{CutQuestion, CuttingTool, EngagementSource, ForceChoice, Unwatched};
-use kinetostat_program::{MoveKind, Program, ReadOptions, interpret};
+use kinetostat_program::{MoveKind, Path, Program, ReadOptions, interpret};
+use kinetostat_testing::figure::{at_least, computed_s};
 use nalgebra::Vector3;
+
+/// Blocks per second of the stock alone, on one core: where the tool meets it, and what it takes away.
+fn stock_alone(
+    name: &str,
+    path: &Path,
+    tool: &Tool,
+    mut stock: Stock,
+) -> kinetostat_cutting::Result<()> {
+    let mut probe = Probe::new(tool);
+    let (mut stations, mut met) = (0, 0);
+    let start = Instant::now();
+    let before = computed_s(start);
+    for m in path.moves.iter().filter(|m| m.has_length()) {
+        probe.walk(&mut stock, m.start.into(), m.end.into(), |_, engagement| {
+            stations += 1;
+            met += usize::from(!engagement.is_air());
+        })?;
+    }
+    let rate = path.moves.len() as f64 / (computed_s(start) - before);
+    println!("{stations} stations of the stock, {met} in contact");
+    let title = format!("stock along {name}, cells of D/20, one core: blocks per second");
+    at_least(&title, rate, 1e5, "1/s");
+    Ok(())
+}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).ok_or("which program?")?;
     let ball = std::env::args().nth(2).is_some();
-    let program = Program::read(std::fs::read(file)?)?;
+    let name = file.rsplit('/').next().unwrap_or(&file).to_owned();
+    let program = Program::read(std::fs::read(&file)?)?;
     let path = interpret(&program, &ReadOptions::default())?;
     let feed = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
     let (mut low, mut high) = (Vector3::repeat(f64::MAX), Vector3::repeat(f64::MIN));
@@ -36,6 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stock.cells(),
         1e-6 * stock.memory_bytes() as f64
     );
+    stock_alone(&name, &path, &tool, stock.clone())?;
     let question = CutQuestion {
         tools: vec![CuttingTool::new(tool, Arc::new(law))],
         engagement: EngagementSource::Stock(Box::new(stock)),

@@ -13,6 +13,16 @@ type Compute = fn() -> Result<Contents, Cause>;
 /// Id, title and computation of every entry.
 const ENTRIES: &[(&str, &str, Compute)] = &[
     (
+        "fig-2.2",
+        "Cutting force over the cutting speed",
+        chapter_2::fig_2_2,
+    ),
+    (
+        "fig-2.3",
+        "Cutting forces over one revolution of a milling cutter",
+        chapter_2::fig_2_3,
+    ),
+    (
         "text-2.2",
         "Cutting forces and torques named in the text of 2.2",
         chapter_2::text_2_2,
@@ -26,6 +36,16 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         "table-2.2",
         "Specific cutting forces of high performance materials",
         chapter_2::table_2_2,
+    ),
+    (
+        "eq-2.2",
+        "Specific cutting force and force per width over the chip thickness",
+        chapter_2::eq_2_2,
+    ),
+    (
+        "eq-2.3",
+        "Rational law of the cutting force",
+        chapter_2::eq_2_3,
     ),
     (
         "table-2.3",

@@ -4,6 +4,8 @@
 //! number follows. A test that folds with them passes where nothing was computed, and so does one whose
 //! postures were all skipped. What stands here fails in both cases.
 
+pub mod figure;
+
 use std::fmt;
 use std::panic::Location;
 

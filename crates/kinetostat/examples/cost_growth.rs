@@ -17,7 +17,7 @@ use kinetostat::{
     Chain, CurveSettings, Mechanism, Parameter, Pose, PostureRequest, Settings, Twist, Wrench,
     follow, solve_chain, spatial::moved, unloaded_stiffness,
 };
-use kinetostat_testing::{Worst, largest};
+use kinetostat_testing::{Worst, figure::computed_s, largest};
 use nalgebra::{Vector3, vector};
 use serde_json::json;
 
@@ -29,26 +29,17 @@ mod platforms;
 /// Numbers of coordinates; a cantilever has the next multiple of six.
 const SIZES: [usize; 8] = [10, 30, 60, 100, 180, 300, 1000, 3000];
 
-/// Time that this thread has computed, s: unlike the clock on the wall it does not count what other
-/// programs do meanwhile. Systems that do not tell are timed by the wall.
-fn computed(start: Instant) -> f64 {
-    std::fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok())
-        .map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
-}
-
 /// Time of one run, s: the shortest of several batches, since what disturbs only makes it longer.
 /// A batch is long against the steps in which a system counts time.
 fn shortest<T>(mut run: impl FnMut() -> T) -> f64 {
     let start = Instant::now();
     let mut best = f64::INFINITY;
     for _ in 0..4 {
-        let (before, mut runs) = (computed(start), 0);
+        let (before, mut runs) = (computed_s(start), 0);
         let used = loop {
             std::hint::black_box(run());
             runs += 1;
-            let used = computed(start) - before;
+            let used = computed_s(start) - before;
             if used > 0.1 && runs >= 5 {
                 break used;
             }
@@ -247,9 +238,9 @@ fn shorter<T>(mut run: impl FnMut() -> T) -> f64 {
     let start = Instant::now();
     let mut best = f64::INFINITY;
     for _ in 0..2 {
-        let before = computed(start);
+        let before = computed_s(start);
         std::hint::black_box(run());
-        best = best.min(computed(start) - before);
+        best = best.min(computed_s(start) - before);
     }
     best
 }

@@ -18,6 +18,7 @@ mod curves_refused;
 mod curves_warned;
 mod cut;
 mod cut_refused;
+mod cut_end_to_end;
 mod demo;
 mod draw;
 mod engagement;

@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use kinetostat_cutting::{
     Contact, Engagement, Feed, Kienzle, Linear, Milling, Rotation, RunOut, Shape, Side, Tool, Wall,
 };
-use kinetostat_testing::largest_size;
+use kinetostat_testing::figure::at_most;
+use kinetostat_testing::{Worst, largest_size};
 use proptest::prelude::*;
 
 const K_C: [f64; 3] = [796.0, 168.0, 222.0];
@@ -132,6 +133,54 @@ proptest! {
         prop_assert!((a.mean().force_n - b.mean().force_n).norm() < 1e-5 * scale);
         prop_assert!((a.at(turn).force_n - b.at(turn).force_n).norm() < 1e-4 * scale);
     }
+}
+
+/// Means and work of a revolution against closed forms, over tools, depths, arcs and feeds.
+#[test]
+fn figure_closed_forms_and_energy() {
+    let (mut mean, mut work) = (Worst::new(), Worst::new());
+    let law = Linear::new(K_C, K_E).unwrap();
+    let arcs = [(0.0, PI), (0.0, 0.7), (2.2, PI), (0.4, 2.9), (1.0, 1.01)];
+    for (teeth, helix) in [(1, 0.0), (2, 0.5), (3, 0.26), (5, 0.79), (8, 1.0)] {
+        for (entry, exit) in arcs {
+            for (share, feed) in [(0.02, 0.01), (0.3, 0.1), (0.95, 0.4)] {
+                let engagement = |depth| Engagement {
+                    contacts: vec![Contact::side(0.0, depth, entry, exit)],
+                };
+                let (radius, depth) = (8.0, share * 8.0);
+                let tool = |shape| {
+                    let tool = Tool::new(shape, 2.0 * radius, teeth).unwrap();
+                    tool.with_helix(helix).unwrap()
+                };
+                let mean_of = |shape| {
+                    let (tool, feed) = (tool(shape), Feed::level(feed).unwrap());
+                    Milling::new(&tool, &law, &engagement(depth), feed).mean()
+                };
+                let flat = mean_of(Shape::Flat);
+                let exact = closed_form(teeth, depth, feed, entry, exit);
+                for i in 0..3 {
+                    mean.add((flat.force_n[i] - exact[i]) / largest_size(exact));
+                }
+                // Tangential force along the ways: of the chips, K_tc times what is removed; of the edges, K_te times the
+                // way of each. On a ball the edge is longer by what its way is shorter.
+                let n = teeth as f64;
+                let chord = depth * (2.0 * radius - depth);
+                let segment = radius * radius * (1.0 - depth / radius).acos()
+                    - (radius - depth) * chord.sqrt();
+                let areas = [(Shape::Flat, radius * depth), (Shape::Ball, 0.5 * segment)];
+                for (shape, area) in areas {
+                    let chips = K_C[0] * n * feed * (entry.cos() - exit.cos()) * area;
+                    let edges = K_E[0] * n * (exit - entry) * radius * depth;
+                    work.add(TAU * mean_of(shape).torque_n_mm() / (chips + edges) - 1.0);
+                }
+            }
+        }
+    }
+    let name = "mean force of a cylinder against its closed form, share";
+    assert!(at_most(name, mean.of(225), 1e-6, "1"), "{mean}");
+    let name =
+        "energy: torque over a turn against the work along the teeth's ways, flat and ball, share";
+    assert!(at_most(name, work.of(150), 1e-9, "1"), "{work}");
 }
 
 /// `N a tan(beta)/(2 pi r)` whole: the force of a slot does not change over the revolution.

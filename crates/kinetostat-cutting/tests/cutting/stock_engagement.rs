@@ -4,6 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use kinetostat_cutting::{Engagement, Probe, Side};
 
+use kinetostat_testing::figure::at_most;
+
 use crate::stock_support::{arc_error, block, circle, flat, look, only_side};
 
 const RADIUS: f64 = 3.0;
@@ -57,10 +59,23 @@ fn straight_error(cell: f64) -> f64 {
     worst
 }
 
+/// Error with cells of a twentieth of the tool, and how it falls with each halving of the cell.
+fn print(name: &str, errors: [f64; 3], first: f64) {
+    at_most(
+        &format!("engagement, {name}: error at cells of D/20"),
+        errors[0],
+        first,
+        "rad",
+    );
+    let over_two = (errors[2] / errors[0]).sqrt();
+    let title = format!("engagement, {name}: error of half the cell, share, over two halvings");
+    at_most(&title, over_two, 0.5, "1");
+}
+
 #[test]
-fn straight_cuts_follow_their_closed_form_and_the_error_falls_with_the_cell() {
+fn figure_straight_cuts_follow_their_closed_form_and_the_error_falls_with_the_cell() {
     let errors = [0.3, 0.15, 0.075].map(straight_error);
-    println!("straight: {errors:?} rad; a cell is 0.1 rad");
+    print("straight cuts", errors, 0.02);
     assert!(errors[0] < 0.02, "{errors:?}"); // a fifth of a cell on the rim
     assert!(
         errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1],
@@ -120,9 +135,9 @@ fn corner_error(cell: f64, inside: bool) -> f64 {
 }
 
 #[test]
-fn inside_corners_follow_their_closed_form() {
+fn figure_inside_corners_follow_their_closed_form() {
     let errors = [0.3, 0.15, 0.075].map(|cell| corner_error(cell, true));
-    println!("inside corner: {errors:?} rad");
+    print("inside corners", errors, 0.04);
     assert!(errors[0] < 0.04, "{errors:?}");
     assert!(
         errors[2] < 0.25 * errors[0] || errors[2] < 0.006,
@@ -131,9 +146,9 @@ fn inside_corners_follow_their_closed_form() {
 }
 
 #[test]
-fn outside_corners_follow_their_closed_form() {
+fn figure_outside_corners_follow_their_closed_form() {
     let errors = [0.3, 0.15, 0.075].map(|cell| corner_error(cell, false));
-    println!("outside corner: {errors:?} rad");
+    print("outside corners", errors, 0.1);
     assert!(errors[0] < 0.1, "{errors:?}"); // a cell on the rim
     assert!(
         errors[2] < 0.25 * errors[0] || errors[2] < 0.006,

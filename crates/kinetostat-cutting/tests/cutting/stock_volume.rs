@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use kinetostat_cutting::{Probe, Shape, Stock, StockSettings, Tool};
 
+use kinetostat_testing::figure::at_most;
+
 use crate::stock_support::{block, circle, flat};
 
 /// Relative errors of a removed volume with cells of 0.3, 0.15 and 0.075 mm.
@@ -19,7 +21,11 @@ fn errors(exact: f64, tool: &Tool, cut: impl Fn(&mut Probe, &mut Stock)) -> [f64
     })
 }
 
-fn assert_converges(errors: [f64; 3], first: f64) {
+fn assert_converges(name: &str, errors: [f64; 3], first: f64) {
+    let title = format!("removed volume, {name}: share at cells of 0.3 mm");
+    at_most(&title, errors[0].abs(), first, "1");
+    let title = format!("removed volume, {name}: share at cells of 0.075 mm");
+    at_most(&title, errors[2].abs(), 0.5 * first, "1");
     assert!(errors[0].abs() < first, "{errors:?}");
     assert!(
         errors[2].abs() < 0.5 * first && errors[2].abs() < 0.5 * errors[0].abs() + 2e-4,
@@ -35,27 +41,27 @@ fn length() -> f64 {
 }
 
 #[test]
-fn a_slot_with_round_ends() {
+fn figure_a_slot_with_round_ends() {
     let exact = (PI * 9.0 + 6.0 * length()) * 2.0;
     let errors = errors(exact, &flat(6.0), |probe, stock| {
         probe.cut(stock, A, B).unwrap()
     });
-    assert_converges(errors, 2e-3);
+    assert_converges("slot", errors, 2e-3);
 }
 
 #[test]
-fn a_slot_in_short_chords_is_the_slot() {
+fn figure_a_slot_in_short_chords_is_the_slot() {
     let exact = (PI * 9.0 + 6.0 * length()) * 2.0;
     let errors = errors(exact, &flat(6.0), |probe, stock| {
         let place = |k: usize| std::array::from_fn(|i| A[i] + (B[i] - A[i]) * k as f64 / 53.0);
         let places: Vec<[f64; 3]> = (0..=53).map(place).collect();
         probe.cut_along(stock, &places).unwrap();
     });
-    assert_converges(errors, 2e-3);
+    assert_converges("slot in short chords", errors, 2e-3);
 }
 
 #[test]
-fn a_slot_of_a_ball() {
+fn figure_a_slot_of_a_ball() {
     let ball = Tool::new(Shape::Ball, 6.0, 2).unwrap();
     // 2 mm deep with a radius of 3: the segment of the circle along, and a cap of the sphere (half at each end).
     let (r, h) = (3.0_f64, 2.0_f64);
@@ -64,7 +70,7 @@ fn a_slot_of_a_ball() {
     let errors = errors(segment * length() + cap, &ball, |probe, stock| {
         probe.cut(stock, A, B).unwrap()
     });
-    assert_converges(errors, 4e-3);
+    assert_converges("slot of a ball", errors, 4e-3);
 }
 
 #[test]
@@ -106,7 +112,7 @@ fn a_ramp_of_a_ball() {
 }
 
 #[test]
-fn a_plunge_of_each_shape() {
+fn figure_a_plunge_of_each_shape() {
     let shapes = [
         (Shape::Flat, PI * 9.0 * 2.0),
         (Shape::Ball, PI * 4.0 * (3.0 - 2.0 / 3.0)),
@@ -132,12 +138,12 @@ fn a_plunge_of_each_shape() {
                 .cut(stock, [0.37, 0.21, 9.0], [0.37, 0.21, 4.0])
                 .unwrap();
         });
-        assert_converges(errors, 8e-3);
+        assert_converges(&format!("plunge of {shape:?}"), errors, 8e-3);
     }
 }
 
 #[test]
-fn a_round_pocket() {
+fn figure_a_round_pocket() {
     let exact = PI * 100.0 * 3.0;
     let errors = errors(exact, &flat(6.0), |probe, stock| {
         for radius in [1.0, 3.0, 5.0, 7.0] {
@@ -145,7 +151,7 @@ fn a_round_pocket() {
             probe.cut_along(stock, &places).unwrap();
         }
     });
-    assert_converges(errors, 2e-3);
+    assert_converges("round pocket", errors, 2e-3);
 }
 
 #[test]

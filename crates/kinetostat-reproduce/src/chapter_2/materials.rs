@@ -4,7 +4,7 @@ use crate::chapter_2::library::kienzle;
 use crate::{Cause, Contents, Item};
 
 /// Name as printed, name in the library, `k_c1.1` (N/mm^2) and `m_c` as printed.
-const TABLE_2_2: [(&str, &str, &str, &str); 4] = [
+pub(crate) const TABLE_2_2: [(&str, &str, &str, &str); 4] = [
     ("Monel 400", "Monel 400", "2600", "0.19"),
     ("Inconell 718", "Inconel 718", "2088", "0.29"),
     ("Ti Al 6 V 4", "Ti-6Al-4V", "1370", "0.21"),

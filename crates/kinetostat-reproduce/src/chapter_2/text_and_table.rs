@@ -65,11 +65,19 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
     })
 }
 
+/// Cutting speed, m/min, of a diameter (mm) at so many turns per minute.
+fn cutting_speed(diameter_mm: f64, rpm: f64) -> f64 {
+    1e-3 * std::f64::consts::PI * diameter_mm * rpm
+}
+
 pub(crate) fn text_2_2() -> Result<Contents, Cause> {
     let soft = largest_force(&kienzle(AL_MG_4_5_MN.1)?, 0.2, 8.0, 1000.0);
     let hard = largest_force(&kienzle(MONEL_400.1)?, 0.2, 8.0, 1000.0);
     // Half of the rated power, at the spindle's nose.
     let torque = SpindlePoint::of_power(1e4, 0.5 * 20e3).torque_n_m;
+    let aluminium = kienzle(AL_MG_4_5_MN.1)?;
+    let per_width = |chip: f64| chip * aluminium.specific_n_per_mm2(chip);
+    let half_the_chip = per_width(0.1) / per_width(0.2);
     let arm = "erratum 2.2 text: the force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
     let items = vec![
         Item::compared("force for Al Mg 4.5 Mn, about", "2", 1e-3 * soft, "kN", ""),
@@ -86,6 +94,18 @@ pub(crate) fn text_2_2() -> Result<Contents, Cause> {
             1e-3 * hard * 1000.0 / 60.0,
             "kW",
             "Nearly six times the 20 kW of that spindle: such a chip is cut at a lower speed.",
+        ),
+        Item::unprinted(
+            "cutting speed of 20 mm at twice 10000 turns/min, as a multiple of that at 10000",
+            cutting_speed(20.0, 2e4) / cutting_speed(20.0, 1e4),
+            "",
+            "erratum 2.2 text: it says that the cutting speed does not change, but v_c = pi D N. What falls with the same feed is the chip, and with it the force.",
+        ),
+        Item::unprinted(
+            "force of a tooth, Al Mg 4.5 Mn, at twice the spindle speed and the same feed, as a share",
+            half_the_chip,
+            "",
+            "Half the chip: the force falls to 2^(m_c - 1) of it, the higher speed aside, as the text says.",
         ),
         Item::erratum(
             "lateral torque of 2 kN at 100 mm",

@@ -90,9 +90,13 @@ fn script(letters: &[char], start: usize) -> usize {
         return close.map_or(start, |at| start + at + 1);
     }
     let sign = usize::from(matches!(letters.get(start), Some('-' | '\u{2212}')));
-    let count = letters[start + sign..]
-        .iter()
-        .take_while(|c| c.is_ascii_alphanumeric())
+    // A point between two digits belongs to a number, as in `k_c1.1`; another one ends a sentence.
+    let digit = |at: usize| letters.get(at).is_some_and(char::is_ascii_digit);
+    let count = (start + sign..letters.len())
+        .take_while(|&at| match letters[at] {
+            '.' => at > start + sign && digit(at - 1) && digit(at + 1),
+            c => c.is_ascii_alphanumeric(),
+        })
         .count();
     match count {
         0 => start,

@@ -233,10 +233,11 @@ impl Reader<'_> {
         if self.peek() == Some('(') {
             return self.piece().map(|piece| piece.set);
         }
-        let run = self.run(|c| c.is_ascii_alphanumeric());
+        // A number may have a point, as in `k_c1.1`.
+        let run = self.run(|c| c.is_ascii_alphanumeric() || c == '.');
         let set: String = run
             .chars()
-            .map(|c| match c.is_ascii_digit() {
+            .map(|c| match c.is_ascii_digit() || c == '.' {
                 true => format!("<mn>{c}</mn>"),
                 false => format!("<mi>{c}</mi>"),
             })

@@ -106,6 +106,94 @@ fn materials_and_factors_of_tables_2_1_and_2_2() {
     }
 }
 
+/// Curves of chapter 2 against their closed forms.
+#[test]
+fn curves_of_chapter_2() {
+    // K_V: 2.023/v^0.153 up to 100 m/min, 1.380/v^0.07 above.
+    let speed = entry("fig-2.2");
+    let at_100 = 2.023 * 100.0_f64.powf(-0.153);
+    for (v, factor) in [
+        (20.0_f64, 2.023 * 20.0_f64.powf(-0.153)),
+        (1000.0, 1.38 * 1000.0_f64.powf(-0.07)),
+    ] {
+        let name = format!("force at {v} m/min, as a share of that at 100 m/min");
+        assert!(
+            (computed(&speed, &name) - factor / at_100).abs() < 1e-9,
+            "{name}"
+        );
+    }
+    for material in ["Monel 400", "Al Mg 4.5 Mn"] {
+        let saved = computed(
+            &speed,
+            &format!("{material}: force saved from 1000 to 2000 m/min"),
+        );
+        assert!(
+            (saved - 100.0 * (1.0 - 2.0_f64.powf(-0.07))).abs() < 1e-9,
+            "{saved}"
+        );
+    }
+    // A slot: with straight teeth one cuts at a time. By midpoints over half a turn, with the parts that the library has.
+    let turn = entry("fig-2.3");
+    let tangential = item(&turn, "straight teeth: largest tangential force");
+    assert_eq!(tangential.status, Status::Agrees);
+    let n = 200_000;
+    let (mut across, mut torque) = (0.0, 0.0);
+    for k in 0..n {
+        let phi = std::f64::consts::PI * (f64::from(k) + 0.5) / f64::from(n);
+        let force = 8.0 * 780.0 * (0.2 * phi.sin()).powf(0.77);
+        // Two teeth, each half a turn in the cut; the radial part is 0.4 of the tangential one.
+        across += force * (phi.sin() - 0.4 * phi.cos()) / f64::from(n);
+        torque += 1e-3 * 10.0 * force / f64::from(n);
+    }
+    for teeth in ["straight teeth", "helix of 30 degrees"] {
+        let found = computed(
+            &turn,
+            &format!("{teeth}: mean force on the tool across the feed"),
+        );
+        assert!((found / across - 1.0).abs() < 1e-6, "{found} {across}");
+        let found = computed(&turn, &format!("{teeth}: mean torque"));
+        assert!((found / torque - 1.0).abs() < 1e-6, "{found} {torque}");
+        let share = computed(
+            &turn,
+            &format!("{teeth}: largest force, as a share of 2 k_c b h"),
+        );
+        assert!(share > 0.3 && share < 1.0, "{share}");
+    }
+    // The law of thin and of thick chips, and how closely it follows a power.
+    let rational = entry("eq-2.3");
+    let [a_1, a_2, a_3] = [
+        "a_1, slope for thin chips, per width",
+        "a_2, per width",
+        "a_3",
+    ]
+    .map(|name| computed(&rational, name));
+    let mut worst = kinetostat_testing::Worst::new();
+    for k in 0..=1000 {
+        let h = 0.02 * 50.0_f64.powf(f64::from(k) / 1000.0);
+        worst.add((a_1 * h + a_2 * h * h) / (1.0 + a_3 * h) / (780.0 * h.powf(0.77)) - 1.0);
+    }
+    let name = "largest difference of equations 2.3 and 2.2, chips of 0.02 to 1 mm";
+    let said = computed(&rational, name);
+    assert!(
+        (said - 100.0 * worst.of(1001)).abs() < 0.02,
+        "{said} {worst}"
+    );
+    assert!(said < 10.0, "{said}");
+    for id in ["eq-2.2", "eq-2.3"] {
+        let entry = entry(id);
+        assert!(!entry.plots.is_empty());
+        for item in &entry.items {
+            let agrees = matches!(item.status, Status::Agrees | Status::NoPrint);
+            assert!(agrees, "{id}, {}: {item:?}", item.name);
+        }
+    }
+    // Half the chip.
+    let text = entry("text-2.2");
+    let name =
+        "force of a tooth, Al Mg 4.5 Mn, at twice the spindle speed and the same feed, as a share";
+    assert!((computed(&text, name) - 0.5_f64.powf(0.77)).abs() < 1e-12);
+}
+
 #[test]
 fn beams_and_platforms_of_chapter_3() {
     let beam = entry("eq-3.26");
