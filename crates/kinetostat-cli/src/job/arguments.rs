@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Args};
 
-use crate::job::format::{Axes, BlockDeleteWord, CornerWord, UnitsWord};
+use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
+use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
 
 /// Job file, model and everything about the program.

@@ -5,7 +5,7 @@ use kinetostat_machining::{ActsOn, ForceChoice, MeasuredAxes};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::format::UnitsWord;
+use crate::job::units_word::UnitsWord;
 
 /// What is cut: `[material]`.
 #[derive(Clone, Debug, Deserialize)]

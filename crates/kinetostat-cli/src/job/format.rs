@@ -12,6 +12,7 @@ use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::source::Source;
+use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
 
 /// The version that is read here.
@@ -184,16 +185,6 @@ pub(crate) struct ReadingTable {
     pub axes_stand_still: Option<bool>,
     pub start_position_mm: Option<[f64; 3]>,
     pub work_offset_mm: Option<Spanned<BTreeMap<String, [f64; 3]>>>,
-}
-
-/// Units of a program that does not name them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum UnitsWord {
-    /// Millimetres, as after G21
-    Mm,
-    /// Inches, as after G20
-    Inch,
 }
 
 /// The machine's switch for blocks marked with `/`.

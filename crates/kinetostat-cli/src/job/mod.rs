@@ -22,4 +22,5 @@ pub(crate) mod setting;
 pub(crate) mod source;
 mod toml_tree;
 mod tools;
+pub(crate) mod units_word;
 mod values;

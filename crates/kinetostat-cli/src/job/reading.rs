@@ -4,8 +4,9 @@ use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units};
 use nalgebra::Vector3;
 
 use crate::job::arguments::ProgramArgs;
-use crate::job::format::{BlockDeleteWord, UnitsWord};
+use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
+use crate::job::units_word::UnitsWord;
 use crate::job::values::{arc_tolerance, chosen};
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};

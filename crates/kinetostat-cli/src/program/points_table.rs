@@ -79,6 +79,7 @@ fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> 
         ("error_after_", "_mm"),
         ("correction_", "_mm"),
         ("force_", "_n"),
+        ("moment_", "_n_m"),
     ] {
         header.extend(["x", "y", "z"].map(|axis| format!("{name}{axis}{unit}")));
     }
@@ -175,6 +176,7 @@ fn lines(
             (&point.error_after_mm, 6),
             (&point.correction_mm, 6),
             (&point.force_n, 2),
+            (&point.moment_n_m, 5),
         ] {
             row.extend(vector.iter().map(|x| decimals(*x, most)));
         }

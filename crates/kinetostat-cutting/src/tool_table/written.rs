@@ -53,7 +53,7 @@ impl WrittenTool {
     ///
     /// let text = "shape = \"flat\"\nteeth = 2\nlength_mm = 60";
     /// let written: WrittenTool = toml::from_str(text)?;
-    /// assert_eq!(written.key_of_a_table(), Some(("length_mm", 36..38)));
+    /// assert_eq!(written.key_of_a_table(), Some(("length_mm", 37..39)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::{Rounding, counted};
 use crate::number::{largest_length, significant};
-use crate::result::run_result::RunResult;
 
 /// The errors if the force of the cut is larger or smaller by the spread of its coefficients, and all else is as it was:
 /// where it was compensated, the program is the one that was written for the force as computed.
@@ -38,14 +37,10 @@ impl ForceBand {
         let (a, b) = (self.max_error_if_larger_mm?, self.max_error_if_smaller_mm?);
         Some(kinetostat::number::larger(a, b))
     }
-}
 
-impl RunResult {
-    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be; none where the load is not
-    /// computed from a cut.
-    #[must_use]
-    pub fn force_band_text(&self) -> Option<String> {
-        let band = self.force_band.as_ref()?;
+    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be.
+    pub(crate) fn description(&self) -> String {
+        let band = self;
         let percent = significant(band.spread_percent, 2, Rounding::Nearest);
         let all = band.points >= band.of_points;
         let solved = match all {
@@ -55,7 +50,7 @@ impl RunResult {
                 counted(band.points, "point")
             ),
         };
-        Some(match band.max_error_mm() {
+        match band.max_error_mm() {
             Some(error) => format!(
                 "If the force of the cut is {percent} % larger or smaller, as its coefficients may be, the tool is up to {} off (line {}{solved}).",
                 largest_length(error),
@@ -65,6 +60,6 @@ impl RunResult {
                 "If the force of the cut is {percent} % larger or smaller, as its coefficients may be, the machine has no equilibrium at line {}.",
                 band.line
             ),
-        })
+        }
     }
 }

@@ -58,6 +58,9 @@ pub struct PointResult {
     pub correction_mm: [f64; 3],
     /// Load on the tool in program axes: force N.
     pub force_n: [f64; 3],
+    /// The same, moment about its tip, N m.
+    #[serde(default)]
+    pub moment_n_m: [f64; 3],
     /// Rotation of the tool that stays, deg.
     pub residual_rotation_deg: f64,
     /// Where the orientation follows: rotation vector of the unloaded tool from the orientation that

@@ -3,6 +3,7 @@
 
 use crate::load::law::CornerLoad;
 use crate::number::{counted, largest, largest_length};
+use crate::result::force_band::ForceBand;
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::unchanged_text;
 
@@ -83,6 +84,13 @@ impl RunResult {
             ),
             false => format!("{put}."),
         })
+    }
+
+    /// What becomes of the claim if the force of the cut is as far off as its coefficients may be; none where the load is not
+    /// computed from a cut.
+    #[must_use]
+    pub fn force_band_text(&self) -> Option<String> {
+        self.force_band.as_ref().map(ForceBand::description)
     }
 
     /// The reading of the load at corners that all tools share, if they share one, and which tools are read by

@@ -219,6 +219,7 @@ fn point(
         error_if_force_smaller_mm: None,
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
+        moment_n_m: place.to_part_axes(&site.wrench.moment()).into(),
         residual_rotation_deg: after.rotation.to_degrees(),
         tool_turn_deg: place
             .orientation_follows

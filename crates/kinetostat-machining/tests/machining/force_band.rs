@@ -133,7 +133,10 @@ fn one_spring_gives_way_by_the_spread() {
     }
     assert!(compared.iter().all(|count| *count > 3), "{compared:?}");
     let band = run.result.force_band.as_ref().expect("a band");
-    let largest = forces.iter().map(|f| f.abs()).fold(0.0, f64::max);
+    let largest = forces
+        .iter()
+        .map(|f| f.abs())
+        .fold(0.0, kinetostat::number::larger);
     let error = band.max_error_mm().expect("an error");
     assert!((error - spread * largest / 400.0).abs() < slack, "{error}");
     assert!((band.spread_percent - 25.0).abs() < 1e-12);

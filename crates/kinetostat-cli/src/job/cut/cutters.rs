@@ -8,9 +8,9 @@ use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut_tables::CuttersTable;
-use crate::job::format::UnitsWord;
 use crate::job::job_file::JobFile;
 use crate::job::setting::program_path;
+use crate::job::units_word::UnitsWord;
 use crate::ui::failure::{Answer, Failure};
 
 /// The number of a tool, and its edges; without a number it is that of all others.

@@ -6,7 +6,7 @@ use kinetostat_cutting::{Engagement, Side, Tool};
 use kinetostat_machining::EngagementSource;
 use serde_spanned::Spanned;
 
-use crate::job::cut::refused;
+use crate::job::cut::refused::refused;
 use crate::job::cut_tables::EngagementTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};

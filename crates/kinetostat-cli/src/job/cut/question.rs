@@ -13,7 +13,7 @@ use crate::job::cut::cutters::cutters;
 use crate::job::cut::engagement::engagement;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::material;
-use crate::job::cut::refused;
+use crate::job::cut::refused::refused;
 use crate::job::cut::stock::stock;
 use crate::job::cut::twice::{MATERIAL, not_typed_too};
 use crate::job::cut_tables::{MaterialTable, SpindleTable};

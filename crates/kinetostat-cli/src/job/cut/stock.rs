@@ -5,7 +5,7 @@ use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::cut::files_of_cut::FilesOfCut;
-use crate::job::cut::refused;
+use crate::job::cut::refused::refused;
 use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;

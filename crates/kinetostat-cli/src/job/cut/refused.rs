@@ -1,0 +1,19 @@
+//! What the library refuses, said where the job states it.
+
+use kinetostat_cutting::CutError;
+use serde_spanned::Spanned;
+
+use crate::job::job_file::JobFile;
+use crate::ui::failure::Failure;
+
+/// An error of the library where the job states what it is about; in a file of its own, it names that.
+pub(super) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Failure {
+    if error.file.is_some() {
+        return Failure::input(error);
+    }
+    let help = match error.expected.starts_with("did you mean") {
+        true => error.expected.clone(),
+        false => format!("expected {}", error.expected),
+    };
+    job.error(at, &format!("{}: {}", error.quantity, error.found), &help)
+}
