@@ -36,7 +36,7 @@ const WORST: usize = 10;
 ///     rotation: None,
 ///     spindle: None,
 /// };
-/// let path = interpret(&Program::read("S10000 M3\nG0 X0 Y0 Z0\nG1 X40 F600\n")?, &ReadOptions::default())?;
+/// let path = interpret(&Program::read("G21 S10000 M3\nG0 X0 Y0 Z0\nG1 X40 F600\n")?, &ReadOptions::default())?;
 /// let forces = question.along(&path, &Unwatched)?;
 /// let slot = cut_places(&forces, &path).last().unwrap();
 /// assert_eq!((slot.line, slot.depth_mm, slot.rpm), (3, 2.0, 10_000.0));

@@ -23,6 +23,15 @@ pub(super) fn cutters(
     flags: &ProgramArgs,
     files_read: &mut FilesOfCut,
 ) -> Answer<Vec<Cutter>> {
+    let tools = &j.job.tools;
+    let same = |a: usize, b: usize| tools[a].get_ref().number == tools[b].get_ref().number;
+    if let Some(twice) = (0..tools.len()).find(|&i| (0..i).any(|before| same(before, i))) {
+        return Err(j.error(
+            &tools[twice],
+            &format!("tool {} is given twice", tools[twice].get_ref().number),
+            "give each number once",
+        ));
+    }
     let file = j.path.display().to_string();
     let read = |number: Option<u32>, cutter: &Spanned<WrittenTool>| {
         if let Some((key, span)) = cutter.get_ref().key_of_a_table() {

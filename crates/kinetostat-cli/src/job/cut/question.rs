@@ -138,6 +138,13 @@ fn no_material(j: &JobFile) -> Answer<()> {
             help,
         ));
     }
+    if let Some(cutters) = &j.job.cutters {
+        return Err(j.error(
+            cutters,
+            "there are cutters, and no material to be cut",
+            help,
+        ));
+    }
     if let Some(spindle) = &j.job.spindle {
         return Err(j.error(
             spindle,
