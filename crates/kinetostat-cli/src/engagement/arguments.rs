@@ -14,7 +14,7 @@ use crate::files::answer_files::AnswerFiles;
 #[derive(Debug, Args)]
 #[command(after_help = CODES, after_long_help = ENGAGEMENT_HELP)]
 pub(crate) struct EngagementArgs {
-    /// Job file (TOML): program, [tool] with a cutter, [material], [stock] or [engagement], [spindle]
+    /// Job file (TOML): program, tool with a cutter, material, stock or engagement, spindle
     #[arg(value_name = "JOB")]
     pub(crate) job: PathBuf,
     /// G-code program, in place of the job's
