@@ -34,5 +34,5 @@ pub fn limited_values(
         false => Begins::Anyhow,
     };
     let found = limited(&places, &[rate], begins)?.into_iter();
-    Some(found.map(|(p, [value], _)| (p.at_mm, value)).collect())
+    Some(found.map(|p| (p.place.at_mm, p.value[0])).collect())
 }

@@ -7,7 +7,7 @@ use crate::measured::drift::{self, DriftModel};
 use crate::measured::log::{CHANNELS, ForceLog};
 use crate::measured::outliers::{self, Outlier};
 use crate::measured::report::ConditioningReport;
-use crate::measured::smoothing::moving_mean;
+use crate::measured::smoothing::{at_places, moving_mean, places_of_mean};
 use crate::number::larger;
 
 /// Share of a channel's rows that may be outliers.
@@ -135,14 +135,18 @@ impl Conditioning {
             }
         }
         let drift = drift::remove(&mut log, &self.air, self.drift)?;
+        let rows = log.rows();
         if self.window > 0.0 {
+            let places = places_of_mean(&log.at, self.window);
             for channel in &mut log.channels {
-                *channel = moving_mean(&log.at, channel, self.window);
+                let values = at_places(&log.at, channel, &places);
+                *channel = moving_mean(&places, &values, self.window);
             }
+            log.at = places;
         }
         let report = ConditioningReport {
             by: log.by(),
-            rows: log.rows(),
+            rows,
             channels: log.channels.len(),
             outlier_count: found.len(),
             worst_outlier: worst(&found),

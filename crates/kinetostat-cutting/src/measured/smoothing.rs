@@ -31,3 +31,40 @@ pub(crate) fn moving_mean(at: &[f64], values: &[f64], window: f64) -> Vec<f64> {
     }
     mean
 }
+
+/// The rows, and between rows that are farther apart than half a window the places where the mean bends: half a window from each.
+pub(crate) fn places_of_mean(at: &[f64], window: f64) -> Vec<f64> {
+    let half = 0.5 * window;
+    let mut places = Vec::with_capacity(at.len());
+    places.extend(at.first().copied());
+    for pair in at.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let mut between = [a + half, b - half];
+        between.sort_by(f64::total_cmp);
+        for place in between {
+            let last = places.last().copied().unwrap_or(a);
+            if b - a > half && place > last && place < b {
+                places.push(place);
+            }
+        }
+        places.push(b);
+    }
+    places
+}
+
+/// Values at places, in order, on the straight lines between rows.
+pub(crate) fn at_places(at: &[f64], values: &[f64], places: &[f64]) -> Vec<f64> {
+    let mut row = 0;
+    let value = |place: &f64| {
+        while row + 2 < at.len() && at[row + 1] < *place {
+            row += 1;
+        }
+        match (at.get(row + 1), values.get(row + 1)) {
+            (Some(to), Some(end)) if to > &at[row] => {
+                values[row] + (end - values[row]) * (place - at[row]) / (to - at[row])
+            }
+            _ => values[row],
+        }
+    };
+    places.iter().map(value).collect()
+}

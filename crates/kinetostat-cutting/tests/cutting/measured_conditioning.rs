@@ -171,6 +171,33 @@ fn the_mean_is_that_of_the_straight_pieces() {
     assert!(worst.value() < 1e-6, "{}", worst.value());
 }
 
+/// Few rows, far apart: a plateau keeps its height, and a jump is over within the window.
+#[test]
+fn rows_far_apart_keep_their_plateaus() {
+    let at = vec![0.0, 20.0, 50.0, 50.01, 90.0, 90.01, 103.0];
+    let force = vec![0.0, 50.0, 50.0, 400.0, 400.0, 0.0, 0.0];
+    let zero = vec![0.0; 7];
+    let log = ForceLog::new(LoggedBy::AlongPath, at, [force, zero.clone(), zero], None).unwrap();
+    let done = Conditioning::new(0.2).apply(&log).unwrap();
+    assert_eq!(done.report.rows, 7);
+    let mut compared = 0;
+    for (place, expected) in [
+        (10.0, 25.0),
+        (30.0, 50.0),
+        (49.8, 50.0),
+        (50.2, 400.0),
+        (70.0, 400.0),
+        (89.8, 400.0),
+        (90.2, 0.0),
+        (100.0, 0.0),
+    ] {
+        let found = done.log.at(place).unwrap().0[0];
+        assert!((found - expected).abs() < 1e-6, "{place}: {found}");
+        compared += 1;
+    }
+    assert_eq!(compared, 8);
+}
+
 /// Steps, ramps, kinks and quantised rest are no outliers.
 #[test]
 fn clean_signals_have_no_outliers() {

@@ -10,6 +10,9 @@ use crate::cut::finding::{CutFindingKind, Findings};
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 
+/// A feed per tooth beyond this share of the diameter is no feed of milling.
+const COARSE: f64 = 0.25;
+
 impl CutQuestion {
     /// What no such cut should be.
     pub(crate) fn look_at(
@@ -28,6 +31,15 @@ impl CutQuestion {
                 format!("{chip:.4} mm per tooth; the tool's maker allows {most} mm")
             });
         }
+        let coarse = COARSE * tool.tool.diameter_mm();
+        if tool.max_chip_mm.is_none() && chip > coarse {
+            findings.add(CutFindingKind::ThickChip, line, chip, || {
+                format!(
+                    "{chip:.3} mm per tooth with a tool of {} mm: check feed, speed and number of teeth; the force is that of chips that no such tool cuts",
+                    tool.tool.diameter_mm()
+                )
+            });
+        }
         if let Some((least, most)) = tool.law.known_between_mm() {
             let thickest = station.chip_mm;
             let beyond = larger(thickest / most, least / thickest);
@@ -44,7 +56,7 @@ impl CutQuestion {
         {
             let depth = station.depth_mm;
             findings.add(CutFindingKind::ShortEdges, line, depth, || {
-                format!("{depth:.2} mm deep; the edges are {length} mm long")
+                format!("{depth:.2} mm deep; edges or tool are {length} mm long there")
             });
         }
         if let Some(curve) = &self.spindle

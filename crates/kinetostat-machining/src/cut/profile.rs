@@ -133,7 +133,7 @@ impl ForceAlongPath {
     }
 
     /// The same of forces whose places are known to within a length, mm: the size of a cell; infinite where an engagement was
-    /// stated and nobody knows where in a block it begins.
+    /// stated and nobody knows how far from a rapid it begins.
     pub(crate) fn with_resolution_mm(self, resolution_mm: f64) -> Self {
         Self {
             resolution_mm,

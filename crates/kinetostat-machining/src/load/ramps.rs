@@ -6,6 +6,8 @@
 //! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid. At sharp
 //! corners the load turns while the tool steps, as everywhere.
 
+use std::collections::BTreeMap;
+
 use kinetostat::Wrench;
 use kinetostat::number::larger;
 use kinetostat_program::{Curve, Move};
@@ -18,7 +20,7 @@ use crate::profile::by_move::{ByMove, Profile};
 use crate::profile::limited::{Begins, limited};
 use crate::profile::reduced::reduced;
 
-/// A change of the force inside a cut that is faster than the correction may follow, where that is worst.
+/// A change of the force inside a cut that is faster than the correction may follow, where that is worst on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TooFast {
     /// Line of the program.
@@ -36,7 +38,8 @@ pub(crate) struct Ramped<'a> {
     pub followed: LoadAlongPath<'a>,
     /// That which acts: where the tool cuts, what was computed, as far as it is known where.
     pub acting: LoadAlongPath<'a>,
-    pub too_fast: Option<TooFast>,
+    /// One for each line.
+    pub too_fast: Vec<TooFast>,
 }
 
 impl<'a> LoadAlongPath<'a> {
@@ -47,7 +50,7 @@ impl<'a> LoadAlongPath<'a> {
             return Ramped {
                 acting: self.clone(),
                 followed: self,
-                too_fast: None,
+                too_fast: Vec::new(),
             };
         }
         let begun = self.begun(stiffness);
@@ -65,7 +68,7 @@ impl<'a> LoadAlongPath<'a> {
             return Ramped {
                 acting: followed.clone(),
                 followed,
-                too_fast: None,
+                too_fast: Vec::new(),
             };
         };
         Ramped {
@@ -90,10 +93,9 @@ impl<'a> LoadAlongPath<'a> {
             let load = self.load_of(run[0]);
             let rate = [load.largest_step * stiffness / force];
             let places = of_run(path, &run, |i| stated_part(load, &path.moves[i]));
-            for (place, [part], _) in
-                limited(&places, &rate, begins(path, run[0])).unwrap_or_default()
-            {
-                all[place.move_index].push((place.share, [part]));
+            for found in limited(&places, &rate, begins(path, run[0])).unwrap_or_default() {
+                let place = &found.place;
+                all[place.move_index].push((place.share, found.value));
             }
         }
         let mut profile = ByMove::new();
@@ -160,7 +162,7 @@ struct Limit<'l, 'a> {
 type Changed = Vec<Option<Vec<(f64, [f64; 6])>>>;
 
 /// A profile to be followed, that which acts, and the worst of their differences in a cut.
-type Followed = (Profile<6>, Profile<6>, Option<TooFast>);
+type Followed = (Profile<6>, Profile<6>, Vec<TooFast>);
 
 impl Limit<'_, '_> {
     /// `None` where nothing changes too fast.
@@ -169,7 +171,11 @@ impl Limit<'_, '_> {
         let count = path.moves.len();
         let mut asked: Changed = vec![None; count];
         let mut acting = asked.clone();
-        let mut too_fast: Option<TooFast> = None;
+        let mut by_line: BTreeMap<usize, f64> = BTreeMap::new();
+        let (stated, resolution) = match self.resolution_mm.is_infinite() {
+            true => (true, 0.0),
+            false => (false, self.resolution_mm),
+        };
         let joined = |a: &Move, b: &Move| match (a.tangent(1.0), b.tangent(0.0)) {
             (Some(from), Some(to)) => from.angle(&to) <= self.load.base_load().gentle_corner,
             _ => true,
@@ -182,30 +188,30 @@ impl Limit<'_, '_> {
             let places = of_run(path, &run, |i| self.vertices(cut, i));
             let rate = self.rate(load);
             // A force that is known to act where a rapid ends acts there at once.
-            let begins = match self.resolution_mm.is_finite() {
-                true => Begins::Anyhow,
-                false => begins(path, run[0]),
+            let begins = match stated {
+                true => begins(path, run[0]),
+                false => Begins::Anyhow,
             };
             let Some(found) = limited(&places, &rate, begins) else {
                 continue;
             };
-            for (place, value, length_mm) in found {
+            for found in found {
+                let (place, value) = (&found.place, found.value);
                 let i = place.move_index;
-                // A change that goes over less than it is known where, may go so.
-                let acts = match place.counts && length_mm > self.resolution_mm {
+                let own = match place.counts && found.length_mm > resolution && !found.begins {
                     true => place.value,
                     false => value,
                 };
+                // A change that goes over less than it is known where, may go so; and so may a stated one, of which only the
+                // block is known.
+                let acts = if stated { value } else { own };
                 asked[i].get_or_insert_default().push((place.share, value));
                 acting[i].get_or_insert_default().push((place.share, acts));
-                let off = Wrench(acts.into()).0 - Wrench(value.into()).0;
-                let force_n = Wrench(off).force().norm();
-                if too_fast.is_none_or(|worst| force_n > worst.force_n) && force_n > 0.0 {
-                    too_fast = Some(TooFast {
-                        line: path.moves[i].line,
-                        force_n,
-                        off_mm: force_n / self.stiffness,
-                    });
+                let off = Wrench(Wrench(own.into()).0 - Wrench(value.into()).0);
+                let force_n = off.force().norm();
+                if force_n > 0.0 {
+                    let most = by_line.entry(path.moves[i].line).or_default();
+                    *most = larger(*most, force_n);
                 }
             }
         }
@@ -222,7 +228,12 @@ impl Limit<'_, '_> {
             }
             profile
         };
-        Some((profile(asked), profile(acting), too_fast))
+        let too_fast = by_line.into_iter().map(|(line, force_n)| TooFast {
+            line,
+            force_n,
+            off_mm: force_n / self.stiffness,
+        });
+        Some((profile(asked), profile(acting), too_fast.collect()))
     }
 
     /// Vertices of a move with its ends, and whether the tool cuts there.

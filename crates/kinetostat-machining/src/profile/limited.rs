@@ -3,6 +3,10 @@
 //! A value that counts (the tool cuts there) is kept wherever the values around it can be reached at the rate that is allowed:
 //! the change goes into the air before and after, where it does not matter what the value is. Where two values that count are
 //! too close to each other, the profile goes midway between the highest and the lowest that they ask for.
+//!
+//! Bounds from below and above are cones of that rate from every place that counts, found in one pass forwards and one
+//! backwards. Between two places the bounds are straight lines, so that the places where the profile bends are their
+//! intersections.
 
 use crate::number::{larger, smaller};
 use crate::profile::by_move::between;
@@ -29,65 +33,185 @@ pub(crate) enum Begins {
     WithNothing,
 }
 
-/// Parts into which a change is divided.
-const PARTS: f64 = 16.0;
+/// A place with the value that the profile has there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limited<const N: usize> {
+    pub place: Place<N>,
+    pub value: [f64; N],
+    /// Length over which the change would go that is too fast here, mm; 0 where none is.
+    pub length_mm: f64,
+    /// The value is smaller because the profile begins with nothing.
+    pub begins: bool,
+}
 
-/// Places with the values that change by at most `rate` per mm, component by component, and the length (mm) of the longest change
-/// that is felt there; `None` where the places themselves do.
+/// Places with values that change by at most `rate` per mm, component by component; `None` where the places themselves do.
 pub(crate) fn limited<const N: usize>(
     places: &[Place<N>],
     rate: &[f64; N],
     begins: Begins,
-) -> Option<Vec<(Place<N>, [f64; N], f64)>> {
-    let reach = reach(places, rate, begins)?;
-    let (places, lengths) = refined(places, &reach);
-    let mut low: Vec<[f64; N]> = places.iter().map(|p| bound(p, f64::NEG_INFINITY)).collect();
-    let mut high: Vec<[f64; N]> = places.iter().map(|p| bound(p, f64::INFINITY)).collect();
-    let mut pass = |from: usize, to: usize| {
-        let way = (places[to].at_mm - places[from].at_mm).abs();
-        for k in 0..N {
-            low[to][k] = larger(low[to][k], low[from][k] - rate[k] * way);
-            high[to][k] = smaller(high[to][k], high[from][k] + rate[k] * way);
-        }
-    };
-    (1..places.len()).for_each(|i| pass(i - 1, i));
-    (1..places.len()).rev().for_each(|i| pass(i, i - 1));
-    let start = places.first().map_or(0.0, |p| p.at_mm);
-    let steepest = at_the_start(&places, rate);
-    let values = low.iter().zip(&high).zip(&places);
-    let values: Vec<[f64; N]> = values
-        .map(|((low, high), place)| {
-            std::array::from_fn(|k| {
-                let value = match low[k] > high[k] {
-                    true => 0.5 * (low[k] + high[k]),
-                    false => within(place.value[k], low[k], high[k]),
+) -> Option<Vec<Limited<N>>> {
+    if rate.iter().all(|rate| rate.is_infinite()) {
+        return None;
+    }
+    let bounds = Bounds::new(places, rate, begins);
+    if !bounds.are_felt(places) {
+        return None;
+    }
+    let mut all = Vec::with_capacity(2 * places.len());
+    for (i, place) in places.iter().enumerate() {
+        if let Some(before) = i.checked_sub(1) {
+            let pair = [&places[before], place];
+            for at_mm in bounds.bends(before, pair) {
+                let part = (at_mm - pair[0].at_mm) / (place.at_mm - pair[0].at_mm);
+                let inside = Place {
+                    move_index: place.move_index,
+                    share: pair[0].share + part * (place.share - pair[0].share),
+                    at_mm,
+                    value: between(&pair[0].value, &place.value, part),
+                    counts: pair[0].counts && place.counts,
                 };
-                match begins {
-                    Begins::Anyhow => value,
-                    Begins::WithNothing => {
-                        let most = steepest[k] * (place.at_mm - start);
-                        within(value, -most, most)
+                all.push(bounds.at(inside, [before, i]));
+            }
+        }
+        all.push(bounds.at(*place, [i, i]));
+    }
+    spread_lengths(&mut all);
+    Some(all)
+}
+
+/// A change is as long everywhere as where it is longest.
+fn spread_lengths<const N: usize>(all: &mut [Limited<N>]) {
+    for felt in all.chunk_by_mut(|a, b| (a.length_mm > 0.0) == (b.length_mm > 0.0)) {
+        let longest = felt.iter().map(|p| p.length_mm).fold(0.0, larger);
+        felt.iter_mut().for_each(|p| p.length_mm = longest);
+    }
+}
+
+/// Bounds at the places, and how they go between them.
+struct Bounds<'a, const N: usize> {
+    rate: &'a [f64; N],
+    at_mm: Vec<f64>,
+    low: Vec<[f64; N]>,
+    high: Vec<[f64; N]>,
+    /// Rate at the start, from nothing; `None` where it may begin anyhow.
+    from_nothing: Option<[f64; N]>,
+}
+
+impl<'a, const N: usize> Bounds<'a, N> {
+    fn new(places: &[Place<N>], rate: &'a [f64; N], begins: Begins) -> Self {
+        let bound = |none: f64| {
+            let of = |p: &Place<N>| if p.counts { p.value } else { [none; N] };
+            places.iter().map(of).collect::<Vec<_>>()
+        };
+        let (mut low, mut high) = (bound(f64::NEG_INFINITY), bound(f64::INFINITY));
+        let mut pass = |from: usize, to: usize| {
+            let way = (places[to].at_mm - places[from].at_mm).abs();
+            for k in 0..N {
+                low[to][k] = larger(low[to][k], low[from][k] - rise(rate[k], way));
+                high[to][k] = smaller(high[to][k], high[from][k] + rise(rate[k], way));
+            }
+        };
+        (1..places.len()).for_each(|i| pass(i - 1, i));
+        (1..places.len()).rev().for_each(|i| pass(i, i - 1));
+        Self {
+            rate,
+            at_mm: places.iter().map(|p| p.at_mm).collect(),
+            low,
+            high,
+            from_nothing: (begins == Begins::WithNothing).then(|| at_the_start(places, rate)),
+        }
+    }
+
+    /// Whether a place has another value than its own, or a change between two is too fast.
+    fn are_felt(&self, places: &[Place<N>]) -> bool {
+        let other = |(i, p): (usize, &Place<N>)| self.at(*p, [i, i]).value != p.value;
+        let fast = |pair: &[Place<N>]| {
+            let way = pair[1].at_mm - pair[0].at_mm;
+            (0..N).any(|k| (pair[1].value[k] - pair[0].value[k]).abs() > rise(self.rate[k], way))
+        };
+        places.iter().enumerate().any(other) || places.windows(2).any(fast)
+    }
+
+    /// The value at a place between two (or at one) of those that the bounds were made of.
+    fn at(&self, place: Place<N>, [from, to]: [usize; 2]) -> Limited<N> {
+        let [before, after] = [place.at_mm - self.at_mm[from], self.at_mm[to] - place.at_mm];
+        let mut limited = Limited {
+            place,
+            value: place.value,
+            length_mm: 0.0,
+            begins: false,
+        };
+        for k in 0..N {
+            let r = self.rate[k];
+            let mut low = larger(
+                self.low[from][k] - rise(r, before),
+                self.low[to][k] - rise(r, after),
+            );
+            let mut high = smaller(
+                self.high[from][k] + rise(r, before),
+                self.high[to][k] + rise(r, after),
+            );
+            if place.counts {
+                low = larger(low, place.value[k]);
+                high = smaller(high, place.value[k]);
+            }
+            let mut value = match low > high {
+                true => 0.5 * (low + high),
+                false => smaller(larger(place.value[k], low), high),
+            };
+            if low > high {
+                limited.length_mm = larger(limited.length_mm, (low - high) / r);
+            }
+            if let Some(steepest) = self.from_nothing {
+                let most = rise(steepest[k], place.at_mm - self.at_mm[0]);
+                if value.abs() > most {
+                    value = most.copysign(value);
+                    limited.begins = true;
+                }
+            }
+            limited.value[k] = value;
+        }
+        limited
+    }
+
+    /// Ways at which the profile bends between two places, in order.
+    fn bends(&self, from: usize, [a, b]: [&Place<N>; 2]) -> Vec<f64> {
+        let way = b.at_mm - a.at_mm;
+        let mut parts: Vec<f64> = Vec::new();
+        for k in 0..N {
+            let r = self.rate[k];
+            // Straight lines over the way from the first place: value there, and slope.
+            let mut lines = vec![
+                (self.low[from][k], -r),
+                (self.low[from + 1][k] - rise(r, way), r),
+                (self.high[from][k], r),
+                (self.high[from + 1][k] + rise(r, way), -r),
+                (a.value[k], (b.value[k] - a.value[k]) / way),
+            ];
+            if let Some(steepest) = self.from_nothing {
+                let begun = rise(steepest[k], a.at_mm - self.at_mm[0]);
+                lines.extend([(begun, steepest[k]), (-begun, -steepest[k])]);
+            }
+            for (i, (value, slope)) in lines.iter().enumerate() {
+                for (other, other_slope) in &lines[i + 1..] {
+                    let at = (other - value) / (slope - other_slope);
+                    if at > 1e-9 * way && at < (1.0 - 1e-9) * way {
+                        parts.push(a.at_mm + at);
                     }
                 }
-            })
-        })
-        .collect();
-    let both = places.into_iter().zip(values).zip(lengths);
-    Some(
-        both.map(|((p, value), length)| (p, value, length))
-            .collect(),
-    )
+            }
+        }
+        parts.sort_by(f64::total_cmp);
+        parts.dedup_by(|b, a| *b - *a < 1e-9 * way);
+        parts
+    }
 }
 
-/// The nearest value within bounds.
-fn within(value: f64, low: f64, high: f64) -> f64 {
-    smaller(larger(value, low), high)
-}
-
-fn bound<const N: usize>(place: &Place<N>, none: f64) -> [f64; N] {
-    match place.counts {
-        true => place.value,
-        false => [none; N],
+/// By how much a value may change over a way; nothing over none, however fast it may.
+fn rise(rate: f64, way_mm: f64) -> f64 {
+    match way_mm > 0.0 {
+        true => rate * way_mm,
+        false => 0.0,
     }
 }
 
@@ -105,130 +229,4 @@ fn at_the_start<const N: usize>(places: &[Place<N>], rate: &[f64; N]) -> [f64; N
             false => rate[k],
         }
     })
-}
-
-/// Length over which a change between two values goes at the rate that is allowed, mm.
-fn length_of<const N: usize>(from: &[f64; N], to: &[f64; N], rate: &[f64; N]) -> f64 {
-    let lengths = (0..N)
-        .filter(|k| to[*k] != from[*k])
-        .map(|k| (to[k] - from[k]).abs() / rate[k]);
-    lengths.fold(0.0, larger)
-}
-
-/// A change that is felt at a place: how far it still reaches, and over which length it goes, mm.
-#[derive(Clone, Copy, Default)]
-struct Reach {
-    left_mm: f64,
-    length_mm: f64,
-}
-
-impl Reach {
-    /// Length of the change, where it still reaches.
-    fn felt(self) -> f64 {
-        match self.left_mm > 0.0 {
-            true => self.length_mm,
-            false => 0.0,
-        }
-    }
-
-    fn further(self, by_mm: f64) -> Self {
-        Self {
-            left_mm: self.left_mm - by_mm,
-            ..self
-        }
-    }
-
-    fn or(self, other: Self) -> Self {
-        match other.left_mm > self.left_mm {
-            true => other,
-            false => self,
-        }
-    }
-}
-
-/// How far changes that are too fast reach, at every place forwards and backwards; `None` without such changes.
-fn reach<const N: usize>(
-    places: &[Place<N>],
-    rate: &[f64; N],
-    begins: Begins,
-) -> Option<Vec<[Reach; 2]>> {
-    let mut reach = vec![[Reach::default(); 2]; places.len()];
-    let mut found = false;
-    if let (Begins::WithNothing, Some(first)) = (begins, places.first()) {
-        let length_mm = length_of(&[0.0; N], &first.value, rate);
-        found = length_mm > 0.0;
-        reach[0][0] = Reach {
-            left_mm: length_mm,
-            length_mm,
-        };
-    }
-    for (i, pair) in places.windows(2).enumerate() {
-        let way = pair[1].at_mm - pair[0].at_mm;
-        let length_mm = length_of(&pair[0].value, &pair[1].value, rate);
-        if length_mm > way {
-            found = true;
-            let own = Reach {
-                left_mm: length_mm,
-                length_mm,
-            };
-            reach[i][1] = reach[i][1].or(own);
-            reach[i + 1][0] = reach[i + 1][0].or(own);
-        }
-    }
-    if !found {
-        return None;
-    }
-    for i in 1..places.len() {
-        let way = places[i].at_mm - places[i - 1].at_mm;
-        reach[i][0] = reach[i][0].or(reach[i - 1][0].further(way));
-    }
-    for i in (1..places.len()).rev() {
-        let way = places[i].at_mm - places[i - 1].at_mm;
-        reach[i - 1][1] = reach[i - 1][1].or(reach[i][1].further(way));
-    }
-    Some(reach)
-}
-
-/// The places, with more of them where changes that are too fast reach, and the length of the longest that is felt at each.
-fn refined<const N: usize>(places: &[Place<N>], reach: &[[Reach; 2]]) -> (Vec<Place<N>>, Vec<f64>) {
-    let felt_at = |reach: &[Reach; 2]| larger(reach[0].felt(), reach[1].felt());
-    let mut fine = Vec::with_capacity(2 * places.len());
-    let mut lengths = Vec::with_capacity(2 * places.len());
-    fine.extend(places.first().copied());
-    lengths.extend(reach.first().map(felt_at));
-    for (pair, felt) in places.windows(2).zip(reach.windows(2)) {
-        let (a, b) = (&pair[0], &pair[1]);
-        let way = b.at_mm - a.at_mm;
-        let mut parts: Vec<f64> = Vec::new();
-        let sides = [(felt[0][0], false), (felt[1][1], true)];
-        for (reach, backwards) in sides.into_iter().filter(|(r, _)| r.left_mm > 0.0) {
-            let zone = smaller(reach.left_mm, way);
-            let step = reach.length_mm / PARTS;
-            let count = (zone / step).ceil().clamp(1.0, PARTS) as usize;
-            for i in 1..=count {
-                let part = zone * i as f64 / count as f64 / way;
-                parts.push(if backwards { 1.0 - part } else { part });
-            }
-        }
-        parts.retain(|part| *part > 1e-9 && *part < 1.0 - 1e-9);
-        parts.sort_by(f64::total_cmp);
-        parts.dedup_by(|b, a| *b - *a < 1e-9);
-        // The places of one move, and the seam between two, are in order.
-        let share = |part: f64| match a.move_index == b.move_index {
-            true => a.share + part * (b.share - a.share),
-            false => b.share,
-        };
-        fine.extend(parts.iter().map(|&part| Place {
-            move_index: b.move_index,
-            share: share(part),
-            at_mm: a.at_mm + part * way,
-            value: between(&a.value, &b.value, part),
-            counts: a.counts && b.counts,
-        }));
-        let between = larger(felt[0][0].felt(), felt[1][1].felt());
-        lengths.resize(fine.len(), between);
-        fine.push(*b);
-        lengths.push(felt_at(&felt[1]));
-    }
-    (fine, lengths)
 }

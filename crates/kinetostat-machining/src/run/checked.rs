@@ -20,5 +20,5 @@ pub(crate) struct Checked {
     /// The program as it is keeps the tolerance, and was left so.
     pub(crate) within_before: bool,
     /// Where the force changes faster than the correction may.
-    pub(crate) too_fast: Option<TooFast>,
+    pub(crate) too_fast: Vec<TooFast>,
 }

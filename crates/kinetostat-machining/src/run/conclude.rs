@@ -7,6 +7,7 @@ use kinetostat_program::{Corrected, Path};
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
 use crate::load::along_path::LoadAlongPath;
+use crate::load::ramps::TooFast;
 use crate::result::point::{PointKind, PointResult};
 use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
@@ -83,7 +84,7 @@ pub(crate) fn conclude(
         near_singularity,
         points: Vec::new(),
     };
-    result.tolerance = tolerance(&result, &points, written.as_ref(), checked.too_fast);
+    result.tolerance = tolerance(&result, &points, written.as_ref(), &checked.too_fast);
     result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
         .into_iter()
         .map(|i| points[i].clone())
@@ -228,14 +229,19 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
 
 /// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.
 fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
-    let found = checked.too_fast?;
-    (found.off_mm > 0.5 * task.writing.tolerance_mm).then(|| {
-        let text = format!(
-            "the force changes here by {} N more than the correction can follow with {} mm per mm of path (largest_step_mm_per_mm): up to about {} are left; a softer entry into the cut, or a larger step, leaves less",
-            largest(found.force_n, ""),
-            task.load_on(found.line).largest_step,
-            largest_length(found.off_mm)
-        );
-        Warning::at_line(WarningCode::ForceChangesFast, found.line, text)
-    })
+    let matter = |found: &&TooFast| found.off_mm > 0.5 * task.writing.tolerance_mm;
+    let all = || checked.too_fast.iter().filter(matter);
+    let found = all().max_by(|a, b| a.off_mm.total_cmp(&b.off_mm))?;
+    let more = match all().count() {
+        1 => String::new(),
+        n => format!(" (the worst of {n} lines)"),
+    };
+    let text = format!(
+        "the force changes here by {} N more than the correction can follow with {} mm per mm of path (largest_step_mm_per_mm): up to about {} are left{more}; a softer entry into the cut, or a larger step, leaves less",
+        largest(found.force_n, ""),
+        task.load_on(found.line).largest_step,
+        largest_length(found.off_mm)
+    );
+    let code = WarningCode::ForceChangesFast;
+    Some(Warning::at_line(code, found.line, text))
 }

@@ -13,7 +13,7 @@ pub(crate) fn tolerance(
     result: &RunResult,
     points: &[PointResult],
     written: Option<&Corrected>,
-    too_fast: Option<TooFast>,
+    too_fast: &[TooFast],
 ) -> ToleranceResult {
     let allowed_mm = result.allowed_mm();
     let held = result.holds_tolerance();
@@ -36,7 +36,7 @@ pub(crate) fn tolerance(
                 "a jump of the correction of {} got no step of its own; tighten the tolerance",
                 largest_length(a.largest_jump_taken_up_mm)
             )
-        } else if too_fast.is_some_and(|found| found.off_mm > 0.5 * error(p)) {
+        } else if too_fast.iter().any(|found| found.off_mm > 0.5 * error(p)) {
             "the force changes faster there than the correction may follow; enter the cut more softly, or allow a larger step (largest_step_mm_per_mm)".to_owned()
         } else {
             "the correction bends more between the ends of the written pieces than was expected, also where they were divided again; tighten the tolerance of the path".to_owned()

@@ -55,7 +55,7 @@ pub(crate) fn cut_setup(
             law: Arc::new(applied.law),
             spread: applied.spread,
             max_chip_mm: entry.max_chip_mm,
-            flute_length_mm: entry.flute_length_mm,
+            flute_length_mm: entry.flute_length_mm.or(entry.stick_out_mm),
         });
     }
     let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
