@@ -135,7 +135,8 @@ impl Conditioning {
             }
         }
         let drift = drift::remove(&mut log, &self.air, self.drift)?;
-        let rows = log.rows();
+        // Of the log itself: smoothing may put places between its rows.
+        let (rows, spacing, longest_step) = (log.rows(), log.spacing(), longest_step(&log.at));
         if self.window > 0.0 {
             let places = places_of_mean(&log.at, self.window);
             for channel in &mut log.channels {
@@ -154,8 +155,8 @@ impl Conditioning {
             outliers_looked_for: look,
             drift,
             window: self.window,
-            spacing: log.spacing(),
-            longest_step: longest_step(&log.at),
+            spacing,
+            longest_step,
         };
         Ok(Conditioned { log, report })
     }
