@@ -78,7 +78,7 @@ pub(crate) struct CylinderTable {
 #[serde(deny_unknown_fields)]
 pub(crate) struct HeightMapTable {
     /// CSV of heights, mm: a row along x, rows along y.
-    pub file: String,
+    pub file: Spanned<String>,
     /// Where the first number stands, and the bottom, mm.
     pub corner_mm: [f64; 3],
     /// From number to number, mm.
@@ -127,9 +127,9 @@ pub(crate) struct SpindleTable {
     /// Rated power, W.
     pub power_w: Option<Spanned<f64>>,
     /// Speed from which on the power is there.
-    pub base_rpm: Option<f64>,
+    pub base_rpm: Option<Spanned<f64>>,
     /// Largest speed.
-    pub most_rpm: Option<f64>,
+    pub most_rpm: Option<Spanned<f64>>,
     /// Which force of the revolution bends the machine.
     pub force: Option<ForceChoice>,
 }

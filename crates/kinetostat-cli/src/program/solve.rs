@@ -9,7 +9,7 @@ use kinetostat_machining::{
 };
 use kinetostat_program::{Path as ToolPath, Program};
 
-use crate::job::cut::along::{forces, measured, warnings};
+use crate::job::cut::along::{forces, measured, refuse_thick_chips, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
@@ -148,6 +148,9 @@ pub(crate) fn solve(
     let (program, path) = read_program(setting)?;
     let progress = Progress::new();
     let forces = forces_of(machine, &setting.program_name, &path, &progress)?;
+    if aim == Aim::Compensate {
+        refuse_thick_chips(forces.as_ref(), &setting.program_name)?;
+    }
     let read = (&program, &path);
     let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
         in_threads(threads, || match aim {

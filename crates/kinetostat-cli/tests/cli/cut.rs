@@ -386,3 +386,33 @@ fn a_real_pocket() {
         "{summary}"
     );
 }
+
+/// What is taken for a tool that the table lacks, and another length than the job's, is said.
+#[test]
+fn what_a_table_of_tools_lacks_or_contradicts_is_said() {
+    let job = JOB.replace("[material]", "[cutters]\nfile = \"tools.toml\"\n[material]");
+    let program = PASS.replace("S12000 M3", "S12000\nT7 M6\nM3");
+    let here = place(&job, &program);
+    let words = |number: u32| {
+        let table = format!(
+            "[[tool]]\nnumber = {number}\nshape = \"flat\"\ndiameter_mm = 6\nteeth = 2\nlength_mm = 40\n"
+        );
+        std::fs::write(here.path().join("tools.toml"), table).unwrap();
+        let said = run(here.path(), &["engagement", "job.toml"]);
+        assert_eq!(said.code, 0, "{said:?}");
+        said.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let lacks = words(3);
+    assert!(
+        lacks.contains(
+            "tool 7 of the program is not in the table of tools: the cutter under [tool] is taken"
+        ),
+        "{lacks}"
+    );
+    let other = words(7);
+    assert!(
+        other.contains("tool 7 is 40 mm long in the table of tools and 0 mm in the job"),
+        "{other}"
+    );
+    assert!(!other.contains("is not in the table"), "{other}");
+}

@@ -131,3 +131,42 @@ fn a_feed_per_turn_is_not_of_milling() {
     assert_eq!(said.code, 1, "{said:?}");
     assert!(said.err.contains("--feed-per-tooth-mm"), "{said:?}");
 }
+
+/// A feed beyond what the tool's maker allows, and a file that is not there: each where it stands, nothing written.
+#[test]
+fn feeds_that_break_the_tool_are_not_compensated() {
+    // 600 mm/min at 12000 rpm with 2 teeth: 0.025 mm per tooth, on line 5.
+    let limited = |most: f64| {
+        let edge = format!("helix_deg = 30, max_chip_mm = {most}");
+        compensate(&JOB.replace("helix_deg = 30", &edge))
+    };
+    let said = limited(0.02);
+    assert_eq!(said.code, 1, "{said:?}");
+    let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    let needle = "pass.ngc: line 5: a feed of 0.025 mm per tooth; the tool's maker allows 0.02 mm";
+    assert!(flat.contains(needle), "{flat}");
+    assert_eq!(limited(0.03).code, 0);
+}
+
+#[test]
+fn a_file_that_is_missing_is_named_where_the_job_names_it() {
+    let cutters = JOB.replace("[material]", "[cutters]\nfile = \"none.toml\"\n[material]");
+    refused(&cutters, "10", "'none.toml' does not exist", 1);
+    let mesh = JOB.replace(
+        "block_mm = [[0, -20, -12], [20, 0, 0]]",
+        "stl = \"none.stl\"",
+    );
+    refused(&mesh, "12", "'none.stl' does not exist", 1);
+}
+
+#[test]
+fn a_speed_of_the_spindle_is_refused_where_it_stands() {
+    let spindle = |most: &str| {
+        let table = format!("[spindle]\npower_w = 800\nbase_rpm = 10000\nmost_rpm = {most}\n");
+        JOB.replace("[output]", &format!("{table}[output]"))
+    };
+    refused(&spindle("900"), "16", "largest speed: 900 rpm", 1);
+    refused(&spindle("\"fast\""), "16", "a number", 1);
+    let base = spindle("24000").replace("base_rpm = 10000", "base_rpm = -1");
+    refused(&base, "15", "base speed: -1 rpm", 1);
+}

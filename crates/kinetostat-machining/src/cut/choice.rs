@@ -26,7 +26,9 @@ impl ForceChoice {
     pub fn description(self) -> &'static str {
         match self {
             Self::Mean => "mean over the revolution",
-            Self::AtSurfaceGeneration => "while the tooth makes the wall",
+            Self::AtSurfaceGeneration => {
+                "while the tooth makes the wall; the mean over the revolution where the tool makes two walls (a slot) or none"
+            }
             Self::Peak => "peak of the revolution",
         }
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::number::larger;
+use kinetostat::number::{larger, short};
 use kinetostat_cutting::{Contact, Edge, Engagement, Feed};
 
 use crate::cut::drive::Drive;
@@ -28,14 +28,18 @@ impl CutQuestion {
             && chip > most
         {
             findings.add(CutFindingKind::ThickChip, line, chip, || {
-                format!("{chip:.4} mm per tooth; the tool's maker allows {most} mm")
+                format!(
+                    "a feed of {} mm per tooth; the tool's maker allows {most} mm (max_chip_mm)",
+                    short(chip)
+                )
             });
         }
         let coarse = COARSE * tool.tool.diameter_mm();
         if tool.max_chip_mm.is_none() && chip > coarse {
             findings.add(CutFindingKind::ThickChip, line, chip, || {
                 format!(
-                    "{chip:.3} mm per tooth with a tool of {} mm: check feed, speed and number of teeth; the force is that of chips that no such tool cuts",
+                    "a feed of {} mm per tooth with a tool of {} mm: check feed, speed and number of teeth; the force is that of chips that no such tool cuts (max_chip_mm of the tool allows them)",
+                    short(chip),
                     tool.tool.diameter_mm()
                 )
             });
@@ -46,7 +50,8 @@ impl CutQuestion {
             if thickest > 0.0 && beyond > 1.0 {
                 findings.add(CutFindingKind::OutsideTheLaw, line, beyond, || {
                     format!(
-                        "chips of at most {thickest:.4} mm; the law of the material was measured from {least} to {most} mm: the force is a guess"
+                        "chips of at most {} mm; the law of the material was measured from {least} to {most} mm: the force is a guess",
+                        short(thickest)
                     )
                 });
             }
@@ -56,7 +61,10 @@ impl CutQuestion {
         {
             let depth = station.depth_mm;
             findings.add(CutFindingKind::ShortEdges, line, depth, || {
-                format!("{depth:.2} mm deep; edges or tool are {length} mm long there")
+                format!(
+                    "{} mm deep; edges or tool are {length} mm long there",
+                    short(depth)
+                )
             });
         }
         if let Some(curve) = &self.spindle
@@ -69,8 +77,8 @@ impl CutQuestion {
         if feed.down_mm > 0.0 && engagement.contacts.iter().any(full) {
             findings.add(CutFindingKind::Plunge, line, feed.down_mm, || {
                 format!(
-                    "the tool plunges with {:.4} mm per tooth: its end must cut at the centre",
-                    feed.down_mm
+                    "the tool plunges with {} mm per tooth: its end must cut at the centre",
+                    short(feed.down_mm)
                 )
             });
         }

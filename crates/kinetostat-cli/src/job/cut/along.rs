@@ -1,7 +1,7 @@
 //! Forces of the cut along the program of a job.
 
 use kinetostat_machining::{
-    CutFailure, CutFindingKind, ExpectedForce, ForceAlongPath, MeasuredReport, Warning,
+    CutFailure, CutFinding, CutFindingKind, ExpectedForce, ForceAlongPath, MeasuredReport, Warning,
     WarningCode, Watch,
 };
 use kinetostat_program::Path as ToolPath;
@@ -48,17 +48,38 @@ pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
     }
 }
 
+/// Chips that no such tool cuts: a program with them is not compensated.
+pub(crate) fn too_thick_chip(forces: Option<&ForceAlongPath>) -> Option<&CutFinding> {
+    let mut found = forces.into_iter().flat_map(|forces| &forces.findings);
+    found.find(|finding| finding.kind == CutFindingKind::ThickChip)
+}
+
+/// Refuses them, with the worst line.
+pub(crate) fn refuse_thick_chips(forces: Option<&ForceAlongPath>, program: &str) -> Answer<()> {
+    match too_thick_chip(forces) {
+        None => Ok(()),
+        Some(found) => Err(Failure::input(format!(
+            "line {}: {}; write a smaller feed or a higher speed, or correct the tool",
+            found.line,
+            text_of(found)
+        ))
+        .within(program)),
+    }
+}
+
+/// What was found on the worst line, and on how many.
+fn text_of(finding: &CutFinding) -> String {
+    match finding.lines {
+        0 | 1 => finding.text.clone(),
+        n => format!("{} (the worst of {n} lines)", finding.text),
+    }
+}
+
 /// What no such cut should be, as warnings.
 pub(crate) fn warnings(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
     let found = forces.iter().flat_map(|forces| &forces.findings);
-    let of_moves = found.map(|finding| {
-        let more = match finding.lines {
-            0 | 1 => String::new(),
-            n => format!(" (the worst of {n} lines)"),
-        };
-        let text = format!("{}{more}", finding.text);
-        Warning::at_line(code(finding.kind), finding.line, text)
-    });
+    let of_moves =
+        found.map(|finding| Warning::at_line(code(finding.kind), finding.line, text_of(finding)));
     let log = forces.and_then(|forces| forces.measured.as_ref());
     log.into_iter().flat_map(of_log).chain(of_moves).collect()
 }

@@ -12,16 +12,18 @@ use crate::job::job_file::JobFile;
 use crate::job::setting::program_path;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
 
 /// The number of a tool, and its edges; without a number it is that of all others.
 type Cutter = (Option<u32>, ToolEntry);
 
-/// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls.
+/// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls;
+/// what was taken for granted goes to `words`.
 pub(super) fn cutters(
     files: &InputFiles,
     j: &JobFile,
     flags: &ProgramArgs,
-    files_read: &mut FilesOfCut,
+    (files_read, words): (&mut FilesOfCut, &mut Vec<String>),
 ) -> Answer<Vec<Cutter>> {
     let tools = &j.job.tools;
     let same = |a: usize, b: usize| tools[a].get_ref().number == tools[b].get_ref().number;
@@ -57,14 +59,49 @@ pub(super) fn cutters(
         let path = program_path(Some(j), flags)?;
         let program = Program::read(files.bytes("program", &path)?).map_err(Failure::input)?;
         for number in program.tool_numbers() {
-            let known = all.iter().any(|(own, _)| *own == Some(number));
-            // A tool that cuts and is not in the table is named with its line where it cuts.
-            if let (false, Ok(entry)) = (known, table.tool(number)) {
-                all.push((Some(number), entry.clone()));
+            if all.iter().any(|(own, _)| *own == Some(number)) {
+                continue;
+            }
+            match table.tool(number) {
+                Ok(entry) => {
+                    words.extend(other_length(j, number, entry));
+                    all.push((Some(number), entry.clone()));
+                }
+                // T0 is no tool.
+                Err(_) if number != 0 && j.job.tool.cutter.is_some() => words.push(format!(
+                    "tool {number} of the program is not in the table of tools: the cutter under [tool] is taken for it"
+                )),
+                // A tool that cuts, and of which nothing is known, is named with its line where it cuts.
+                Err(_) => {}
             }
         }
     }
     Ok(all)
+}
+
+/// Lengths that differ by more than this, mm, are said.
+const SAME_LENGTH_MM: f64 = 1e-3;
+
+/// What is said where the table has another length of a tool than the job, on which the machine stands.
+fn other_length(j: &JobFile, number: u32, entry: &ToolEntry) -> Option<String> {
+    let in_table = entry.length_mm?;
+    let own = j.job.tools.iter().map(Spanned::get_ref);
+    let (length, pose) = match own.into_iter().find(|tool| tool.number == number) {
+        Some(tool) => (&tool.length_mm, &tool.pose),
+        None => (&j.job.tool.length_mm, &j.job.tool.pose),
+    };
+    let in_job = match (length, pose) {
+        (Some(length), _) => *length.get_ref(),
+        (None, None) => 0.0,
+        (None, Some(_)) => return None,
+    };
+    ((in_table - in_job).abs() > SAME_LENGTH_MM).then(|| {
+        format!(
+            "tool {number} is {} mm long in the table of tools and {} mm in the job: the machine has that of the job",
+            short(in_table),
+            short(in_job)
+        )
+    })
 }
 
 /// The table of tools, completed by that of the machine.
@@ -74,12 +111,11 @@ fn table_of(
     table: &CuttersTable,
     files_read: &mut FilesOfCut,
 ) -> Answer<ToolTable> {
-    let (text, name) = files_read.text(files, j, "table of tools", table.file.get_ref())?;
+    let (text, name) = files_read.text(files, j, "table of tools", &table.file)?;
     let Some(machine) = &table.tool_tbl else {
         return ToolTable::read(&name, &text).map_err(Failure::input);
     };
-    let (bytes, of_machine) =
-        files_read.bytes(files, j, "table of the machine", machine.get_ref())?;
+    let (bytes, of_machine) = files_read.bytes(files, j, "table of the machine", machine)?;
     let unit = match table.tool_tbl_unit {
         Some(UnitsWord::Inch) => MachineUnit::Inches,
         Some(UnitsWord::Mm) | None => MachineUnit::Millimetres,

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_machining::FileRead;
 
+use serde_spanned::Spanned;
+
 use crate::files::input_files::{InputFiles, text_in};
 use crate::files::origin;
 use crate::job::job_file::JobFile;
@@ -23,7 +25,7 @@ impl FilesOfCut {
         files: &InputFiles,
         job: &JobFile,
         what: &str,
-        name: &str,
+        name: &Spanned<String>,
     ) -> Answer<(String, String)> {
         let (bytes, shown) = self.bytes(files, job, what, name)?;
         let text = text_in(what, Path::new(&shown), bytes)?;
@@ -36,10 +38,14 @@ impl FilesOfCut {
         files: &InputFiles,
         job: &JobFile,
         what: &str,
-        name: &str,
+        name: &Spanned<String>,
     ) -> Answer<(Vec<u8>, String)> {
-        let path = job.base().join(name);
-        let bytes = files.bytes(what, &path)?;
+        let path = job.base().join(name.get_ref());
+        let bytes = files.bytes(what, &path);
+        let bytes = bytes.map_err(|failure| {
+            let help = "paths count from the folder of the job file";
+            job.error(name, &failure.plain, help)
+        })?;
         self.read.push(origin::file(what, &path, &bytes));
         let shown = path.display().to_string();
         self.paths.push(path);

@@ -52,7 +52,7 @@ pub(super) fn material(
 ) -> Answer<MaterialSetup> {
     let mut known = Materials::library();
     if let Some(file) = &table.file {
-        let (text, name) = read.text(files, job, "file of materials", file.get_ref())?;
+        let (text, name) = read.text(files, job, "file of materials", file)?;
         known.with(Materials::read(&name, &text).map_err(Failure::input)?);
     }
     let found = known.find(table.name.get_ref());

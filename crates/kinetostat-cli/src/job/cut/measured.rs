@@ -67,7 +67,7 @@ pub(crate) fn measured_setup(
         "a shift is -1e9 to 1e9 s",
     )?;
     let mut read = FilesOfCut::default();
-    let (text, name) = read.text(files, j, "log of forces", t.file.get_ref())?;
+    let (text, name) = read.text(files, j, "log of forces", &t.file)?;
     let log = ForceLog::read(&name, &text).map_err(Failure::input)?;
     drop(text);
     let (smooth, air) = by_its_columns(j, t, log.by())?;

@@ -47,7 +47,7 @@ pub(crate) fn cut_setup(
     let of_material = material(files, j, table.get_ref(), &mut read)?;
     let mut words = of_material.words.clone();
     let mut tools = Vec::new();
-    for (number, entry) in cutters(files, j, flags, &mut read)? {
+    for (number, entry) in cutters(files, j, flags, (&mut read, &mut words))? {
         let applied = of_material.for_tool(j, number, entry.rake_deg, &mut words)?;
         tools.push(CuttingTool {
             number,
@@ -208,6 +208,7 @@ fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
 fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
     let Some(power) = &table.power_w else {
         return match &j.job.spindle {
+            Some(_) if j.lacks("power_w") => Ok(None),
             Some(own) if table.base_rpm.is_some() || table.most_rpm.is_some() => Err(j.error(
                 own,
                 "speeds alone do not say what the spindle can",
@@ -216,13 +217,24 @@ fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
             _ => Ok(None),
         };
     };
-    let (Some(base), Some(most)) = (table.base_rpm, table.most_rpm) else {
+    let (Some(base), Some(most)) = (&table.base_rpm, &table.most_rpm) else {
+        // What was wrong with it has been said.
+        if j.lacks("base_rpm") || j.lacks("most_rpm") {
+            return Ok(None);
+        }
         return Err(j.error(
             power,
             "a power alone does not say what the spindle can",
             "write base_rpm and most_rpm beside it",
         ));
     };
-    let curve = SpindleCurve::rated(*power.get_ref(), base, most);
-    curve.map(Some).map_err(|error| refused(j, power, &error))
+    let curve = SpindleCurve::rated(*power.get_ref(), *base.get_ref(), *most.get_ref());
+    curve.map(Some).map_err(|error| {
+        let at = match error.quantity.as_str() {
+            "base speed" => base,
+            "largest speed" => most,
+            _ => power,
+        };
+        refused(j, at, &error)
+    })
 }

@@ -9,7 +9,7 @@ use crate::job::cut::refused::refused;
 use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;
-use crate::ui::numbers::short;
+use crate::ui::numbers::{given, short};
 
 /// Largest cell, as a share of the tool's diameter: forces in coarser ones are off by percents and more.
 const COARSEST: f64 = 0.1 + 1e-9;
@@ -35,10 +35,10 @@ pub(super) fn stock(
             cell,
             &format!(
                 "cells of {} mm are finer than a thousandth of the tool's diameter of {} mm",
-                short(*cell.get_ref()),
+                given(*cell.get_ref()),
                 short(largest.diameter_mm())
             ),
-            &format!("write at least {}", short(finest)),
+            &format!("write at least {}", given(finest)),
         ));
     }
     let mut settings = match &t.cell_mm {
@@ -68,7 +68,7 @@ pub(super) fn stock(
             "write block_mm = [[x, y, z], [x, y, z]], for instance",
         ));
     }
-    let mut read = |what: &str, name: &str| files_read.bytes(files, job, what, name);
+    let mut read = |what: &str, name: &Spanned<String>| files_read.bytes(files, job, what, name);
     let stock = if let Some(corners) = &t.block_mm {
         let [a, b] = *corners.get_ref();
         Stock::block(a, b, &settings)
@@ -76,7 +76,7 @@ pub(super) fn stock(
         let c = cylinder.get_ref();
         Stock::cylinder(c.foot_mm, 2.0 * c.radius_mm, c.height_mm, &settings)
     } else if let Some(stl) = &t.stl {
-        let (bytes, name) = read("mesh of the stock", stl.get_ref())?;
+        let (bytes, name) = read("mesh of the stock", stl)?;
         Stock::stl(&bytes, &name, &settings)
     } else if let Some(map) = &t.height_map {
         let m = map.get_ref();
@@ -96,7 +96,7 @@ pub(super) fn stock(
             table,
             &format!(
                 "cells of {} mm do not show where a tool of {} mm cuts: at most a tenth of its diameter does",
-                short(stock.cell_mm()),
+                given(stock.cell_mm()),
                 short(smallest.diameter_mm())
             ),
             "write a smaller cell_mm, give more memory_mb, or take a smaller stock",
@@ -112,7 +112,7 @@ pub(super) fn stock(
     };
     let words = format!(
         "engagement from the stock, a height field of cells of {} mm{coarser}, in the coordinates of the program with its work offsets: no undercuts, tool along z of the part{walls}",
-        short(stock.cell_mm())
+        given(stock.cell_mm())
     );
     Ok((stock, words))
 }
