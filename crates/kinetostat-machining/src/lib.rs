@@ -32,6 +32,7 @@ pub use checks::refused::of_accounting;
 pub use checks::tool::odd_tool_length;
 pub use checks::unusual::{odd_tolerances, refused_question, unusual_question};
 pub use cut::choice::ForceChoice;
+pub use cut::clock::DwellUnit;
 pub use cut::cutting_tool::CuttingTool;
 pub use cut::engagement_source::EngagementSource;
 pub use cut::failure::CutFailure;

@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--offsets" => {
                 for (index, origin) in reading.work_offsets_mm.iter_mut().enumerate() {
                     let k = index as f64;
-                    *origin = Vector3::new(12.7 * k, -2.54 * (k + 1.0), 0.254 * k * k);
+                    *origin = Some(Vector3::new(12.7 * k, -2.54 * (k + 1.0), 0.254 * k * k));
                 }
             }
             "--correct" => {

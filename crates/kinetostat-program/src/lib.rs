@@ -67,6 +67,7 @@ pub use path::curve::{Arc, Curve};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
+pub use path::pause::{Pause, PauseKind};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
 pub use reading::dialect::{CODES, Code, Treatment};

@@ -102,6 +102,7 @@ A job file:
   # file = "log.csv"               # time_s or along_mm, fx_n, fy_n, fz_n
   # acts_on = "part"               # or "tool"; axes = "part" or "feed"
   # rapid_mm_per_min = 10000, shift_s = 2.5, air_s = [[0, 1], [58, 60]]
+  # dwell_unit = "s"               # what the P of G4 counts: "s" or "ms"
   # smooth_s = 0.01, drift = "line", outliers = "replace"
 
   [reading]

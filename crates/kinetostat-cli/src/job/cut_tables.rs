@@ -1,7 +1,7 @@
 //! The tables of a job that say what is cut.
 
 use kinetostat_cutting::{Coolant, CuttingMaterial, DriftModel, OutlierTreatment, Rotation, Side};
-use kinetostat_machining::{ActsOn, ForceChoice, MeasuredAxes};
+use kinetostat_machining::{ActsOn, DwellUnit, ForceChoice, MeasuredAxes};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
@@ -153,6 +153,8 @@ pub(crate) struct MeasuredTable {
     pub smooth_mm: Option<Spanned<f64>>,
     /// Speed of rapids.
     pub rapid_mm_per_min: Option<Spanned<f64>>,
+    /// What the P of dwells (G4) counts.
+    pub dwell_unit: Option<Spanned<DwellUnit>>,
     /// Stretches in which the tool is in air, of a log over time.
     pub air_s: Option<Spanned<Vec<[f64; 2]>>>,
     /// The same of a log along the path.

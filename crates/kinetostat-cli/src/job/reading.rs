@@ -63,7 +63,7 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<Read
                 return Err(j.error(offsets, &what, "keep one of the two"));
             }
             given.push(index);
-            reading.work_offsets_mm[index] = Vector3::from(*value);
+            reading.work_offsets_mm[index] = Some(Vector3::from(*value));
         }
     }
     let mut given: Vec<usize> = Vec::new();
@@ -90,7 +90,7 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<Read
         let [x, y, z] = numbers[..] else {
             return Err(refuse());
         };
-        reading.work_offsets_mm[index] = Vector3::new(x, y, z);
+        reading.work_offsets_mm[index] = Some(Vector3::new(x, y, z));
     }
     Ok(reading)
 }

@@ -155,7 +155,7 @@ fn a_log_over_time_is_a_force_typed_in() {
         "outliers: none",
         "drift: straight lines through 2 stretches in air",
         "smoothing: mean over 0.1 s",
-        "accelerations, overrides, dwells (G4)",
+        "dwells as programmed; accelerations and overrides",
     ] {
         assert!(words.iter().any(|w| w.contains(part)), "{part}: {words:?}");
     }

@@ -1,8 +1,28 @@
 //! When each move of a program is made, or where it lies along the program's cuts.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{Knowledge, Move, MoveKind, Path, PauseKind};
+use serde::{Deserialize, Serialize};
 
 use crate::cut::failure::CutFailure;
+
+/// What the P of a dwell (G4) counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DwellUnit {
+    /// Seconds, as with LinuxCNC.
+    #[serde(rename = "s")]
+    Seconds,
+    /// Milliseconds, as with Fanuc.
+    #[serde(rename = "ms")]
+    Milliseconds,
+}
+
+/// What a program does not say about its times.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Timing {
+    pub rapid_mm_per_minute: Option<f64>,
+    pub rpm: Option<f64>,
+    pub dwell_unit: Option<DwellUnit>,
+}
 
 /// Where each move lies: from and to, in s or mm, the first cut beginning at 0.
 #[derive(Debug)]
@@ -10,6 +30,8 @@ pub(crate) struct Clock {
     pub spans: Vec<[f64; 2]>,
     /// Indices of moves behind the first cut and before the last whose way is not known.
     pub unknown: Vec<usize>,
+    /// Pauses between them of which nobody knows how long they take, with their lines.
+    pub pauses: Vec<(usize, PauseKind)>,
 }
 
 /// A feed move whose place is known.
@@ -18,25 +40,31 @@ pub(crate) fn cuts(motion: &Move) -> bool {
 }
 
 impl Clock {
-    /// Time of each move, s: length over feed, and over the speed of rapids; moves whose way is not known take none.
-    pub fn by_time(
-        path: &Path,
-        rapid_mm_per_minute: Option<f64>,
-        rpm: Option<f64>,
-    ) -> Result<Self, CutFailure> {
+    /// Time of each move, s: length over feed, and over the speed of rapids, behind the dwells before it; moves whose way is
+    /// not known and pauses that last until somebody starts again take none.
+    pub fn by_time(path: &Path, timing: &Timing) -> Result<Self, CutFailure> {
+        let rapid_mm_per_minute = timing.rapid_mm_per_minute;
         let first = path.moves.iter().position(cuts);
         let last = path.moves.iter().rposition(cuts);
         let between = |i: usize| first.is_some_and(|first| i > first) && Some(i) < last;
         let mut durations = Vec::with_capacity(path.moves.len());
-        let mut unknown = Vec::new();
+        let mut waits = Vec::with_capacity(path.moves.len());
+        let (mut unknown, mut pauses) = (Vec::new(), Vec::new());
         for (i, motion) in path.moves.iter().enumerate() {
             if motion.known != Knowledge::Whole && between(i) {
                 unknown.push(i);
             }
+            waits.push(match i.checked_sub(1).filter(|_| between(i)) {
+                Some(before) => {
+                    let lines = (path.moves[before].line, motion.line);
+                    wait(path, lines, timing.dwell_unit, &mut pauses)?
+                }
+                None => 0.0,
+            });
             let timed = motion.known == Knowledge::Whole && motion.has_length();
             let speed = match (timed, motion.kind) {
                 (false, _) => None,
-                (true, MoveKind::Feed) => Some(feed(path, motion, rpm)?),
+                (true, MoveKind::Feed) => Some(feed(path, motion, timing.rpm)?),
                 (true, MoveKind::Rapid) if rapid_mm_per_minute.is_none() && between(i) => {
                     return Err(CutFailure::Missing {
                         line: motion.line,
@@ -49,8 +77,9 @@ impl Clock {
             durations.push(speed.map_or(0.0, |speed| 60.0 * motion.length_mm() / speed));
         }
         Ok(Self {
-            spans: spans(&durations, first),
+            spans: spans(&durations, &waits, first),
             unknown,
+            pauses,
         })
     }
 
@@ -59,8 +88,9 @@ impl Clock {
         let length = |m: &Move| if cuts(m) { m.length_mm() } else { 0.0 };
         let lengths: Vec<f64> = path.moves.iter().map(length).collect();
         Self {
-            spans: spans(&lengths, Some(0)),
+            spans: spans(&lengths, &[], Some(0)),
             unknown: Vec::new(),
+            pauses: Vec::new(),
         }
     }
 
@@ -83,16 +113,43 @@ impl Clock {
     }
 }
 
-/// Spans that follow each other, that of the move `zero` beginning at 0.
-fn spans(sizes: &[f64], zero: Option<usize>) -> Vec<[f64; 2]> {
+/// Time between the blocks of two moves that dwells take, s; pauses of which nobody knows the time are listed.
+fn wait(
+    path: &Path,
+    (after, before): (usize, usize),
+    unit: Option<DwellUnit>,
+    unknown: &mut Vec<(usize, PauseKind)>,
+) -> Result<f64, CutFailure> {
+    let mut seconds = 0.0;
+    for pause in path.pauses_between(after, before + 1) {
+        match (pause.kind, unit) {
+            (PauseKind::DwellSeconds(stated), _)
+            | (PauseKind::Dwell(stated), Some(DwellUnit::Seconds)) => seconds += stated,
+            (PauseKind::Dwell(stated), Some(DwellUnit::Milliseconds)) => seconds += 1e-3 * stated,
+            (PauseKind::Dwell(_), None) => {
+                return Err(CutFailure::Missing {
+                    line: pause.line,
+                    what: "how long a dwell takes is not known: its P counts seconds on some controllers and milliseconds on others",
+                    help: "say which (dwell_unit = \"s\" or \"ms\")",
+                });
+            }
+            (kind, _) => unknown.push((pause.line, kind)),
+        }
+    }
+    Ok(seconds)
+}
+
+/// Spans that follow each other with what is waited before each, that of the move `zero` beginning at 0.
+fn spans(sizes: &[f64], waits: &[f64], zero: Option<usize>) -> Vec<[f64; 2]> {
     let before: f64 = sizes.iter().take(zero.unwrap_or(0)).sum();
     let mut at = -before;
-    let mut next = |size: &f64| {
-        let from = at;
-        at += size;
+    let mut next = |(size, wait): (&f64, f64)| {
+        let from = at + wait;
+        at = from + size;
         [from, at]
     };
-    let mut all: Vec<[f64; 2]> = sizes.iter().map(&mut next).collect();
+    let waits = waits.iter().copied().chain(std::iter::repeat(0.0));
+    let mut all: Vec<[f64; 2]> = sizes.iter().zip(waits).map(&mut next).collect();
     if let Some(first) = zero.and_then(|zero| all.get_mut(zero)) {
         first[0] = 0.0;
     }

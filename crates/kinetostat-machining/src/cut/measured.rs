@@ -6,7 +6,7 @@ use kinetostat_cutting::{
 };
 use kinetostat_program::{MoveKind, Path};
 
-use crate::cut::clock::{Clock, longest_revolution};
+use crate::cut::clock::{Clock, DwellUnit, Timing, longest_revolution};
 use crate::cut::failure::CutFailure;
 use crate::cut::measured_findings::findings;
 use crate::cut::measured_report::{ActsOn, MeasuredAxes, MeasuredReport};
@@ -75,6 +75,8 @@ pub struct MeasuredForces {
     pub outliers: OutlierTreatment,
     /// Speed of rapids, mm/min; needed where there are rapids between cuts.
     pub rapid_mm_per_minute: Option<f64>,
+    /// What the P of dwells counts; needed where there are dwells between cuts.
+    pub dwell_unit: Option<DwellUnit>,
     /// Speed of the spindle instead of the program's, rpm.
     pub rpm: Option<f64>,
 }
@@ -93,6 +95,7 @@ impl MeasuredForces {
             drift: DriftModel::default(),
             outliers: OutlierTreatment::default(),
             rapid_mm_per_minute: None,
+            dwell_unit: None,
             rpm: None,
         }
     }
@@ -115,7 +118,7 @@ impl MeasuredForces {
         };
         watch.stage("measured forces", path.moves.len());
         let clock = match self.log.by() {
-            LoggedBy::Time => Clock::by_time(path, self.rapid_mm_per_minute, self.rpm)?,
+            LoggedBy::Time => Clock::by_time(path, &self.timing())?,
             LoggedBy::AlongPath => Clock::by_length(path),
         };
         let window = self.window(path)?;
@@ -165,6 +168,14 @@ impl MeasuredForces {
         let largest = forces.largest().force().norm();
         forces.findings = findings(&laid, path, largest, margin, &self.air);
         Ok(forces)
+    }
+
+    fn timing(&self) -> Timing {
+        Timing {
+            rapid_mm_per_minute: self.rapid_mm_per_minute,
+            rpm: self.rpm,
+            dwell_unit: self.dwell_unit,
+        }
     }
 
     /// The window of the moving mean, s or mm.

@@ -30,6 +30,14 @@ pub(crate) fn findings(
                 .to_owned()
         });
     }
+    for (line, kind) in &laid.clock.pauses {
+        findings.add(CutFindingKind::TimeUnknown, *line, 1.0, || {
+            format!(
+                "how long {} takes is stated nowhere: it is taken to take no time, and what the log has behind it would be too early; cut program and log in two there",
+                kind.description()
+            )
+        });
+    }
     let in_air = air.iter().map(|stretch| largest_in(laid, *stretch));
     let noise = 1.5 * in_air.fold(0.0, larger);
     let least = larger(NOISE * largest_n, noise);

@@ -55,7 +55,7 @@ impl MeasuredReport {
                 None => "no rapids between cuts".to_owned(),
             };
             all.push(format!(
-                "times of the program: lengths over the programmed feeds, {rapids}; accelerations, overrides, dwells (G4) and changes of tools are not known"
+                "times of the program: lengths over the programmed feeds, {rapids}; dwells as programmed; accelerations and overrides are not known"
             ));
         }
         all

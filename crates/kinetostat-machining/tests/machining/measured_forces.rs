@@ -6,9 +6,9 @@ use kinetostat_cutting::{
     DriftModel, ForceLog, Linear, LoggedBy, Shape, Stock, StockSettings, Tool,
 };
 use kinetostat_machining::{
-    ActsOn, CutFailure, CutFindingKind, CutQuestion, CuttingLoad, CuttingTool, EngagementSource,
-    ExpectedForce, ForceAlongPath, ForceChoice, LoadAlongPath, MeasuredAxes, MeasuredForces,
-    Placement, ProgramLoad, Unwatched,
+    ActsOn, CutFailure, CutFindingKind, CutQuestion, CuttingLoad, CuttingTool, DwellUnit,
+    EngagementSource, ExpectedForce, ForceAlongPath, ForceChoice, LoadAlongPath, MeasuredAxes,
+    MeasuredForces, Placement, ProgramLoad, Unwatched,
 };
 use kinetostat_program::{MoveKind, Path, Program, ReadOptions, interpret};
 use kinetostat_testing::Worst;
@@ -313,6 +313,77 @@ fn a_force_in_a_rapid_is_named() {
             .sentences()
             .iter()
             .any(|s| s.ends_with("as stated"))
+    );
+}
+
+/// Cuts of 4 and 2 s, between them a dwell of 2 s and a rapid of 1 s: the second is where the dwell puts it, in either unit;
+/// without a unit it is asked for; a stop takes a time that nobody knows.
+#[test]
+fn dwells_take_their_time() {
+    let program = |pause: &str| {
+        path(&format!(
+            "G21 G90\nS6000 M3\nG0 X0 Y0 Z0\nG1 X40 F600\n{pause}\nG0 Y10\nG1 X20\n"
+        ))
+    };
+    // The second cut begins softly, so that its place in time shows: 10 N for a second, then 30 N.
+    let force = |t: f64| match t - 1.5 {
+        s if (0.0..4.0).contains(&s) => 20.0,
+        s if (7.0..8.0).contains(&s) => 10.0,
+        s if (8.0..9.0).contains(&s) => 30.0,
+        _ => 0.0,
+    };
+    let at: Vec<f64> = (0..1300).map(|i| f64::from(i) * 0.01).collect();
+    let fz = at.iter().map(|t| force(*t)).collect();
+    let log = ForceLog::new(
+        LoggedBy::Time,
+        at,
+        [vec![0.0; 1300], vec![0.0; 1300], fz],
+        None,
+    );
+    let mut measured = MeasuredForces::new(log.unwrap(), ActsOn::Tool);
+    measured.rapid_mm_per_minute = Some(600.0);
+    let second_cut = |measured: &MeasuredForces, path: &Path| {
+        let forces = along(measured, path);
+        let shift = forces.measured.as_ref().unwrap().shift_s.unwrap();
+        assert!((shift - 1.5).abs() < 0.02, "{shift}");
+        for (share, expected) in [(0.25, 10.0), (0.75, 30.0)] {
+            let z = forces.wrench(3, share).force().z;
+            assert!((z - expected).abs() < 1e-6, "{share}: {z}");
+        }
+        forces
+    };
+    for (pause, unit) in [
+        ("G4 P2", Some(DwellUnit::Seconds)),
+        ("G4 P2000", Some(DwellUnit::Milliseconds)),
+        ("G4 P1\nG4 P1.0", Some(DwellUnit::Seconds)),
+        ("G4 X2", None),
+    ] {
+        measured.dwell_unit = unit;
+        assert!(
+            second_cut(&measured, &program(pause)).findings.is_empty(),
+            "{pause}"
+        );
+    }
+    measured.dwell_unit = None;
+    let missing = failure(&measured, &program("G4 P2"));
+    assert!(
+        matches!(missing, CutFailure::Missing { line: 5, .. }),
+        "{missing}"
+    );
+    assert!(missing.to_string().contains("dwell_unit"), "{missing}");
+    // Outside the cuts a dwell moves nothing.
+    let outside = path("G21 G90\nS6000 M3\nG4 P9\nG0 X0 Y0 Z0\nG1 X40 F600\nM5\nG4 P9\n");
+    assert!(along(&measured, &outside).measured.is_some());
+    measured.shift_s = Some(1.5);
+    let stopped = along(&measured, &program("M0"));
+    let unknown = &stopped.findings[0];
+    assert_eq!(
+        (unknown.kind, unknown.line),
+        (CutFindingKind::TimeUnknown, 5)
+    );
+    assert!(
+        unknown.text.contains("a stop (M0, M1 or M60)"),
+        "{unknown:?}"
     );
 }
 

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::path::curve::{Curve, NO_LENGTH_MM};
+use crate::path::pause::Pause;
 use crate::path::position_offset::OffsetChange;
 use crate::path::spindle::SpindleChange;
 use crate::path::tool_change::ToolChange;
@@ -153,6 +154,8 @@ pub struct Path {
     pub tool_changes: Vec<ToolChange>,
     /// Where the spindle begins to turn otherwise, in the order of lines; see [`Path::spindle_on`].
     pub spindle_changes: Vec<SpindleChange>,
+    /// Blocks in which the tool stands still, in the order of lines; see [`Path::pauses_between`].
+    pub pauses: Vec<Pause>,
     /// What changes between the moves and matters to who writes them.
     pub(crate) events: Vec<Event>,
 }

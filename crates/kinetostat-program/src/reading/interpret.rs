@@ -7,6 +7,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{
     Change, CoordinateWords, Event, ExtraMode, Knowledge, Motion, Move, MoveKind, Path, Warning,
 };
+use crate::path::pause::Pause;
 use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::reading::arc::{self, ArcFrame};
 use crate::reading::block::Block;
@@ -14,6 +15,7 @@ use crate::reading::extra::ExtraAxes;
 use crate::reading::modes::Modes;
 use crate::reading::moment::{Placed, moment_of};
 use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions};
+use crate::reading::pause::pause;
 use crate::reading::repeated::Repeated;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
@@ -134,6 +136,7 @@ struct Interpreter<'o> {
     /// For each move: which axes are known before and after it.
     knowledge: Vec<([bool; 3], [bool; 3])>,
     events: Vec<Event>,
+    pauses: Vec<Pause>,
     tools: ToolWords,
     spindle: SpindleWords,
     warnings: Vec<Warning>,
@@ -155,6 +158,7 @@ impl<'o> Interpreter<'o> {
             moves: Vec::new(),
             knowledge: Vec::new(),
             events: Vec::new(),
+            pauses: Vec::new(),
             tools: ToolWords::default(),
             spindle: SpindleWords::default(),
             warnings: Vec::new(),
@@ -178,7 +182,10 @@ impl<'o> Interpreter<'o> {
         let now = self.modes.work_offset;
         let first = *self.first_system.get_or_insert(now);
         let offsets = &self.options.work_offsets_mm;
-        if now != first && offsets[now] == offsets[first] {
+        let origin = |system: usize| offsets[system].unwrap_or_default();
+        if offsets[now].is_none() && offsets.iter().any(Option::is_some) {
+            self.repeated.note(line, "the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        } else if now != first && origin(now) == origin(first) {
             self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
         }
     }
@@ -230,6 +237,7 @@ impl<'o> Interpreter<'o> {
         self.modes.set(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
+        self.pauses.extend(pause(block));
         if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
@@ -275,7 +283,7 @@ impl<'o> Interpreter<'o> {
     }
 
     fn work_offset_mm(&self) -> Vector3<f64> {
-        self.options.work_offsets_mm[self.modes.work_offset]
+        self.options.work_offsets_mm[self.modes.work_offset].unwrap_or_default()
     }
 
     fn set_position_offset(
@@ -654,6 +662,7 @@ impl<'o> Interpreter<'o> {
             warnings: self.warnings,
             tool_changes: Vec::new(),
             spindle_changes: self.spindle.finish(),
+            pauses: self.pauses,
             events: self.events,
         };
         self.tools.finish(&mut path, program, self.options)?;

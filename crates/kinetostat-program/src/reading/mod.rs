@@ -11,6 +11,7 @@ pub(crate) mod interpret;
 pub(crate) mod modes;
 pub(crate) mod moment;
 pub(crate) mod options;
+pub(crate) mod pause;
 pub(crate) mod repeated;
 pub(crate) mod spindle;
 pub(crate) mod tools;

@@ -56,9 +56,10 @@ pub struct ReadOptions {
     /// Units in force before the first G20 or G21. `None` (the default) refuses a program that
     /// moves before it has named its units.
     pub units: Option<Units>,
-    /// Origins of G54, G55, G56, G57, G58, G59, G59.1, G59.2, G59.3 in the part frame, in mm. Zero by
-    /// default: the program's coordinates are the part's.
-    pub work_offsets_mm: [Vector3<f64>; 9],
+    /// Origins of G54, G55, G56, G57, G58, G59, G59.1, G59.2, G59.3 in the part frame, in mm; those that
+    /// are not stated are zero: the program's coordinates are the part's. A program that uses one of them beside stated
+    /// ones is warned of.
+    pub work_offsets_mm: [Option<Vector3<f64>>; 9],
     /// Where the tool stands before the first block, in mm, part frame.
     ///
     /// `None` (the default) means unknown. An axis is then unknown until the program states it (an
@@ -87,7 +88,7 @@ impl Default for ReadOptions {
     fn default() -> Self {
         Self {
             units: None,
-            work_offsets_mm: [Vector3::zeros(); 9],
+            work_offsets_mm: [None; 9],
             start_position_mm: None,
             arc_tolerance_mm: 0.005,
             block_delete: BlockDelete::Run,

@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 fn reading() -> ReadOptions {
-    let mut work_offsets_mm = [Vector3::zeros(); 9];
+    let mut work_offsets_mm = [None; 9];
     for (offset, given) in work_offsets_mm.iter_mut().zip(WORK) {
-        *offset = Vector3::from(given);
+        *offset = Some(Vector3::from(given));
     }
     {
         let mut reading = ReadOptions::default();

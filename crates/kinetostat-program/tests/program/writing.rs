@@ -173,12 +173,39 @@ fn an_offset_from_an_unknown_place_may_be_taken_away_at_the_end_or_suspended_for
 #[test]
 fn work_offsets_place_the_program_in_the_part() {
     let mut reading = at_origin();
-    reading.work_offsets_mm[1] = Vector3::new(100.0, 0.0, 0.0);
+    reading.work_offsets_mm[1] = Some(Vector3::new(100.0, 0.0, 0.0));
     let field = |request: &Request| Ok(Vector3::new(0.001 * request.position_mm.x, 0.0, 0.0));
     let text = "G21 G90\nG54 G0 X10\nG55 G0 X10\n";
     let (output, result) = written_with(text, &field, &reading, &bare());
     assert_eq!(output, "G21 G90\nG54 G0 X10.0100\nG55 G0 X10.1100\n");
     assert_eq!(result.pieces[1].commanded_to.x, 110.11);
+}
+
+#[test]
+fn a_system_without_a_stated_origin_is_warned_of_where_others_have_one() {
+    let warned = |stated: &[usize], text: &str| -> Vec<(usize, String)> {
+        let mut reading = at_origin();
+        for &system in stated {
+            reading.work_offsets_mm[system] = Some(Vector3::new(100.0 * system as f64, 0.0, 0.0));
+        }
+        let path = interpret(&Program::read(text).unwrap(), &reading).unwrap();
+        let all = path.warnings.iter();
+        all.map(|warning| (warning.line, warning.text.clone()))
+            .collect()
+    };
+    let text = "G21 G90\nG54 G0 X10\nG55 G0 X10\nG0 X20\n";
+    assert_eq!(warned(&[0, 1], text), []);
+    let [(3, missing)] = &warned(&[0], text)[..] else {
+        panic!("{:?}", warned(&[0], text));
+    };
+    assert!(
+        missing.contains("the origin of this work coordinate system is not stated"),
+        "{missing}"
+    );
+    let [(3, same)] = &warned(&[], text)[..] else {
+        panic!("{:?}", warned(&[], text));
+    };
+    assert!(same.contains("both have the same origin"), "{same}");
 }
 
 #[test]

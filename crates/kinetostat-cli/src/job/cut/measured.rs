@@ -78,6 +78,7 @@ pub(crate) fn measured_setup(
     forces.air = air;
     forces.drift = t.drift;
     forces.outliers = t.outliers;
+    forces.dwell_unit = t.dwell_unit.as_ref().map(|unit| *unit.get_ref());
     forces.rapid_mm_per_minute = t.rapid_mm_per_min.as_ref().map(|rate| *rate.get_ref());
     Ok(Some(MeasuredSetup {
         forces,
@@ -108,6 +109,7 @@ fn by_its_columns(
                 by,
                 "leave out the speed of rapids",
             )?;
+            not_here(j, t.dwell_unit.as_ref(), by, "leave out the unit of dwells")?;
             (&t.smooth_mm, &t.air_mm)
         }
     };
