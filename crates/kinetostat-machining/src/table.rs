@@ -1,8 +1,8 @@
 //! A program corrected from a table of corrections instead of a model.
 
 use kinetostat_program::{
-    Corrected, CorrectionMap, FieldCheck, Knowledge, Monitor, MoveKind, NoCorrection, Path,
-    Program, WriteError, WriteOptions, verify_against_field, write_corrected,
+    Corrected, CorrectionMap, FieldCheck, Monitor, NoCorrection, Path, Program, WriteError,
+    WriteOptions, verify_against_field, write_corrected,
 };
 
 use crate::number::mean_length;
@@ -70,7 +70,7 @@ pub fn wide_table(path: &Path, field: &CorrectionMap) -> Option<Warning> {
     let [low, high] = field.bounds_mm();
     let feeds = || {
         let moves = path.moves.iter();
-        moves.filter(|m| m.kind == MoveKind::Feed && m.known == Knowledge::Whole)
+        moves.filter(|m| m.is_known_feed())
     };
     let mut found = None;
     for axis in 0..3 {

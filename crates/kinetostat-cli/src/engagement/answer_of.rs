@@ -4,7 +4,7 @@ use kinetostat_cutting::Stock;
 use kinetostat_machining::{
     CuttingTool, EngagementSource, ForceAlongPath, Warning, cutting_result, of_program,
 };
-use kinetostat_program::{Knowledge, MoveKind, Path};
+use kinetostat_program::Path;
 
 use crate::engagement::answer::{EngagementAnswer, StockAnswer, ToolAnswer};
 use crate::job::cut::CutSetup;
@@ -21,7 +21,7 @@ pub(crate) fn answer_of(
     files.extend(setting.job_file.clone());
     files.extend(cut.files.read.iter().cloned());
     let cuts = path.moves.iter();
-    let cuts = cuts.filter(|m| m.kind == MoveKind::Feed && m.known == Knowledge::Whole);
+    let cuts = cuts.filter(|m| m.is_known_feed());
     let mut assumed = cut.words.clone();
     assumed.push(
         "model, placement and tool lengths of a job play no part: the program is cut where and as large as it is written, with the tool along z; tool and part are rigid".to_owned(),

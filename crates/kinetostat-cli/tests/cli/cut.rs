@@ -7,9 +7,10 @@ use std::path::Path;
 use crate::common::{Said, contents, gcode, run};
 
 /// A pass into a block and out of it again, on the small Orthoglide: climb milling, half the tool in the material.
-const PASS: &str = "G21 G90\nS12000 M3\nG0 X-30 Y0 Z5\nG1 Z-2 F300\nG1 X30 F600\nG0 Z5\nM30\n";
+pub(crate) const PASS: &str =
+    "G21 G90\nS12000 M3\nG0 X-30 Y0 Z5\nG1 Z-2 F300\nG1 X30 F600\nG0 Z5\nM30\n";
 
-const JOB: &str = r#"schema = 1
+pub(crate) const JOB: &str = r#"schema = 1
 model = "orthoglide"
 program = "pass.ngc"
 [placement]
@@ -28,7 +29,7 @@ json = "result.json"
 points = "points.csv"
 "#;
 
-fn place(job: &str, program: &str) -> tempfile::TempDir {
+pub(crate) fn place(job: &str, program: &str) -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("pass.ngc"), program).unwrap();
     std::fs::write(directory.path().join("job.toml"), job).unwrap();

@@ -3,29 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use crate::common::{Said, contents, run};
-
-const PASS: &str = "G21 G90\nS12000 M3\nG0 X-30 Y0 Z5\nG1 Z-2 F300\nG1 X30 F600\nG0 Z5\nM30\n";
-
-const JOB: &str = r#"schema = 1
-model = "orthoglide"
-program = "pass.ngc"
-[placement]
-part_origin_mm = [0, 0, 100]
-[tool]
-length_mm = 0
-cutter = { shape = "flat", diameter_mm = 6, teeth = 2, helix_deg = 30 }
-[material]
-name = "AlMg4.5Mn"
-[stock]
-block_mm = [[0, -20, -12], [20, 0, 0]]
-[output]
-program = "out.ngc"
-"#;
+use crate::cut::{JOB, PASS, place};
 
 fn compensate(job: &str) -> Said {
-    let here = tempfile::tempdir().unwrap();
-    std::fs::write(here.path().join("pass.ngc"), PASS).unwrap();
-    std::fs::write(here.path().join("job.toml"), job).unwrap();
+    let here = place(job, PASS);
     let said = run(here.path(), &["compensate", "job.toml"]);
     if said.code == 1 {
         let names: Vec<_> = contents(here.path()).into_keys().collect();

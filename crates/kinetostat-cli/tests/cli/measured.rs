@@ -8,10 +8,7 @@ use std::path::Path;
 use kinetostat_testing::Worst;
 
 use crate::common::{Said, contents, run};
-use crate::cut::written_y_at;
-
-/// A plunge of 1.4 s and a pass of 6 s, without rapids between them.
-const PASS: &str = "G21 G90\nS12000 M3\nG0 X-30 Y0 Z5\nG1 Z-2 F300\nG1 X30 F600\nG0 Z5\nM30\n";
+use crate::cut::{PASS, written_y_at};
 
 const JOB: &str = r#"schema = 1
 model = "orthoglide"
@@ -40,7 +37,7 @@ fn typed() -> String {
     )
 }
 
-/// At 2 kHz, the first cut at 0.8 s: the force on the part, opposite to that on the tool, with drift of 3 N, noise of 1 N.
+/// The program is a plunge of 1.4 s and a pass of 6 s, without rapids between them. At 2 kHz, the first cut at 0.8 s: the force on the part, opposite to that on the tool, with drift of 3 N, noise of 1 N.
 fn log() -> String {
     let mut text = "# dynamometer under the part\ntime_s,fx_n,fy_n,fz_n\n".to_owned();
     let mut state = 1_u32;
@@ -68,10 +65,8 @@ fn along(length_mm: f64) -> String {
 }
 
 fn place(job: &str, program: &str, log: &str) -> tempfile::TempDir {
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("pass.ngc"), program).unwrap();
+    let directory = crate::cut::place(job, program);
     std::fs::write(directory.path().join("log.csv"), log).unwrap();
-    std::fs::write(directory.path().join("job.toml"), job).unwrap();
     directory
 }
 

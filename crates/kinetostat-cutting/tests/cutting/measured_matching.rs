@@ -125,7 +125,7 @@ fn what_is_not_distinct_is_refused() {
         &expected(&passes),
         "the log looks the same at both",
     );
-    // All four are told apart by the silence before and behind them.
+    // All four are recognised by the silence before and behind them.
     let all = |t: f64| {
         if (0.0..15.0).contains(&t) && t % 4.0 < 3.0 {
             90.0

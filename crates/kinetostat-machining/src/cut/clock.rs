@@ -36,7 +36,7 @@ pub(crate) struct Clock {
 
 /// A feed move whose place is known.
 pub(crate) fn cuts(motion: &Move) -> bool {
-    motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && motion.has_length()
+    motion.is_known_feed() && motion.has_length()
 }
 
 impl Clock {

@@ -1,8 +1,8 @@
 //! The forces of a program's cuts.
 
 use kinetostat::Wrench;
-use kinetostat_cutting::{Edge, Engagement, Feed, Milling, Stock};
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use kinetostat_cutting::{CutError, Edge, Engagement, Feed, Milling, Stock};
+use kinetostat_program::{Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::engagement_source::EngagementSource;
@@ -60,23 +60,21 @@ impl CutQuestion {
                     return Err(CutFailure::Cancelled);
                 }
             }
-            let mut stations = self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?;
-            match before {
-                Some(before) if is_short(motion, since_mm) => {
+            let mut stations;
+            match before.filter(|_| is_short(motion, since_mm)) {
+                Some(before) => {
+                    self.sweep(path, motion, &mut walk)?;
                     stations = moves[before].last().map_or_else(Vec::new, standing);
+                    since_mm += motion.length_mm();
                 }
-                Some(before) if self.goes_on(path, before, i) => {
-                    join(moves[before].last(), &mut stations);
+                None => {
+                    stations = self.of_move(path, motion, &mut walk, &mut forces, &mut findings)?;
+                    if let Some(before) = before.filter(|before| self.goes_on(path, *before, i)) {
+                        join(moves[before].last(), &mut stations);
+                    }
+                    (before, since_mm) = (motion.is_known_feed().then_some(i), 0.0);
                 }
-                _ => {}
             }
-            (before, since_mm) = match motion.kind {
-                MoveKind::Feed if before.is_some() && is_short(motion, since_mm) => {
-                    (before, since_mm + motion.length_mm())
-                }
-                MoveKind::Feed if motion.known == Knowledge::Whole => (Some(i), 0.0),
-                _ => (None, 0.0),
-            };
             moves.push(stations);
         }
         let forces = ForceAlongPath::of(moves, findings.list());
@@ -92,9 +90,8 @@ impl CutQuestion {
         let EngagementSource::Lines(ranges) = &self.engagement else {
             return;
         };
-        let cuts = |m: &&Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
         for (lines, _) in ranges {
-            let mut moves = path.moves.iter().filter(cuts);
+            let mut moves = path.moves.iter().filter(|m| m.is_known_feed());
             if !moves.any(|m| lines.contains(&m.line)) {
                 findings.add(CutFindingKind::LinesWithoutCut, *lines.start(), 1.0, || {
                     format!(
@@ -111,13 +108,24 @@ impl CutQuestion {
     /// meets there is what it met before.
     fn goes_on(&self, path: &Path, before: usize, i: usize) -> bool {
         let (before, motion) = (&path.moves[before], &path.moves[i]);
-        let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
         let gentle = match (before.tangent(1.0), motion.tangent(0.0)) {
             (Some(a), Some(b)) => a.angle(&b) <= GENTLE,
             _ => false,
         };
         let tool = |m: &Move| self.tool_on(path, m.line).ok();
-        cuts(before) && cuts(motion) && gentle && tool(before) == tool(motion)
+        before.is_known_feed() && motion.is_known_feed() && gentle && tool(before) == tool(motion)
+    }
+
+    /// What a tool meets on a move, and what it sweeps is removed; tools that are not known are the first one.
+    fn sweep(
+        &self,
+        path: &Path,
+        motion: &Move,
+        walk: &mut Walk<'_>,
+    ) -> Result<Vec<Met>, CutFailure> {
+        let tool = self.tool_on(path, motion.line).unwrap_or(0);
+        let met = walk.go(motion, tool);
+        met.map_err(|error| cut_failure(motion, error))
     }
 
     fn of_move(
@@ -128,20 +136,17 @@ impl CutQuestion {
         forces: &mut [ForceOf<'_>],
         findings: &mut Findings,
     ) -> Result<Vec<CutStation>, CutFailure> {
-        let cut = |error| CutFailure::Cut {
-            line: motion.line,
-            error: Box::new(error),
-        };
+        let cut = |error| cut_failure(motion, error);
         let tool = self.tool_on(path, motion.line);
         if motion.kind == MoveKind::Rapid {
             // Without a known tool nothing is known to be swept.
-            if let Ok(tool) = tool {
-                let met = walk.go(motion, tool).map_err(cut)?;
+            if tool.is_ok() {
+                let met = self.sweep(path, motion, walk)?;
                 rapid_through(&met, motion.line, findings);
             }
             return Ok(Vec::new());
         }
-        let met = walk.go(motion, *tool.as_ref().unwrap_or(&0)).map_err(cut)?;
+        let met = self.sweep(path, motion, walk)?;
         // What is missing matters where something is cut.
         if met.iter().all(|met| met.engagement.is_air()) {
             return Ok(met.iter().map(|met| CutStation::air(met.share)).collect());
@@ -178,12 +183,17 @@ impl CutQuestion {
     }
 }
 
+fn cut_failure(motion: &Move, error: CutError) -> CutFailure {
+    CutFailure::Cut {
+        line: motion.line,
+        error: Box::new(error),
+    }
+}
+
 /// Feed moves that are so short, or so close to the last cut that was looked at, that their own direction says nothing.
 fn is_short(motion: &Move, since_mm: f64) -> bool {
     let length = motion.length_mm();
-    motion.kind == MoveKind::Feed
-        && motion.known == Knowledge::Whole
-        && (length < 0.1 * SHORT_MM || since_mm + length < 0.5 * SHORT_MM)
+    motion.is_known_feed() && (length < 0.1 * SHORT_MM || since_mm + length < 0.5 * SHORT_MM)
 }
 
 /// What acts on the tool while it does not go on: what acted before.

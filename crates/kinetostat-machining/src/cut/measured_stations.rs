@@ -8,7 +8,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::clock::{Clock, cuts};
 use crate::cut::measured_report::{ActsOn, MeasuredAxes};
-use crate::cut::station::{ACROSS, CutStation};
+use crate::cut::station::{CutStation, heading};
 
 /// Most stations of a program, but for the ends of moves and for arcs.
 const MOST_STATIONS: f64 = 500_000.0;
@@ -138,12 +138,8 @@ impl Laid<'_> {
 
     /// In axes of the feed, and of the part.
     fn in_axes(&self, motion: &Move, share: f64, logged: Wrench) -> (Wrench, Wrench) {
-        let tangent = motion.tangent(share).unwrap_or_default();
         // Straight up and down there is no feed across the axis: axes of the part then.
-        let angle = match tangent.xy().norm() > ACROSS {
-            true => tangent.y.atan2(tangent.x),
-            false => 0.0,
-        };
+        let angle = heading(motion.tangent(share)).unwrap_or(0.0);
         let turned =
             |angle: f64| logged.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle));
         match self.axes {

@@ -1,10 +1,17 @@
 //! What acts on the tool at one place of a cut.
 
 use kinetostat::Wrench;
+use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Part of a direction across the tool axis below which a move has no direction there: within 0.1 degree of the axis.
 pub(crate) const ACROSS: f64 = 2e-3;
+
+/// Heading of a direction, seen along z of the part frame, rad; `None` along z.
+pub(crate) fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
+    let t = tangent?;
+    (t.xy().norm() > ACROSS).then(|| t.y.atan2(t.x))
+}
 
 /// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
 /// systems have moves of tenths of micrometres in any direction.

@@ -20,8 +20,8 @@ pub(crate) struct Met {
 
 /// Where the tool is in the material, as it goes.
 pub(crate) enum Walk<'a> {
-    /// As told.
-    Told(&'a EngagementSource),
+    /// As stated.
+    Stated(&'a EngagementSource),
     /// By a stock, with a probe for each tool.
     Stock(Box<Stock>, Vec<Probe>),
 }
@@ -33,14 +33,14 @@ impl<'a> Walk<'a> {
                 stock.clone(),
                 tools.iter().map(|t| Probe::new(&t.tool)).collect(),
             ),
-            told => Self::Told(told),
+            stated => Self::Stated(stated),
         }
     }
 
     /// What is left of the stock.
     pub fn left(self) -> Option<Stock> {
         match self {
-            Self::Told(_) => None,
+            Self::Stated(_) => None,
             Self::Stock(stock, _) => Some(*stock),
         }
     }
@@ -52,7 +52,7 @@ impl<'a> Walk<'a> {
             return Ok(met);
         }
         match self {
-            Self::Told(source) => {
+            Self::Stated(source) => {
                 if motion.kind == MoveKind::Feed
                     && let Some(engagement) = source.of_line(motion.line)
                 {

@@ -18,8 +18,9 @@ use kinetostat_program::{Curve, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::profile::{CutAxes, ForceAlongPath};
+use crate::cut::station::heading;
 use crate::cut::vertices::Scale;
-use crate::load::headings::{Headings, heading, headings};
+use crate::load::headings::{Headings, headings};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
 use crate::placement::Placement;

@@ -1,9 +1,8 @@
 //! In which direction a cut goes at the ends of every move, and how far the load lags behind at a gentle corner.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
-use nalgebra::Vector3;
+use kinetostat_program::{Move, MoveKind, Path};
 
-use crate::cut::station::{ACROSS, SHORT_MM};
+use crate::cut::station::{SHORT_MM, heading};
 use crate::load::law::ProgramLoad;
 
 /// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
@@ -18,27 +17,20 @@ pub(crate) struct Headings {
     pub lag_end: f64,
 }
 
-/// Heading of a direction, seen along z of the part frame, rad; `None` along z.
-pub(crate) fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
-    let t = tangent?;
-    (t.xy().norm() > ACROSS).then(|| t.y.atan2(t.x))
-}
-
 /// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
 const AROUND_MM: f64 = 0.05;
 
 /// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
 fn around(path: &Path, move_index: usize) -> Option<f64> {
     let motion = &path.moves[move_index];
-    let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
-    if !cuts(motion) || motion.length_mm() >= SHORT_MM {
+    if !motion.is_known_feed() || motion.length_mm() >= SHORT_MM {
         return None;
     }
     // From the middle of the move `AROUND_MM` back and on, as far as the cut goes.
     let reach = |moves: &mut dyn Iterator<Item = &Move>, back: bool| {
         let mut left = AROUND_MM - 0.5 * motion.length_mm();
         let mut place = if back { motion.start } else { motion.end };
-        for m in moves.take_while(|m| cuts(m)) {
+        for m in moves.take_while(|m| m.is_known_feed()) {
             let length = m.length_mm();
             if length >= left {
                 let share = left / length;

@@ -31,6 +31,13 @@ pub(crate) struct TooFast {
     pub off_mm: f64,
 }
 
+impl TooFast {
+    /// Whether it is large beside the tolerance of the path.
+    pub fn matters(&self, tolerance_mm: f64) -> bool {
+        self.off_mm > 0.5 * tolerance_mm
+    }
+}
+
 /// A load in two readings.
 #[derive(Clone, Debug)]
 pub(crate) struct Ramped<'a> {
@@ -42,16 +49,23 @@ pub(crate) struct Ramped<'a> {
     pub too_fast: Vec<TooFast>,
 }
 
+impl<'a> Ramped<'a> {
+    /// The correction follows all of the load that acts.
+    fn alike(load: LoadAlongPath<'a>) -> Self {
+        Self {
+            acting: load.clone(),
+            followed: load,
+            too_fast: Vec::new(),
+        }
+    }
+}
+
 impl<'a> LoadAlongPath<'a> {
     /// The load that changes no faster than it may on a machine of this smallest stiffness (N/mm).
     pub(crate) fn ramped(self, stiffness: f64) -> Ramped<'a> {
         let steps = stiffness > 0.0 && stiffness.is_finite();
         if !steps {
-            return Ramped {
-                acting: self.clone(),
-                followed: self,
-                too_fast: Vec::new(),
-            };
+            return Ramped::alike(self);
         }
         let begun = self.begun(stiffness);
         let followed = self.with_part(begun);
@@ -65,11 +79,7 @@ impl<'a> LoadAlongPath<'a> {
             limit.cut(&cut.profile)
         });
         let Some((asked, acting, too_fast)) = changed else {
-            return Ramped {
-                acting: followed.clone(),
-                followed,
-                too_fast: Vec::new(),
-            };
+            return Ramped::alike(followed);
         };
         Ramped {
             acting: followed.clone().with_profile(acting),

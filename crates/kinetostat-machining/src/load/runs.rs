@@ -1,6 +1,6 @@
 //! Stretches of a program that are cut without a rapid between them.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{Move, MoveKind, Path};
 
 use crate::cut::station::SHORT_MM;
 use crate::profile::limited::{Begins, Place};
@@ -11,7 +11,7 @@ pub(crate) fn runs(path: &Path, joined: impl Fn(&Move, &Move) -> bool) -> Vec<Ve
     let mut runs: Vec<Vec<usize>> = Vec::new();
     let mut open = false;
     for (i, motion) in path.moves.iter().enumerate() {
-        if motion.kind != MoveKind::Feed || motion.known != Knowledge::Whole {
+        if !motion.is_known_feed() {
             open = false;
             continue;
         }

@@ -181,17 +181,20 @@ impl<'a, const N: usize> Bounds<'a, N> {
         for k in 0..N {
             let r = self.rate[k];
             // Straight lines over the way from the first place: value there, and slope.
-            let mut lines = vec![
+            let begun = self
+                .from_nothing
+                .map(|steepest| (rise(steepest[k], a.at_mm - self.at_mm[0]), steepest[k]));
+            // None crosses what is no line.
+            let (begun, steepest) = begun.unwrap_or((f64::NAN, f64::NAN));
+            let lines = [
                 (self.low[from][k], -r),
                 (self.low[from + 1][k] - rise(r, way), r),
                 (self.high[from][k], r),
                 (self.high[from + 1][k] + rise(r, way), -r),
                 (a.value[k], (b.value[k] - a.value[k]) / way),
+                (begun, steepest),
+                (-begun, -steepest),
             ];
-            if let Some(steepest) = self.from_nothing {
-                let begun = rise(steepest[k], a.at_mm - self.at_mm[0]);
-                lines.extend([(begun, steepest[k]), (-begun, -steepest[k])]);
-            }
             for (i, (value, slope)) in lines.iter().enumerate() {
                 for (other, other_slope) in &lines[i + 1..] {
                     let at = (other - value) / (slope - other_slope);

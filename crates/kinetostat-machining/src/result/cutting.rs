@@ -60,6 +60,22 @@ impl CutPlace {
             .hypot(self.force_left_n)
             .hypot(self.force_up_n)
     }
+
+    /// Torque as a share of what the spindle gives at this speed, 1 where it gives no more; `None` where that is not stated.
+    ///
+    /// ```
+    /// use kinetostat_machining::CutPlace;
+    ///
+    /// let mut place = CutPlace::default();
+    /// assert_eq!(place.share_of_spindle(), None);
+    /// (place.torque_n_m, place.spindle_torque_n_m) = (1.5, Some(6.0));
+    /// assert_eq!(place.share_of_spindle(), Some(0.25));
+    /// ```
+    #[must_use]
+    pub fn share_of_spindle(&self) -> Option<f64> {
+        let gives = self.spindle_torque_n_m.filter(|gives| *gives > 0.0)?;
+        Some(self.torque_n_m / gives)
+    }
 }
 
 /// What the cut asks along a path.

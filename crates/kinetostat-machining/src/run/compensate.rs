@@ -20,7 +20,7 @@ use crate::run::checked::Checked;
 use crate::run::conclude::{Run, conclude};
 use crate::run::corner_steps::by_the_other_reading;
 use crate::run::divide_again::Again;
-use crate::run::first_look::{first_look, folding_load, stiffness_at_first_look};
+use crate::run::first_look::FirstLook;
 use crate::run::following::jump;
 use crate::run::force_band::force_band;
 use crate::run::points::solve;
@@ -51,9 +51,9 @@ fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
-    refuse(folding_load(task, &load, watch)?)?;
-    let stiffness = stiffness_at_first_look(task, &load, watch)?;
-    let load = load.ramped(stiffness).acting;
+    let looked = FirstLook::new(task, &load, watch)?;
+    refuse(looked.folding_load(task))?;
+    let load = load.ramped(looked.stiffness()).acting;
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (mut points, _) = solve(task, sites, false, watch)?;
     let checked = Checked {
@@ -71,13 +71,13 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     refuse(of_task(task))?;
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
-    let looked = first_look(task, &load, watch)?;
-    refuse(looked.beyond)?;
+    let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
+    refuse(looked.gross(task))?;
     let Ramped {
         followed,
         acting: load,
         too_fast,
-    } = load.ramped(looked.stiffness);
+    } = load.ramped(looked.stiffness());
     let field = ModelField::new(task.mechanism, task.placement, &followed);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
@@ -124,7 +124,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         )?;
     }
     // Where the force changes faster than the correction may, a block may end farther off; the tolerance is missed there.
-    let matters = |found: &TooFast| found.off_mm > 0.5 * task.writing.tolerance_mm;
+    let matters = |found: &TooFast| found.matters(task.writing.tolerance_mm);
     if let Some(worse) = worse.filter(|_| !too_fast.iter().any(matters)) {
         return Err(worse);
     }

@@ -229,8 +229,8 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
 
 /// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.
 fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
-    let matter = |found: &&TooFast| found.off_mm > 0.5 * task.writing.tolerance_mm;
-    let all = || checked.too_fast.iter().filter(matter);
+    let matters = |found: &&TooFast| found.matters(task.writing.tolerance_mm);
+    let all = || checked.too_fast.iter().filter(matters);
     let found = all().max_by(|a, b| a.off_mm.total_cmp(&b.off_mm))?;
     let more = match all().count() {
         1 => String::new(),

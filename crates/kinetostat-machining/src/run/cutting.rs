@@ -141,10 +141,10 @@ fn note(result: &mut CuttingResult, place: &CutPlace) {
     largest(&mut result.largest_torque, |p| p.torque_n_m);
     largest(&mut result.largest_power, |p| p.power_w);
     largest(&mut result.largest_chip, |p| p.chip_mm);
-    if let Some(share) = share_of_spindle(place) {
+    if let Some(share) = place.share_of_spindle() {
         let most = result.nearest_to_spindle.as_ref();
         if most
-            .and_then(share_of_spindle)
+            .and_then(CutPlace::share_of_spindle)
             .is_none_or(|most| share > most)
         {
             result.nearest_to_spindle = Some(*place);
@@ -164,12 +164,6 @@ fn note(result: &mut CuttingResult, place: &CutPlace) {
     }
     worst.sort_by(|a, b| b.force_n().total_cmp(&a.force_n()));
     worst.truncate(WORST);
-}
-
-/// Torque as a share of what the spindle gives.
-fn share_of_spindle(place: &CutPlace) -> Option<f64> {
-    let limit = place.spindle_torque_n_m.filter(|limit| *limit > 0.0)?;
-    Some(place.torque_n_m / limit)
 }
 
 /// Figures of which the largest and the smallest of a stretch are kept.

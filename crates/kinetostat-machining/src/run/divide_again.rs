@@ -9,9 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat_program::{
-    CorrectionField, FieldFailure, Knowledge, Move, MoveKind, Path, Request, Structure,
-};
+use kinetostat_program::{CorrectionField, FieldFailure, Move, Path, Request, Structure};
 use nalgebra::Vector3;
 
 use crate::field::ModelField;
@@ -135,7 +133,7 @@ fn inside(path: &Path, point: &PointResult) -> Option<Request> {
     let move_index = path.moves.binary_search_by_key(&point.line, |m| m.line);
     let move_index = move_index.ok()?;
     let motion = &path.moves[move_index];
-    let divided = motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole;
+    let divided = motion.is_known_feed();
     (divided && point.share > 0.0 && point.share < 1.0).then(|| Request {
         move_index,
         share: point.share,

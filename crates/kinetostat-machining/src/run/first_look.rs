@@ -21,126 +21,100 @@ const FIRST_LOOKS: usize = 8;
 /// solved everywhere.
 const GROSS: f64 = 10.0;
 
-/// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
-/// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns.
-///
-/// # Errors
-/// [`RunError::Cancelled`].
-pub(crate) fn folding_load(
-    task: &Task<'_>,
-    load: &LoadAlongPath<'_>,
-    watch: &dyn Watch,
-) -> Result<Vec<Beyond>, RunError> {
-    let mut beyond = of_task(task);
-    beyond.retain(|b| ["force_n", "moment_n_m"].contains(&b.limit.name));
-    if beyond.is_empty() {
-        return Ok(beyond);
-    }
-    let mut points = Vec::new();
-    for found in looks(task, load, watch) {
-        match found {
-            Ok(point) => points.push(point),
-            Err(RunError::Cancelled) => return Err(RunError::Cancelled),
-            Err(RunError::Point { cause, .. }) if matches!(*cause, Error::NotConverged { .. }) => {
-                return Ok(beyond);
-            }
-            // Of the place or the machine: reported where the program is solved.
-            Err(_) => {}
-        }
-    }
-    let folds = (gross(task, &points).iter()).any(|b| b.limit.name == "correction_mm");
-    Ok(if folds { beyond } else { Vec::new() })
-}
-
-/// What is beyond its limits by far at a few places of the program as it is.
-///
-/// # Errors
-/// Where the first of them has no answer. That a later one has none is reported where the program is solved, for there
-/// may be others before it.
-pub(crate) fn first_look(
-    task: &Task<'_>,
-    load: &LoadAlongPath<'_>,
-    watch: &dyn Watch,
-) -> Result<FirstLook, RunError> {
-    let mut points = Vec::new();
-    for (index, found) in looks(task, load, watch).enumerate() {
-        match found {
-            Ok(point) => points.push(point),
-            Err(error) if index == 0 || matches!(error, RunError::Cancelled) => return Err(error),
-            Err(_) => {}
-        }
-    }
-    Ok(FirstLook {
-        beyond: gross(task, &points),
-        stiffness: smallest_stiffness(&points),
-    })
-}
-
-/// What a first look shows.
+/// A few places of a program, each solved by itself.
 pub(crate) struct FirstLook {
-    /// What is beyond its limits by far.
-    pub beyond: Vec<Beyond>,
-    /// Smallest stiffness against a force, N/mm; infinite where no place was solved.
-    pub stiffness: f64,
+    /// Those that have an answer.
+    points: Vec<PointResult>,
+    /// Why the first of all has none. That a later one has none is reported where the program is solved, for there may be others
+    /// before it.
+    first: Option<RunError>,
+    /// One of them has no equilibrium under its load.
+    not_converged: bool,
 }
 
-fn smallest_stiffness(points: &[PointResult]) -> f64 {
-    let stiffnesses = points.iter().map(|p| p.smallest_stiffness_n_per_mm);
-    stiffnesses.fold(f64::INFINITY, smaller)
-}
+impl FirstLook {
+    /// A few places of the program as it is.
+    ///
+    /// # Errors
+    /// [`RunError::Cancelled`].
+    pub fn new(
+        task: &Task<'_>,
+        load: &LoadAlongPath<'_>,
+        watch: &dyn Watch,
+    ) -> Result<Self, RunError> {
+        let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
+        let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
+        let machines = Machines::new(task);
+        let mut look = Self {
+            points: Vec::new(),
+            first: None,
+            not_converged: false,
+        };
+        for (index, site) in sites().step_by(every).enumerate() {
+            if watch.cancelled() {
+                return Err(RunError::Cancelled);
+            }
+            let (machine, orientation) = machines.at(&site);
+            let one = std::slice::from_ref(&site);
+            let memory = &mut Default::default();
+            for found in chunk(task, machine, memory, one, (orientation, false)) {
+                match found {
+                    Ok(point) => look.points.push(point),
+                    Err(error) => {
+                        let cause = match &error {
+                            RunError::Point { cause, .. } => Some(&**cause),
+                            _ => None,
+                        };
+                        look.not_converged |= matches!(cause, Some(Error::NotConverged { .. }));
+                        if index == 0 {
+                            look.first = Some(error);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(look)
+    }
 
-/// Smallest stiffness against a force at a few places of the program, N/mm; places without an answer are left out.
-///
-/// # Errors
-/// [`RunError::Cancelled`].
-pub(crate) fn stiffness_at_first_look(
-    task: &Task<'_>,
-    load: &LoadAlongPath<'_>,
-    watch: &dyn Watch,
-) -> Result<f64, RunError> {
-    let mut points = Vec::new();
-    for found in looks(task, load, watch) {
-        match found {
-            Ok(point) => points.push(point),
-            Err(RunError::Cancelled) => return Err(RunError::Cancelled),
-            // Reported where the program is solved.
-            Err(_) => {}
+    /// The same where the first of the places has an answer.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn beginning_solved(mut self) -> Result<Self, RunError> {
+        match self.first.take() {
+            Some(error) => Err(error),
+            None => Ok(self),
         }
     }
-    Ok(smallest_stiffness(&points))
-}
 
-/// A few places of the program as it is, each solved by itself.
-fn looks<'t>(
-    task: &'t Task<'_>,
-    load: &'t LoadAlongPath<'_>,
-    watch: &'t dyn Watch,
-) -> impl Iterator<Item = Result<PointResult, RunError>> + use<'t> {
-    let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
-    let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
-    let machines = Machines::new(task);
-    sites().step_by(every).flat_map(move |site| {
-        if watch.cancelled() {
-            return vec![Err(RunError::Cancelled)];
+    /// A load beyond its limits under which a place has no equilibrium, or that puts the tool off by far more than any correction:
+    /// a machine that folds over takes minutes to be solved everywhere. Of other loads an analysis only warns.
+    pub fn folding_load(&self, task: &Task<'_>) -> Vec<Beyond> {
+        let mut beyond = of_task(task);
+        beyond.retain(|b| ["force_n", "moment_n_m"].contains(&b.limit.name));
+        let folds = || {
+            let gross = self.gross(task);
+            gross.iter().any(|b| b.limit.name == "correction_mm")
+        };
+        match self.not_converged || folds() {
+            true => beyond,
+            false => Vec::new(),
         }
-        let (machine, orientation) = machines.at(&site);
-        let one = std::slice::from_ref(&site);
-        chunk(
-            task,
-            machine,
-            &mut Default::default(),
-            one,
-            (orientation, false),
-        )
-    })
-}
+    }
 
-/// Corrections that are beyond their limits by far.
-fn gross(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> {
-    let mut beyond = of_points(task, points);
-    beyond.retain(|b| {
-        let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
-        of_correction && b.found > GROSS * b.allowed
-    });
-    beyond
+    /// Corrections that are beyond their limits by far.
+    pub fn gross(&self, task: &Task<'_>) -> Vec<Beyond> {
+        let mut beyond = of_points(task, &self.points);
+        beyond.retain(|b| {
+            let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
+            of_correction && b.found > GROSS * b.allowed
+        });
+        beyond
+    }
+
+    /// Smallest stiffness against a force, N/mm; infinite where no place was solved.
+    pub fn stiffness(&self) -> f64 {
+        let stiffnesses = self.points.iter().map(|p| p.smallest_stiffness_n_per_mm);
+        stiffnesses.fold(f64::INFINITY, smaller)
+    }
 }

@@ -228,7 +228,7 @@ pub(crate) fn of_written<'a>(
         };
         // At the end of a move every program is looked at.
         let mut at_end = piece.share_to >= 1.0;
-        if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
+        if motion.is_known_feed() {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
             let mut places: Vec<(f64, f64, bool)> = (0..count)

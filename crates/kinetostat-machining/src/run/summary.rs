@@ -50,7 +50,7 @@ pub(crate) fn summarise(
             .path
             .moves
             .iter()
-            .filter(|m| m.kind == MoveKind::Feed && m.known == kinetostat_program::Knowledge::Whole)
+            .filter(|m| m.is_known_feed())
             .map(kinetostat_program::Move::length_mm)
             .sum(),
         max_position_error_before_mm: most(&|p| match p.kind {

@@ -23,10 +23,16 @@ fn read(text: &str) -> (Program, Path) {
     (program, path)
 }
 
-fn run(text: &str, load: ProgramLoad, cut: Option<&ForceAlongPath>) -> Run {
+/// Asks for a program under a load.
+fn with_task<T>(
+    text: &str,
+    load: ProgramLoad,
+    cut: Option<&ForceAlongPath>,
+    ask: impl FnOnce(&Task<'_>) -> T,
+) -> T {
     let (program, path) = read(text);
     let mechanism = machine();
-    let task = Task {
+    ask(&Task {
         mechanism: &mechanism,
         program: &program,
         reading: ReadOptions::default(),
@@ -38,8 +44,13 @@ fn run(text: &str, load: ProgramLoad, cut: Option<&ForceAlongPath>) -> Run {
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
-    };
-    compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
+    })
+}
+
+fn run(text: &str, load: ProgramLoad, cut: Option<&ForceAlongPath>) -> Run {
+    with_task(text, load, cut, |task| {
+        compensate_program(task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
+    })
 }
 
 /// Ends of the written feed moves.
@@ -244,28 +255,15 @@ fn a_jump_inside_a_cut_is_named_with_its_line() {
 /// What is said of the program as it is does not depend on whether another is written.
 #[test]
 fn an_analysis_has_the_same_load() {
-    let (program, path) = read(PLUNGE);
-    let mechanism = machine();
     let load = ProgramLoad::new(CuttingLoad::Milling {
         radial: 120.0,
         tangential: -30.0,
         axial: -300.0,
     });
-    let task = Task {
-        mechanism: &mechanism,
-        program: &program,
-        reading: ReadOptions::default(),
-        path: &path,
-        placement: Placement::at(vector![0.01, -0.02, 0.1]),
-        load,
-        tools: &[],
-        cut: None,
-        writing: WriteOptions::default(),
-        run_inputs: RunInputs::default(),
-        bounds: Bounds::default(),
-    };
-    let analysed = analyse(&task, &Unwatched).expect("analysis");
-    let written = compensate_program(&task, &Unwatched).expect("program");
+    let [analysed, written] = with_task(PLUNGE, load, None, |task| {
+        let written = compensate_program(task, &Unwatched).expect("program");
+        [analyse(task, &Unwatched).expect("analysis"), written]
+    });
     let mut compared = 0;
     for point in &analysed.points {
         let same = written

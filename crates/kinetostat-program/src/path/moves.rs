@@ -124,6 +124,22 @@ impl Move {
         self.curve.tangent(&self.start, &self.end, share)
     }
 
+    /// Whether it is made at feed from a place that is known: such a move is corrected all along.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG1 X0 Y0 Z0 F600\nG1 X10\nG0 Z5\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// // From where the first one starts is stated nowhere; the last one is a rapid.
+    /// let known: Vec<bool> = path.moves.iter().map(|m| m.is_known_feed()).collect();
+    /// assert_eq!(known, [false, true, false]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_known_feed(&self) -> bool {
+        self.kind == MoveKind::Feed && self.known == Knowledge::Whole
+    }
+
     /// Length of the move, in mm.
     pub fn length_mm(&self) -> f64 {
         self.length_between_mm(0.0, 1.0)

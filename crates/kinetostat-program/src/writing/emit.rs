@@ -564,7 +564,7 @@ impl<'a> Emitter<'a> {
                 *smallest = smallest.min(length);
             }
         }
-        let known = motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole;
+        let known = motion.is_known_feed();
         if known {
             self.accounting.feed_length_in_mm += motion.length_mm();
         }

@@ -37,7 +37,7 @@ impl Node {
 
 /// Whether a move is divided at all: feed moves with a length and a known start.
 pub(crate) fn is_divided(motion: &Move) -> bool {
-    motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && motion.has_length()
+    motion.is_known_feed() && motion.has_length()
 }
 
 /// Whether only the end of a move is corrected: rapids, and moves from an unknown place.

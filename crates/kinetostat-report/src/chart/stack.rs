@@ -4,7 +4,7 @@ use crate::chart::label::Frame;
 use crate::chart::panel::{Along, Panel, legend};
 use crate::svg::Svg;
 
-/// Heights of the frames of panels that are not told theirs, pixels.
+/// Heights of the frames of panels that have none of their own, pixels.
 const HEIGHT: f64 = 130.0;
 
 /// Panels with the heights of their frames on a drawing of a width, and below them what the names of lines mean; gives the

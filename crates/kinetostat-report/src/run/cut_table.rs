@@ -4,7 +4,7 @@ use kinetostat_machining::{CutPlace, CuttingResult};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding};
-use crate::run::cutting::{percent, share_of_spindle, spread};
+use crate::run::cutting::{percent, spread};
 use crate::run::shown::Shown;
 
 /// The section's content; nothing where no force was computed from the cut or nothing is cut.
@@ -34,7 +34,11 @@ fn sentence(cut: &CuttingResult) -> String {
         ),
         false => String::new(),
     };
-    let spindle = match cut.nearest_to_spindle.as_ref().and_then(share_of_spindle) {
+    let spindle = match cut
+        .nearest_to_spindle
+        .as_ref()
+        .and_then(CutPlace::share_of_spindle)
+    {
         Some(share) if share > 1.0 => {
             " The spindle has not the torque that is needed: see the warnings."
         }
@@ -53,7 +57,7 @@ fn row(p: &CutPlace) -> Value {
         force => number::fixed(p.force_n(), 1),
         parts => parts.map(|n| number::fixed(n, 1)).to_vec(),
         torque => digits(p.torque_n_m),
-        share => share_of_spindle(p).map_or_else(|| MISSING.to_owned(), percent),
+        share => p.share_of_spindle().map_or_else(|| MISSING.to_owned(), percent),
         power => digits(p.power_w),
         depth => number::fixed(p.depth_mm, 2),
         arc => number::fixed(p.arc_deg, 0),

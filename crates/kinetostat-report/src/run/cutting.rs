@@ -169,7 +169,7 @@ fn torque(cutting: &CuttingResult, along: &Along) -> Option<Panel> {
     let power = cutting.largest_power?;
     let limit = cutting.nearest_to_spindle;
     let values = along.values(&cutting.places, |p| Some(p.torque_n_m));
-    let share = match limit.and_then(|p| Some((p, share_of_spindle(&p)?))) {
+    let share = match limit.and_then(|p| Some((p, p.share_of_spindle()?))) {
         Some((place, share)) if place.line == largest.line => {
             format!(", {} of what it gives", percent(share))
         }
@@ -250,12 +250,6 @@ fn at(place: &CutPlace, value: f64, unit: &str) -> String {
 
 fn with_unit(value: f64, unit: &str) -> String {
     number::with_unit(&number::significant(value, 3, Rounding::Nearest), unit)
-}
-
-/// Torque as a share of what the spindle gives.
-pub(crate) fn share_of_spindle(place: &CutPlace) -> Option<f64> {
-    let gives = place.spindle_torque_n_m.filter(|gives| *gives > 0.0)?;
-    Some(place.torque_n_m / gives)
 }
 
 /// A share in whole percent.

@@ -128,29 +128,25 @@ fn no_material(j: &JobFile) -> Answer<()> {
         return Ok(());
     }
     let help = "name the material: [material] name = \"AlMg4.5Mn\" (`kinetostat force --list-materials` lists them)";
-    if let Some(stock) = &j.job.stock {
-        return Err(j.error(stock, "there is a stock, and no material to be cut", help));
-    }
-    if let Some(engagement) = &j.job.engagement {
-        return Err(j.error(
-            engagement,
-            "there is an engagement, and no material to be cut",
-            help,
-        ));
-    }
-    if let Some(cutters) = &j.job.cutters {
-        return Err(j.error(
-            cutters,
-            "there are cutters, and no material to be cut",
-            help,
-        ));
-    }
-    if let Some(spindle) = &j.job.spindle {
-        return Err(j.error(
-            spindle,
-            "there is a spindle, and no material to be cut",
-            help,
-        ));
+    let span = |table: Option<std::ops::Range<usize>>, what| table.map(|span| (span, what));
+    let alone = [
+        span(j.job.stock.as_ref().map(Spanned::span), "there is a stock"),
+        span(
+            j.job.engagement.as_ref().map(Spanned::span),
+            "there is an engagement",
+        ),
+        span(
+            j.job.cutters.as_ref().map(Spanned::span),
+            "there are cutters",
+        ),
+        span(
+            j.job.spindle.as_ref().map(Spanned::span),
+            "there is a spindle",
+        ),
+    ];
+    if let Some((span, what)) = alone.into_iter().flatten().next() {
+        let message = format!("{what}, and no material to be cut");
+        return Err(j.error(&Spanned::new(span, ()), &message, help));
     }
     Ok(())
 }
