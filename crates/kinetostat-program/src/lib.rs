@@ -43,6 +43,7 @@
 
 mod checking;
 mod error;
+mod expanding;
 mod field;
 #[doc(hidden)]
 pub mod internal;
@@ -57,6 +58,10 @@ pub use checking::field::{Farthest, FieldCheck, verify_against_field};
 pub use checking::verifier::Verification;
 pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
+pub use expanding::expand::expand;
+pub use expanding::expanded::{Expanded, Origin};
+pub use expanding::options::ExpandOptions;
+pub use expanding::run::source::{NoSubprograms, Subprograms};
 pub use field::map::CorrectionMap;
 pub use field::request::{
     CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,

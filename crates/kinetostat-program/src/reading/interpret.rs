@@ -120,14 +120,15 @@ impl Shifts {
     }
 }
 
-struct Interpreter<'o> {
+/// What is known while a program is read line by line.
+pub(crate) struct Interpreter<'o> {
     options: &'o ReadOptions,
-    modes: Modes,
-    offset: PositionOffset,
+    pub(super) modes: Modes,
+    pub(super) offset: PositionOffset,
     shifts: Shifts,
-    position: Vector3<f64>,
-    known: [bool; 3],
-    ended: Option<usize>,
+    pub(super) position: Vector3<f64>,
+    pub(super) known: [bool; 3],
+    pub(super) ended: Option<usize>,
     no_feed_warned: bool,
     repeated: Repeated,
     /// Work coordinate system of the first motion.
@@ -143,7 +144,7 @@ struct Interpreter<'o> {
 }
 
 impl<'o> Interpreter<'o> {
-    fn new(options: &'o ReadOptions) -> Self {
+    pub(crate) fn new(options: &'o ReadOptions) -> Self {
         Self {
             options,
             modes: Modes::new(options.units),
@@ -190,7 +191,7 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    fn run_line(&mut self, program: &Program, index: usize) -> Result<(), ProgramError> {
+    pub(crate) fn run_line(&mut self, program: &Program, index: usize) -> Result<(), ProgramError> {
         let line = &program.lines()[index];
         let skipped = line.block_delete && self.options.block_delete == BlockDelete::Skip;
         if line.kind == LineKind::AfterEnd {
@@ -282,7 +283,7 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    fn work_offset_mm(&self) -> Vector3<f64> {
+    pub(super) fn work_offset_mm(&self) -> Vector3<f64> {
         self.options.work_offsets_mm[self.modes.work_offset].unwrap_or_default()
     }
 
@@ -619,7 +620,7 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
+    pub(crate) fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
         let stated = self.known;
         let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
         for (motion, (before, after)) in self.moves.iter_mut().zip(&self.knowledge) {

@@ -14,4 +14,5 @@ pub(crate) mod options;
 pub(crate) mod pause;
 pub(crate) mod repeated;
 pub(crate) mod spindle;
+pub(crate) mod state;
 pub(crate) mod tools;

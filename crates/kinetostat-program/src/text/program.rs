@@ -156,7 +156,8 @@ fn byte_order_mark(bytes: &[u8]) -> usize {
     }
 }
 
-struct Reader {
+/// Divides bytes into lines and words, all of a file or line by line.
+pub(crate) struct Reader {
     program: Program,
     tokens: Vec<Spanned>,
     tape_marks: usize,
@@ -166,7 +167,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn new(bytes: Vec<u8>) -> Self {
+    pub(crate) fn new(bytes: Vec<u8>) -> Self {
         Self {
             program: Program {
                 bytes,
@@ -204,6 +205,24 @@ impl Reader {
             start += length + ending;
         }
         faults
+    }
+
+    /// What was read so far.
+    pub(crate) fn program(&self) -> &Program {
+        &self.program
+    }
+
+    pub(crate) fn into_program(self) -> Program {
+        self.program
+    }
+
+    /// Adds a line (without its line ending) behind the last.
+    pub(crate) fn add_line(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+        let start = self.program.bytes.len();
+        self.program.bytes.extend_from_slice(text);
+        self.program.bytes.push(b'\n');
+        let fault = self.read_line(start..start + text.len(), start + text.len() + 1);
+        fault.map_or(Ok(()), Err)
     }
 
     fn check_size(&self) -> Result<(), ProgramError> {

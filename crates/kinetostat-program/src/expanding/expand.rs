@@ -1,0 +1,40 @@
+//! Runs a program once.
+
+use crate::error::ProgramError;
+use crate::expanding::expanded::Expanded;
+use crate::expanding::options::ExpandOptions;
+use crate::expanding::run::runner::Runner;
+use crate::expanding::run::source::Subprograms;
+
+/// Runs a program once and writes it flat: subprograms, loops and branches as the blocks that they run, expressions as
+/// numbers.
+///
+/// ```
+/// use kinetostat_program::{ExpandOptions, NoSubprograms, expand};
+///
+/// let text = "G21 G90\n#1 = 2\nO1 while [#1 GT 0]\nG0 X[10 * #1] Y0 Z0\n#1 = [#1 - 1]\nO1 endwhile\nM2\n";
+/// let flat = expand(text, &ExpandOptions::default(), &NoSubprograms)?;
+/// assert_eq!(flat.program.bytes(), b"G21 G90\nG0 X20 Y0 Z0\nG0 X10 Y0 Z0\nM2\n");
+/// assert_eq!(flat.origins[2].line, 4);
+/// assert_eq!(flat.path.moves[1].end.x, 10.0);
+/// # Ok::<(), kinetostat_program::ProgramError>(())
+/// ```
+///
+/// # Errors
+/// The first line that is not followed, or that makes a block that [`crate::interpret`] refuses; a program that does not end.
+pub fn expand(
+    bytes: impl Into<Vec<u8>>,
+    options: &ExpandOptions,
+    subprograms: &dyn Subprograms,
+) -> Result<Expanded, ProgramError> {
+    let mut runner = Runner::new(bytes.into(), options, subprograms);
+    runner.run()?;
+    let files = runner.sources.iter().map(|s| s.name.clone()).collect();
+    let (program, path, origins) = runner.flat.finish()?;
+    Ok(Expanded {
+        program,
+        path,
+        origins,
+        files,
+    })
+}

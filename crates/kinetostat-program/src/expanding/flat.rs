@@ -1,0 +1,70 @@
+//! The flat program as it grows, and where the tool is after its last block.
+
+use crate::error::ProgramError;
+use crate::expanding::expanded::Origin;
+use crate::expanding::options::ExpandOptions;
+use crate::path::moves::Path;
+use crate::reading::interpret::Interpreter;
+use crate::text::program::{Program, Reader};
+
+/// Plain blocks, read and interpreted one by one.
+pub(crate) struct Flat<'o> {
+    reader: Reader,
+    pub interpreter: Interpreter<'o>,
+    origins: Vec<Origin>,
+    options: &'o ExpandOptions,
+}
+
+impl<'o> Flat<'o> {
+    pub fn new(options: &'o ExpandOptions) -> Self {
+        Self {
+            reader: Reader::new(Vec::new()),
+            interpreter: Interpreter::new(&options.reading),
+            origins: Vec::new(),
+            options,
+        }
+    }
+
+    /// Adds a block that came from a line; what is wrong with it is said of that line.
+    pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
+        let of_source = |error: ProgramError| ProgramError {
+            line: origin.line,
+            ..error
+        };
+        if self.origins.len() >= self.options.most_blocks {
+            return Err(self.too_many(text, origin));
+        }
+        self.reader.add_line(text).map_err(of_source)?;
+        self.origins.push(origin);
+        let index = self.origins.len() - 1;
+        let program = self.reader.program();
+        self.interpreter.run_line(program, index).map_err(of_source)
+    }
+
+    fn too_many(&self, text: &[u8], origin: Origin) -> ProgramError {
+        ProgramError {
+            kind: crate::error::ProgramErrorKind::Malformed,
+            line: origin.line,
+            span: 0..0,
+            found: crate::error::excerpt(text),
+            reason: format!(
+                "the program has more than {} blocks when it is written flat",
+                self.options.most_blocks
+            ),
+            remedy: "check the ends of its loops, or allow more blocks".to_owned(),
+        }
+    }
+
+    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>), ProgramError> {
+        let program = self.reader.into_program();
+        let origins = self.origins;
+        let path = self.interpreter.finish(&program).map_err(|error| {
+            let line = origins.get(error.line.wrapping_sub(1));
+            ProgramError {
+                line: line.map_or(error.line, |origin| origin.line),
+                ..error
+            }
+        })?;
+        Ok((program, path, origins))
+    }
+}

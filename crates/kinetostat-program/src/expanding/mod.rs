@@ -1,0 +1,13 @@
+//! Programs with subprograms, variables and cycles, run once and written flat.
+//!
+//! Takes the bytes of a program, its library of subprograms and what a machine knows (reference points, diameters of tools);
+//! gives a program of plain blocks, each with the line that it came from, and its path. What can move the tool and is not
+//! followed is refused by line. The words are those of LinuxCNC and, where they differ in form, of Fanuc.
+
+pub(crate) mod expand;
+pub(crate) mod expanded;
+mod expression;
+mod flat;
+pub(crate) mod options;
+pub(crate) mod run;
+mod source;

@@ -1,0 +1,38 @@
+//! What a program does not say and its expansion needs.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use crate::reading::options::ReadOptions;
+
+/// Most blocks of a flat program, if nothing else is said.
+const MOST_BLOCKS: usize = 5_000_000;
+
+/// Settings of the expansion.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ExpandOptions {
+    /// How the flat program is read.
+    pub reading: ReadOptions,
+    /// Most blocks of the flat program: loops that do not end are refused by their line.
+    pub most_blocks: usize,
+    /// Values of numbered parameters before the program, as a controller keeps them.
+    pub parameters: BTreeMap<u32, f64>,
+    /// The machine's zero in the part frame, mm: where G53 counts from. `None`: not known.
+    pub machine_zero_mm: Option<Vector3<f64>>,
+    /// Reference points of G28 and G30, mm, machine coordinates. `None`: not known.
+    pub reference_points_mm: [Option<Vector3<f64>>; 2],
+}
+
+impl Default for ExpandOptions {
+    fn default() -> Self {
+        Self {
+            reading: ReadOptions::default(),
+            most_blocks: MOST_BLOCKS,
+            parameters: BTreeMap::new(),
+            machine_zero_mm: None,
+            reference_points_mm: [None; 2],
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! A program is run: values of parameters, calls, branches and loops.
+//!
+//! Takes statements; gives plain blocks to the flat program, one after the other, with the line of each.
+
+pub(crate) mod control;
+pub(crate) mod frame;
+pub(crate) mod parameters;
+pub(crate) mod runner;
+pub(crate) mod source;

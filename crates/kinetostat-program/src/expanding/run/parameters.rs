@@ -1,0 +1,92 @@
+//! Values of parameters: those of the open subprogram, those of all, and what the machine's state says.
+
+use std::collections::BTreeMap;
+
+use crate::expanding::expression::evaluate::Parameters;
+use crate::expanding::expression::tree::Parameter;
+use crate::expanding::run::frame::{Frame, LOCAL};
+use crate::reading::interpret::Interpreter;
+
+/// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
+const NUMBERS: u32 = 5602;
+
+/// Values that all subprograms see.
+#[derive(Debug, Default)]
+pub(crate) struct Shared {
+    pub numbered: BTreeMap<u32, f64>,
+    pub named: BTreeMap<String, f64>,
+}
+
+/// Values as an open subprogram sees them.
+pub(crate) struct Seen<'r, 'o> {
+    pub shared: &'r Shared,
+    pub frame: &'r Frame,
+    pub state: &'r Interpreter<'o>,
+    /// Open subprograms.
+    pub depth: usize,
+}
+
+impl Parameters for Seen<'_, '_> {
+    fn numbered(&self, number: u32) -> Result<f64, String> {
+        match number {
+            0 => Err("#0 is no parameter".to_owned()),
+            n if n as usize <= LOCAL => Ok(self.frame.numbered[n as usize - 1]),
+            n if n < NUMBERS => match self.state.numbered_state(n) {
+                Some(of_state) => of_state,
+                // As a controller has it that nobody has told a value.
+                None => Ok(self.shared.numbered.get(&n).copied().unwrap_or(0.0)),
+            },
+            _ => Err(format!(
+                "#{number} is no parameter; they end with #{}",
+                NUMBERS - 1
+            )),
+        }
+    }
+
+    fn named(&self, name: &str) -> Result<Option<f64>, String> {
+        if !name.starts_with('_') {
+            return Ok(self.frame.named.get(name).copied());
+        }
+        if let Some(value) = self.shared.named.get(name) {
+            return Ok(Some(*value));
+        }
+        match name {
+            "_call_level" => Ok(Some(self.depth as f64)),
+            _ => self.state.named_state(name),
+        }
+    }
+
+    fn has_number(&self, number: u32) -> bool {
+        (1..NUMBERS).contains(&number)
+    }
+}
+
+/// Gives a parameter a value.
+pub(crate) fn assign(
+    (parameter, number): (&Parameter, Option<u32>),
+    value: f64,
+    frame: &mut Frame,
+    shared: &mut Shared,
+) -> Result<(), String> {
+    match (parameter, number) {
+        (Parameter::Name(name), _) if name.starts_with('_') => {
+            shared.named.insert(name.clone(), value);
+        }
+        (Parameter::Name(name), _) => {
+            frame.named.insert(name.clone(), value);
+        }
+        (Parameter::Number(_), Some(n @ 1..)) if n as usize <= LOCAL => {
+            frame.numbered[n as usize - 1] = value;
+        }
+        (Parameter::Number(_), Some(n)) if (1..NUMBERS).contains(&n) => {
+            if matches!(n, 5161..=5390 | 5400..=5428) {
+                return Err(format!(
+                    "#{n} is kept by the controller: offsets, tools or the place of the tool"
+                ));
+            }
+            shared.numbered.insert(n, value);
+        }
+        (Parameter::Number(_), _) => return Err("a parameter that there is not".to_owned()),
+    }
+    Ok(())
+}
