@@ -8,6 +8,8 @@ pub(crate) mod expand;
 pub(crate) mod expanded;
 mod expression;
 mod flat;
+mod number;
 pub(crate) mod options;
 pub(crate) mod run;
 mod source;
+mod translate;

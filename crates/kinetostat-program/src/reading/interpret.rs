@@ -139,7 +139,7 @@ pub(crate) struct Interpreter<'o> {
     events: Vec<Event>,
     pauses: Vec<Pause>,
     tools: ToolWords,
-    spindle: SpindleWords,
+    pub(super) spindle: SpindleWords,
     warnings: Vec<Warning>,
 }
 

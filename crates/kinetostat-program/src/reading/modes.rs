@@ -18,6 +18,8 @@ pub(crate) struct Modes {
     /// Index of the work coordinate system, 0 for G54.
     pub work_offset: usize,
     pub extra: ExtraAxes,
+    /// G98 or G99, in tenths; none before the program says it.
+    pub retract_mode: Option<u32>,
     units: Option<Units>,
     feed_mode: FeedMode,
     /// The units changed after the F in force was given, or in its block.
@@ -37,6 +39,7 @@ impl Modes {
             feed: None,
             work_offset: 0,
             extra: ExtraAxes::default(),
+            retract_mode: None,
             units,
             feed_mode: FeedMode::PerMinute,
             feed_is_stale: false,
@@ -66,6 +69,7 @@ impl Modes {
             self.extra.set_distance_mode(self.incremental);
         }
         self.extra.set_extruder_mode(codes.extruder);
+        self.retract_mode = codes.retract_mode.or(self.retract_mode);
         if let Some(code) = codes.arc_distance {
             self.absolute_centre = code == 901;
         }

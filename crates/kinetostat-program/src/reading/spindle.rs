@@ -85,6 +85,10 @@ impl SpindleWords {
         );
     }
 
+    pub fn now(&self) -> Spindle {
+        self.now
+    }
+
     pub fn finish(self) -> Vec<SpindleChange> {
         self.changes
     }

@@ -1,9 +1,14 @@
 //! What a controller would answer about its state, after the last block.
 
+use crate::path::spindle::SpindleRotation;
 use crate::reading::interpret::Interpreter;
+use crate::reading::options::Units;
 
 /// First of the numbered parameters that say where the tool is, in program coordinates and units: X, Y, Z.
 const PLACE: u32 = 5420;
+
+/// A hundredth of an inch.
+const PECK_BACK_MM: f64 = 0.254;
 
 impl Interpreter<'_> {
     /// The end of the program was read.
@@ -11,12 +16,36 @@ impl Interpreter<'_> {
         self.ended.is_some()
     }
 
+    /// Axes of the plane, and the one across it.
+    pub(crate) fn plane_axes(&self) -> [usize; 3] {
+        self.modes.plane
+    }
+
+    /// G91.
+    pub(crate) fn is_incremental(&self) -> bool {
+        self.modes.incremental
+    }
+
+    /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.
+    pub(crate) fn retracts_to_level(&self) -> Option<bool> {
+        self.modes.retract_mode.map(|code| code == 990)
+    }
+
+    pub(crate) fn spindle_rotation(&self) -> SpindleRotation {
+        self.spindle.now().rotation
+    }
+
+    /// How far above its last depth a peck begins, in program units (LinuxCNC 2.9, `G83_RAPID_DELTA`).
+    pub(crate) fn peck_back(&self) -> f64 {
+        match self.modes.units() {
+            Some(Units::Inches) => PECK_BACK_MM / Units::Inches.mm_per_unit(),
+            _ => PECK_BACK_MM,
+        }
+    }
+
     /// Where the tool is in program coordinates and units; the reason where that is not known.
-    fn coordinate(&self, axis: usize) -> Result<f64, String> {
-        let unit = self
-            .modes
-            .units()
-            .map(crate::reading::options::Units::mm_per_unit);
+    pub(crate) fn coordinate(&self, axis: usize) -> Result<f64, String> {
+        let unit = self.modes.units().map(Units::mm_per_unit);
         match (self.known[axis], unit) {
             (true, Some(unit)) => {
                 let offset = self.work_offset_mm() + self.offset.active_mm;
@@ -48,12 +77,8 @@ impl Interpreter<'_> {
             "_x" => self.coordinate(0).map(Some),
             "_y" => self.coordinate(1).map(Some),
             "_z" => self.coordinate(2).map(Some),
-            "_metric" => {
-                truth(self.modes.units() == Some(crate::reading::options::Units::Millimetres))
-            }
-            "_imperial" => {
-                truth(self.modes.units() == Some(crate::reading::options::Units::Inches))
-            }
+            "_metric" => truth(self.modes.units() == Some(Units::Millimetres)),
+            "_imperial" => truth(self.modes.units() == Some(Units::Inches)),
             "_incremental" => truth(self.modes.incremental),
             "_absolute" => truth(!self.modes.incremental),
             _ => Ok(None),

@@ -2,8 +2,8 @@
 
 use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
 
-/// Two numbers that differ by less are equal.
-const EQUAL: f64 = 1e-6;
+/// Two numbers that differ by less are equal (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
+const EQUAL: f64 = 1e-4;
 
 /// A whole number may be off by this.
 const WHOLE: f64 = 1e-4;
@@ -110,9 +110,9 @@ impl Operator {
             Self::Equal => truth(equal),
             Self::NotEqual => truth(!equal),
             Self::Greater => truth(left > right),
-            Self::GreaterOrEqual => truth(equal || left >= right),
+            Self::GreaterOrEqual => truth(left >= right),
             Self::Less => truth(left < right),
-            Self::LessOrEqual => truth(equal || left <= right),
+            Self::LessOrEqual => truth(left <= right),
             Self::And => truth(left != 0.0 && right != 0.0),
             Self::Or => truth(left != 0.0 || right != 0.0),
             Self::ExclusiveOr => truth((left != 0.0) != (right != 0.0)),

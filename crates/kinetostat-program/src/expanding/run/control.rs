@@ -279,7 +279,7 @@ impl Runner<'_> {
             *slot = self.value(value)?;
         }
         let (file, line) = self.find_sub(&label)?;
-        let mut frame = Frame::new(file, line + 1, Opened::Call, Some(label));
+        let mut frame = Frame::new(file, line + 1, Opened::Call);
         frame.numbered = numbered;
         self.open(frame)
     }
@@ -416,7 +416,7 @@ impl Runner<'_> {
             self.open(Frame {
                 numbered: self.frame().numbered,
                 named: self.frame().named.clone(),
-                ..Frame::new(file, line, again, Some(Label::Number(number)))
+                ..Frame::new(file, line, again)
             })?;
         }
         Ok(Some(Next::Line))

@@ -50,8 +50,6 @@ pub(crate) struct Frame {
     /// Index of its first line.
     pub first: usize,
     pub opened: Opened,
-    /// Which subprogram it is.
-    pub label: Option<Label>,
     /// Parameters 1 to 30.
     pub numbered: [f64; LOCAL],
     pub named: BTreeMap<String, f64>,
@@ -60,13 +58,12 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// A frame that begins at a line of a file.
-    pub fn new(file: usize, first: usize, opened: Opened, label: Option<Label>) -> Self {
+    pub fn new(file: usize, first: usize, opened: Opened) -> Self {
         Self {
             file,
             next: first,
             first,
             opened,
-            label,
             numbered: [0.0; LOCAL],
             named: BTreeMap::new(),
             loops: Vec::new(),

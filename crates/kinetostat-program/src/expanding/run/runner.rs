@@ -5,11 +5,14 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::expression::evaluate::whole;
 use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
+use crate::expanding::number::number;
 use crate::expanding::options::ExpandOptions;
 use crate::expanding::run::frame::{Frame, Label, Opened};
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::{OLabel, Piece, Statement};
+use crate::expanding::translate::block::{MotionBlock, Polar};
+use crate::expanding::translate::cycle::{Cycle, cycle, is_cycle};
 use crate::reading::options::BlockDelete;
 
 /// Subprograms within each other.
@@ -32,6 +35,8 @@ pub(crate) struct Runner<'o> {
     pub frames: Vec<Frame>,
     pub shared: Shared,
     pub flat: Flat<'o>,
+    /// The cycle that bare places repeat.
+    cycle: Option<Cycle>,
     steps: usize,
 }
 
@@ -43,9 +48,10 @@ impl<'o> Runner<'o> {
             options,
             library,
             sources: vec![Source::new(String::new(), bytes)],
-            frames: vec![Frame::new(0, 0, Opened::Program, None)],
+            frames: vec![Frame::new(0, 0, Opened::Program)],
             shared,
             flat: Flat::new(options),
+            cycle: None,
             steps: 0,
         }
     }
@@ -145,12 +151,13 @@ impl<'o> Runner<'o> {
 
     fn plain(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
         let text = self.sources[file].text(index).to_vec();
-        self.emit(&text)
+        self.emit(&text, Polar::default())
     }
 
     /// Words with values, then the assignments of the line.
     fn block(&mut self, pieces: &[Piece], file: usize, index: usize) -> Result<Next, ProgramError> {
         let mut text = Vec::new();
+        let mut polar = Polar::default();
         let mut assignments = Vec::new();
         for piece in pieces {
             match piece {
@@ -159,8 +166,14 @@ impl<'o> Runner<'o> {
                 }
                 Piece::Word(letter, of, _) => {
                     let value = self.value(of)?;
-                    text.push(*letter);
-                    text.extend_from_slice(number(value).as_bytes());
+                    match letter {
+                        b'@' => polar.radius = Some(value),
+                        b'^' => polar.angle_deg = Some(value),
+                        letter => {
+                            text.push(*letter);
+                            text.extend_from_slice(number(value).as_bytes());
+                        }
+                    }
                 }
                 Piece::Assignment(to, of) => {
                     let value = self.value(of)?;
@@ -171,20 +184,93 @@ impl<'o> Runner<'o> {
         for (to, number, value) in assignments {
             self.assign(to, number, value)?;
         }
-        let has_words = !text.trim_ascii().is_empty();
+        let has_words = !text.trim_ascii().is_empty() || polar.is_there();
         match has_words {
-            true => self.emit(text.trim_ascii_end()),
+            true => self.emit(text.trim_ascii_end(), polar),
             false => Ok(Next::Line),
         }
     }
 
-    /// A block of plain words, behind all blocks so far.
-    fn emit(&mut self, text: &[u8]) -> Result<Next, ProgramError> {
+    /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
+    fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
         if let Some(next) = self.called(text)? {
             return Ok(next);
         }
+        let block = MotionBlock::of(text, polar);
+        let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
+        let code = match (block.motion, self.cycle) {
+            (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
+            (None, Some(cycle)) if goes_on => Some(cycle.code),
+            (None, _) => None,
+        };
+        match code {
+            Some(code) => self.cycle(code, &block)?,
+            None => {
+                if block.motion.is_some() {
+                    self.cycle = None;
+                }
+                match polar.is_there() {
+                    true => self.polar(&block)?,
+                    false => self.add(text)?,
+                }
+            }
+        }
+        self.after_block()
+    }
+
+    fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
         let origin = self.origin();
-        self.flat.add(text, origin)?;
+        self.flat.add(text, origin)
+    }
+
+    /// What is no motion of a block that is translated.
+    fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
+        match words.trim_ascii() {
+            [] => Ok(()),
+            words => self.add(words),
+        }
+    }
+
+    fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
+        self.add_rest(&block.before)?;
+        let made = cycle(code, block, self.cycle, &self.flat.interpreter);
+        let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        for text in texts {
+            self.add(text.as_bytes())?;
+        }
+        self.cycle = Some(cycle);
+        self.add_rest(&block.after)
+    }
+
+    /// A straight move or an arc whose end is given by a radius and an angle.
+    fn polar(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        let remedy = "write the place with X and Y";
+        if block.value(b'X').or(block.value(b'Y')).is_some() {
+            return Err(self.refuse("X or Y beside polar words", remedy));
+        }
+        self.add_rest(&block.before)?;
+        let state = &self.flat.interpreter;
+        let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
+            (Ok(x), Ok(y)) => (x, y),
+            (Err(reason), _) | (_, Err(reason)) => {
+                return Err(self.refuse(&reason, "state X and Y before polar words"));
+            }
+        };
+        let incremental = state.is_incremental();
+        let end = block.polar.place([x, y], incremental);
+        let end = end.map_err(|reason| self.refuse(reason, remedy))?;
+        let words = match incremental {
+            true => [end[0] - x, end[1] - y],
+            false => end,
+        };
+        let mut text = block.motion_words();
+        text.push_str(&format!("X{} Y{}", number(words[0]), number(words[1])));
+        text.push_str(&block.other_words());
+        self.add(text.as_bytes())?;
+        self.add_rest(&block.after)
+    }
+
+    fn after_block(&self) -> Result<Next, ProgramError> {
         match self.flat.interpreter.has_ended() {
             true => Ok(Next::End),
             false => Ok(Next::Line),
@@ -256,14 +342,3 @@ impl<'o> Runner<'o> {
         Ok(())
     }
 }
-
-/// A number as a controller reads it, with all its digits; what is left of zero after the arithmetic is zero.
-pub(crate) fn number(value: f64) -> String {
-    match value.abs() < NOTHING {
-        true => "0".to_owned(),
-        false => format!("{value}"),
-    }
-}
-
-/// Less than any program means.
-const NOTHING: f64 = 1e-12;

@@ -209,6 +209,13 @@ fn block(text: &[u8]) -> Result<Option<Statement>, Malformed> {
         match byte {
             b'(' => skip_comment(&mut cursor, text),
             b';' => break,
+            b'@' | b'^' => {
+                keep(&mut pieces, kept, start);
+                cursor.next();
+                let value = cursor.value()?;
+                pieces.push(Piece::Word(byte, value, start..cursor.at()));
+                kept = cursor.at();
+            }
             b'#' => {
                 keep(&mut pieces, kept, start);
                 let parameter = cursor.parameter()?;

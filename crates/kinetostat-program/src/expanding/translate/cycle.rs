@@ -1,0 +1,198 @@
+//! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
+
+use crate::expanding::translate::block::MotionBlock;
+use crate::expanding::translate::holes::{Hole, Spindle};
+use crate::expanding::translate::moves::Place;
+use crate::reading::interpret::Interpreter;
+
+/// Most repeats of a cycle.
+const MOST_REPEATS: f64 = 1e5;
+
+/// What a cycle keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cycle {
+    /// Its code in tenths.
+    pub code: u32,
+    retract: f64,
+    depth: f64,
+    dwell: Option<f64>,
+    peck: Option<f64>,
+    shift: [Option<f64>; 3],
+    /// Depth coordinate before the first cycle of a row.
+    initial: f64,
+}
+
+/// What is wrong, and what to do.
+pub(crate) type Wrong = (String, &'static str);
+
+fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
+    Err((reason.into(), remedy))
+}
+
+/// Whether a code (in tenths) is a canned cycle.
+pub(crate) fn is_cycle(code: u32) -> bool {
+    matches!(code, 730 | 740 | 760) || (810..=890).contains(&code)
+}
+
+/// The blocks of a cycle, and what it keeps for the next one.
+pub(crate) fn cycle(
+    code: u32,
+    block: &MotionBlock,
+    before: Option<Cycle>,
+    state: &Interpreter<'_>,
+) -> Result<(Vec<String>, Cycle), Wrong> {
+    let [first, second, normal] = state.plane_axes();
+    let letters = [first, second, normal].map(|axis| b"XYZ"[axis]);
+    let mut place = Place::of(state);
+    let (Some(a), Some(b), Some(height)) = (place.at[first], place.at[second], place.at[normal])
+    else {
+        return wrong(
+            "where the tool is before the cycle is not known",
+            "state X, Y and Z before it, or give the start position",
+        );
+    };
+    if block.polar.is_there() && normal != 2 {
+        return wrong("polar words outside the plane XY (G17)", "write X, Y and Z");
+    }
+    if b"ABCUVW"
+        .iter()
+        .any(|letter| block.value(*letter).is_some())
+    {
+        return wrong(
+            "a canned cycle moves no axis but X, Y, Z",
+            "move it before the cycle",
+        );
+    }
+    let same = before.filter(|cycle| cycle.code == code);
+    let kept = |letter: u8, of: fn(&Cycle) -> f64, what: &'static str| {
+        let own = block.value(letter).or(same.as_ref().map(of));
+        own.ok_or((
+            format!(
+                "the cycle G{} has no {what} ({})",
+                code / 10,
+                char::from(letter)
+            ),
+            "write the word into its first block",
+        ))
+    };
+    let retract = kept(b'R', |c| c.retract, "retract level")?;
+    let depth = kept(letters[2], |c| c.depth, "depth")?;
+    let optional = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
+        block.value(letter).or(same.as_ref().and_then(of))
+    };
+    let mut cycle = Cycle {
+        code,
+        retract,
+        depth,
+        dwell: optional(b'P', |c| c.dwell),
+        peck: optional(b'Q', |c| c.peck),
+        shift: [
+            optional(b'I', |c| c.shift[0]),
+            optional(b'J', |c| c.shift[1]),
+            optional(b'K', |c| c.shift[2]),
+        ],
+        initial: before.map_or(height, |cycle| cycle.initial),
+    };
+    let repeats = block.value(b'L').unwrap_or(1.0);
+    if repeats.fract() != 0.0 || !(1.0..=MOST_REPEATS).contains(&repeats) {
+        return wrong(
+            "a cycle is repeated a whole number of times (L)",
+            "correct L",
+        );
+    }
+    let incremental = place.incremental;
+    let (level, bottom) = match incremental {
+        false => (retract, depth),
+        true => (retract + cycle.initial, retract + cycle.initial + depth),
+    };
+    if level < bottom {
+        return wrong(
+            format!("the cycle's retract level {level} is below its depth {bottom}"),
+            "correct R, or the depth",
+        );
+    }
+    let mut texts = Vec::new();
+    let at = |plane: [f64; 2], height: f64| {
+        let mut to = [None; 3];
+        (to[first], to[second], to[normal]) = (Some(plane[0]), Some(plane[1]), Some(height));
+        to
+    };
+    let (mut initial, mut now) = (cycle.initial, height);
+    if initial < level {
+        texts.extend(place.go("G0", at([a, b], level)));
+        (initial, now) = (level, level);
+    }
+    let clear = match state.retracts_to_level() {
+        Some(true) => level,
+        Some(false) => initial,
+        None if initial == level => level,
+        None => {
+            return wrong(
+                "whether the cycle goes back to its start (G98) or to R (G99) is not stated: LinuxCNC begins with G99, Fanuc with G98",
+                "write G98 or G99 before the cycle",
+            );
+        }
+    };
+    let mut hole_at = [a, b];
+    for repeat in 0..repeats as usize {
+        hole_at = next_hole(
+            block,
+            hole_at,
+            incremental,
+            repeat,
+            [letters[0], letters[1]],
+        )?;
+        if repeat == 0 && now > level {
+            texts.extend(place.go("G0", at(hole_at, now)));
+            texts.extend(place.go("G0", at(hole_at, level)));
+        } else {
+            texts.extend(place.go("G0", at(hole_at, clear)));
+            if clear > level {
+                texts.extend(place.go("G0", at(hole_at, level)));
+            }
+        }
+        let hole = Hole {
+            at: hole_at,
+            level,
+            clear,
+            bottom,
+            dwell: cycle.dwell,
+            peck: cycle.peck,
+            shift: cycle.shift,
+            middle: cycle.shift[2].map(|k| if incremental { bottom + k } else { k }),
+            peck_back: state.peck_back(),
+        };
+        let mut go = |code: &str, plane: [f64; 2], height: f64| place.go(code, at(plane, height));
+        texts.extend(hole.blocks(code, Spindle::of(state), &mut go)?);
+    }
+    cycle.initial = before.map_or(height, |cycle| cycle.initial);
+    Ok((texts, cycle))
+}
+
+/// The place of a hole: that of the words, or the one before and the increments.
+fn next_hole(
+    block: &MotionBlock,
+    at: [f64; 2],
+    incremental: bool,
+    repeat: usize,
+    letters: [u8; 2],
+) -> Result<[f64; 2], Wrong> {
+    let polar = |at: [f64; 2]| {
+        block
+            .polar
+            .place(at, incremental)
+            .map_err(|reason| (reason.to_owned(), "write the place with X and Y"))
+    };
+    if !incremental {
+        let first = match block.polar.is_there() {
+            true => polar(at)?,
+            false => [0, 1].map(|k| block.value(letters[k]).unwrap_or(at[k])),
+        };
+        return Ok(if repeat == 0 { first } else { at });
+    }
+    let moved = [0, 1].map(|k| at[k] + block.value(letters[k]).unwrap_or(0.0));
+    match block.polar.is_there() {
+        true => polar(moved),
+        false => Ok(moved),
+    }
+}
