@@ -1,10 +1,12 @@
-//! Writes a program flat: `cargo run --example expand -- part.ngc > flat.ngc`.
+//! Writes programs flat.
 //!
-//! Subprograms are looked for in the folder of the program and in the folders that follow it on the command line.
+//! `expand [--diameter TOOL=MM ...] PROGRAM [FOLDER ...] > flat.ngc`: subprograms are looked for in the folder of the program
+//! and in the folders behind it. `expand [--diameter ...] --into FOLDER PROGRAM ...`: each program is written into the folder
+//! under its name, and a line says what is refused (`scripts/compare_expanded_with_linuxcnc.py` reads it).
 
 use std::error::Error;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use kinetostat_program::{ExpandOptions, Subprograms, expand};
 
@@ -20,16 +22,50 @@ impl Subprograms for Folders {
     }
 }
 
+const USAGE: &str = "expand [--diameter TOOL=MM ...] [--into FOLDER] PROGRAM [PROGRAM or FOLDER ...]";
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
-    let program = arguments.next().ok_or("expand PROGRAM [FOLDER ...]")?;
-    let mut folders: Vec<PathBuf> = program.parent().map(PathBuf::from).into_iter().collect();
-    folders.extend(arguments);
-    let flat = expand(
-        std::fs::read(&program)?,
-        &ExpandOptions::default(),
-        &Folders(folders),
-    )?;
-    std::io::stdout().write_all(flat.program.bytes())?;
+    let mut options = ExpandOptions::default();
+    let mut into = None;
+    let mut names = Vec::new();
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--diameter" => {
+                let value = arguments.next().ok_or(USAGE)?;
+                let (tool, diameter) = value.split_once('=').ok_or(USAGE)?;
+                let diameters = &mut options.tool_diameters_mm;
+                diameters.insert(tool.parse()?, diameter.parse()?);
+            }
+            "--into" => into = Some(PathBuf::from(arguments.next().ok_or(USAGE)?)),
+            _ => names.push(PathBuf::from(argument)),
+        }
+    }
+    let mut out = std::io::stdout().lock();
+    let Some(into) = into else {
+        let program = names.first().ok_or(USAGE)?;
+        out.write_all(&flat(program, &names[1..], &options)?)?;
+        return Ok(());
+    };
+    for program in &names {
+        match flat(program, &[], &options) {
+            Ok(bytes) => {
+                std::fs::write(into.join(program.file_name().ok_or(USAGE)?), bytes)?;
+                writeln!(out, "{}\t", program.display())?;
+            }
+            Err(error) => writeln!(out, "{}\t{error}", program.display())?,
+        }
+    }
     Ok(())
+}
+
+fn flat(
+    program: &Path,
+    folders: &[PathBuf],
+    options: &ExpandOptions,
+) -> Result<Vec<u8>, Box<dyn Error>> {
+    let own = program.parent().map(PathBuf::from);
+    let folders = own.into_iter().chain(folders.iter().cloned()).collect();
+    let flat = expand(std::fs::read(program)?, options, &Folders(folders))?;
+    Ok(flat.program.bytes().to_vec())
 }

@@ -25,6 +25,16 @@ impl<'o> Flat<'o> {
         }
     }
 
+    /// A run of other blocks from where this one is, in its modes.
+    pub fn following(&self) -> Self {
+        Self {
+            reader: Reader::new(Vec::new()),
+            interpreter: self.interpreter.following(),
+            origins: Vec::new(),
+            options: self.options,
+        }
+    }
+
     /// Adds a block that came from a line; what is wrong with it is said of that line.
     pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
         let of_source = |error: ProgramError| ProgramError {

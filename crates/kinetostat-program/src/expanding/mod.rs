@@ -10,6 +10,7 @@ mod expression;
 mod flat;
 mod number;
 pub(crate) mod options;
+mod radius;
 pub(crate) mod run;
 mod source;
 mod translate;

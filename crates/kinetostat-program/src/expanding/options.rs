@@ -19,6 +19,9 @@ pub struct ExpandOptions {
     pub most_blocks: usize,
     /// Values of numbered parameters before the program, as a controller keeps them.
     pub parameters: BTreeMap<u32, f64>,
+    /// Diameters of tools by their numbers, mm: the radius of G41 and G42. A tool that is not named here is refused there. A
+    /// negative diameter puts the tool on the other side.
+    pub tool_diameters_mm: BTreeMap<u32, f64>,
     /// The machine's zero in the part frame, mm: where G53 counts from. `None`: not known.
     pub machine_zero_mm: Option<Vector3<f64>>,
     /// Reference points of G28 and G30, mm, machine coordinates. `None`: not known.
@@ -31,6 +34,7 @@ impl Default for ExpandOptions {
             reading: ReadOptions::default(),
             most_blocks: MOST_BLOCKS,
             parameters: BTreeMap::new(),
+            tool_diameters_mm: BTreeMap::new(),
             machine_zero_mm: None,
             reference_points_mm: [None; 2],
         }

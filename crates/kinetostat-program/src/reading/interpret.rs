@@ -77,7 +77,7 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
 /// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
 /// is taken away they count from the machine's work offset again, and how far apart the two are only the
 /// machine knows. So it is with an offset from before the program that G92.3 brings back.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Shifts {
     now: [bool; 3],
     /// Without G92.
@@ -164,6 +164,26 @@ impl<'o> Interpreter<'o> {
             spindle: SpindleWords::default(),
             warnings: Vec::new(),
         }
+    }
+
+    /// An interpreter of other blocks from where this one is, in its modes; it has no moves yet.
+    pub(crate) fn following(&self) -> Self {
+        Self {
+            modes: self.modes.clone(),
+            offset: self.offset,
+            shifts: self.shifts,
+            position: self.position,
+            known: self.known,
+            ended: self.ended,
+            first_system: self.first_system,
+            spindle: self.spindle.following(),
+            ..Self::new(self.options)
+        }
+    }
+
+    /// The last motion that was read.
+    pub(crate) fn last_move(&self) -> Option<&Move> {
+        self.moves.last()
     }
 
     fn warn(&mut self, line: usize, text: &str) {

@@ -7,6 +7,7 @@ use crate::reading::extra::ExtraAxes;
 use crate::reading::options::Units;
 
 /// The modal state of the input.
+#[derive(Clone)]
 pub(crate) struct Modes {
     pub motion: Option<Motion>,
     pub incremental: bool,

@@ -89,6 +89,16 @@ impl SpindleWords {
         self.now
     }
 
+    /// The words of other blocks, from the state that these ended in.
+    pub fn following(&self) -> Self {
+        Self {
+            now: self.now,
+            changes: Vec::new(),
+            units: self.units,
+            ended: self.ended,
+        }
+    }
+
     pub fn finish(self) -> Vec<SpindleChange> {
         self.changes
     }

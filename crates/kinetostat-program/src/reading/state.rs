@@ -1,5 +1,6 @@
 //! What a controller would answer about its state, after the last block.
 
+use crate::path::moves::Motion;
 use crate::path::spindle::SpindleRotation;
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
@@ -24,6 +25,36 @@ impl Interpreter<'_> {
     /// G91.
     pub(crate) fn is_incremental(&self) -> bool {
         self.modes.incremental
+    }
+
+    /// G90.1.
+    pub(crate) fn centres_are_places(&self) -> bool {
+        self.modes.absolute_centre
+    }
+
+    /// Whether places without a code of motion are the ends of arcs.
+    pub(crate) fn moves_in_arcs(&self) -> bool {
+        matches!(
+            self.modes.motion,
+            Some(Motion::Clockwise | Motion::CounterClockwise)
+        )
+    }
+
+    /// Units in force, where they are named.
+    pub(crate) fn units(&self) -> Option<Units> {
+        self.modes.units()
+    }
+
+    /// Where the tool is in the part frame, mm; none where that is not known.
+    pub(crate) fn place_mm(&self, axis: usize) -> Option<f64> {
+        self.known[axis].then_some(self.position[axis])
+    }
+
+    /// A place in the part frame (mm) in program coordinates and units; mm where no units are named.
+    pub(crate) fn in_program(&self, axis: usize, place_mm: f64) -> f64 {
+        let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
+        let offset = self.work_offset_mm() + self.offset.active_mm;
+        (place_mm - offset[axis]) / unit
     }
 
     /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.

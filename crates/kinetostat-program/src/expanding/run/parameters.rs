@@ -10,6 +10,9 @@ use crate::reading::interpret::Interpreter;
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
 const NUMBERS: u32 = 5602;
 
+/// Why the place of the tool cannot be asked for.
+const HIDDEN: &str = "where the tool is cannot be asked for while cutter radius compensation is on";
+
 /// Values that all subprograms see.
 #[derive(Debug, Default)]
 pub(crate) struct Shared {
@@ -22,6 +25,8 @@ pub(crate) struct Seen<'r, 'o> {
     pub shared: &'r Shared,
     pub frame: &'r Frame,
     pub state: &'r Interpreter<'o>,
+    /// Whether the place of the tool is another one than the programmed one.
+    pub place_is_hidden: bool,
     /// Open subprograms.
     pub depth: usize,
 }
@@ -30,6 +35,7 @@ impl Parameters for Seen<'_, '_> {
     fn numbered(&self, number: u32) -> Result<f64, String> {
         match number {
             0 => Err("#0 is no parameter".to_owned()),
+            5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
             n if n as usize <= LOCAL => Ok(self.frame.numbered[n as usize - 1]),
             n if n < NUMBERS => match self.state.numbered_state(n) {
                 Some(of_state) => of_state,
@@ -51,6 +57,7 @@ impl Parameters for Seen<'_, '_> {
             return Ok(Some(*value));
         }
         match name {
+            "_x" | "_y" | "_z" if self.place_is_hidden => Err(HIDDEN.to_owned()),
             "_call_level" => Ok(Some(self.depth as f64)),
             _ => self.state.named_state(name),
         }

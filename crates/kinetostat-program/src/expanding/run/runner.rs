@@ -7,6 +7,8 @@ use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
 use crate::expanding::number::number;
 use crate::expanding::options::ExpandOptions;
+use crate::expanding::radius::stage::Radius;
+use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::frame::{Frame, Label, Opened};
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
@@ -35,6 +37,7 @@ pub(crate) struct Runner<'o> {
     pub frames: Vec<Frame>,
     pub shared: Shared,
     pub flat: Flat<'o>,
+    radius: Radius<'o>,
     /// The cycle that bare places repeat.
     cycle: Option<Cycle>,
     steps: usize,
@@ -51,6 +54,7 @@ impl<'o> Runner<'o> {
             frames: vec![Frame::new(0, 0, Opened::Program)],
             shared,
             flat: Flat::new(options),
+            radius: Radius::new(options),
             cycle: None,
             steps: 0,
         }
@@ -64,7 +68,7 @@ impl<'o> Runner<'o> {
             if index >= self.sources[file].lines.len() {
                 match self.end_of_file()? {
                     Next::Line => continue,
-                    Next::End => return Ok(()),
+                    Next::End => return self.end(),
                 }
             }
             self.steps += 1;
@@ -76,9 +80,14 @@ impl<'o> Runner<'o> {
             }
             self.frame_mut().next = index + 1;
             if let Next::End = self.line(file, index)? {
-                return Ok(());
+                return self.end();
             }
         }
+    }
+
+    fn end(&self) -> Result<(), ProgramError> {
+        let ended = self.radius.finish();
+        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
     }
 
     pub fn frame(&self) -> &Frame {
@@ -220,7 +229,11 @@ impl<'o> Runner<'o> {
 
     fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
         let origin = self.origin();
-        self.flat.add(text, origin)
+        let added = self.radius.block(text, origin, &mut self.flat);
+        added.map_err(|trouble| match trouble {
+            Trouble::Block(error) => error,
+            Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
+        })
     }
 
     /// What is no motion of a block that is translated.
@@ -232,6 +245,9 @@ impl<'o> Runner<'o> {
     }
 
     fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
+        if let Some((reason, remedy)) = self.radius.refuses_cycles() {
+            return Err(self.refuse(&reason, remedy));
+        }
         self.add_rest(&block.before)?;
         let made = cycle(code, block, self.cycle, &self.flat.interpreter);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
@@ -249,7 +265,7 @@ impl<'o> Runner<'o> {
             return Err(self.refuse("X or Y beside polar words", remedy));
         }
         self.add_rest(&block.before)?;
-        let state = &self.flat.interpreter;
+        let state = self.radius.interpreter(&self.flat);
         let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
             (Ok(x), Ok(y)) => (x, y),
             (Err(reason), _) | (_, Err(reason)) => {
@@ -282,7 +298,8 @@ impl<'o> Runner<'o> {
         let seen = Seen {
             shared: &self.shared,
             frame: self.frame(),
-            state: &self.flat.interpreter,
+            state: self.radius.interpreter(&self.flat),
+            place_is_hidden: self.radius.hides_the_place(),
             depth: self.frames.len() - 1,
         };
         let found = of.value(&seen);

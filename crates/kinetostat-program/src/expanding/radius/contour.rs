@@ -1,0 +1,208 @@
+//! The way of the tool's centre beside a contour, move by move.
+
+use crate::expanding::expanded::Origin;
+use crate::expanding::flat::Flat;
+use crate::expanding::radius::geometry::{Point, Sense, Side};
+use crate::expanding::radius::pending::Pending;
+use crate::expanding::radius::piece::{Piece, Shape};
+use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::translate::cycle::Wrong;
+use crate::path::curve::{Curve, NO_LENGTH_MM};
+use crate::path::moves::{FeedMode, Move, MoveKind};
+
+/// A programmed motion, in mm of the part frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Programmed {
+    pub to: Point,
+    pub shape: ProgrammedShape,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ProgrammedShape {
+    Straight(&'static str),
+    Arc(ProgrammedArc),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ProgrammedArc {
+    pub centre: Point,
+    pub sense: Sense,
+    /// Radii at the start and at the end, which may differ by the tolerance of arcs.
+    pub radii: [f64; 2],
+    /// In rad, above 0.
+    pub sweep: f64,
+}
+
+impl Programmed {
+    /// What the block of a move means.
+    pub fn of(motion: &Move) -> Result<Self, Wrong> {
+        if motion
+            .feed
+            .is_some_and(|feed| feed.mode == FeedMode::InverseTime)
+        {
+            return Err((
+                "the time of a block (G93) is not that of the tool's centre line".to_owned(),
+                "write feeds per minute (G94) while cutter radius compensation is on",
+            ));
+        }
+        let shape = match motion.curve {
+            Curve::Line => ProgrammedShape::Straight(match motion.kind {
+                MoveKind::Rapid => "G0",
+                MoveKind::Feed => "G1",
+            }),
+            Curve::Arc(arc) => ProgrammedShape::Arc(ProgrammedArc {
+                centre: arc.centre.xy(),
+                sense: match arc.sweep > 0.0 {
+                    true => Sense::CounterClockwise,
+                    false => Sense::Clockwise,
+                },
+                radii: [arc.start_radius, arc.end_radius],
+                sweep: arc.sweep.abs(),
+            }),
+        };
+        Ok(Self {
+            to: motion.end.xy(),
+            shape,
+        })
+    }
+}
+
+/// What stands around a motion in its block.
+#[derive(Debug, Clone)]
+pub(crate) struct Dress {
+    pub depth: Option<f64>,
+    pub lead: Vec<u8>,
+    pub tail: Vec<u8>,
+    pub origin: Origin,
+}
+
+impl Dress {
+    /// The last piece of a block: it has the depth.
+    pub fn last(self, shape: Shape, to: Point) -> Piece {
+        Piece {
+            shape,
+            to,
+            depth: self.depth,
+            lead: self.lead,
+            tail: self.tail,
+            origin: self.origin,
+        }
+    }
+
+    /// A piece before the last: it takes the words of the block that are no motion.
+    pub fn first(&mut self, shape: Shape, to: Point) -> Piece {
+        Piece {
+            shape,
+            to,
+            depth: None,
+            lead: std::mem::take(&mut self.lead),
+            tail: std::mem::take(&mut self.tail),
+            origin: self.origin,
+        }
+    }
+}
+
+/// A contour and the tool beside it.
+pub(crate) struct Contour {
+    pub side: Side,
+    /// Radius of the tool, in mm, above 0.
+    pub tool: f64,
+    /// The last programmed place.
+    pub at: Point,
+    /// From there to the tool, a unit vector; none before the first move.
+    pub normal: Option<Point>,
+    pub pending: Pending,
+}
+
+impl Contour {
+    pub fn new(side: Side, tool: f64, at: Point) -> Self {
+        Self {
+            side,
+            tool,
+            at,
+            normal: None,
+            pending: Pending::default(),
+        }
+    }
+
+    /// The next motion of the contour.
+    pub fn go(
+        &mut self,
+        programmed: Programmed,
+        dress: Dress,
+        flat: &mut Flat<'_>,
+    ) -> Result<(), Trouble> {
+        let way = (programmed.to - self.at).norm();
+        let is_arc = matches!(programmed.shape, ProgrammedShape::Arc(_));
+        if way > 0.0 && way < NO_LENGTH_MM && !is_arc {
+            return Err(Trouble::Line((
+                format!("a move of {way:.1e} mm has no direction beyond rounding"),
+                "remove it",
+            )));
+        }
+        let Some(normal) = self.normal else {
+            self.enter(programmed, dress)?;
+            return Ok(());
+        };
+        match programmed.shape {
+            ProgrammedShape::Straight(code) if way == 0.0 => {
+                let piece = dress.last(Shape::Straight(code), self.tool_at(normal));
+                self.pending.stand(piece);
+                Ok(())
+            }
+            ProgrammedShape::Straight(code) => {
+                self.straight(programmed.to, code, normal, dress, flat)
+            }
+            ProgrammedShape::Arc(arc) => self.arc(programmed.to, arc, normal, dress, flat),
+        }
+    }
+
+    /// Where the tool stands beside the last programmed place.
+    pub fn tool_at(&self, normal: Point) -> Point {
+        self.at + normal * self.tool
+    }
+
+    /// Ends the last motion as it is, for a stop or for G40.
+    pub fn settle(&mut self, flat: &mut Flat<'_>) -> Result<(), Trouble> {
+        match self.normal {
+            Some(normal) => {
+                let place = self.tool_at(normal);
+                self.pending.end_at(place, flat)
+            }
+            None => self.pending.end_at(self.at, flat),
+        }
+    }
+
+    /// Whether the tool is beside the contour.
+    pub fn has_begun(&self) -> bool {
+        self.normal.is_some()
+    }
+
+    /// Words without a motion: behind what waits.
+    pub fn words(
+        &mut self,
+        text: &[u8],
+        origin: Origin,
+        flat: &mut Flat<'_>,
+    ) -> Result<(), Trouble> {
+        match self.pending.is_waiting() {
+            true => self.pending.words(text.to_vec(), origin),
+            false => flat.add(text, origin)?,
+        }
+        Ok(())
+    }
+
+    /// The tool is beside a new place.
+    pub fn advance(&mut self, to: Point, normal: Point) {
+        self.at = to;
+        self.normal = Some(normal);
+    }
+}
+
+/// An inside corner behind a stop: the end of the move before it has been made.
+pub(crate) fn behind_a_stop() -> Wrong {
+    (
+        "an inside corner follows a stop (M0, M1, M60): the tool has cut into it already".to_owned(),
+        "write the stop before or behind the corner",
+    )
+}

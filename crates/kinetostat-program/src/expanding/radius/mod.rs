@@ -1,0 +1,28 @@
+//! Cutter radius compensation (G40, G41, G42, G41.1, G42.1): the contour of a program becomes the way of the tool's centre.
+//!
+//! Takes blocks of plain words, one by one, and the diameters of tools; gives the plain blocks of the tool's centre line. The
+//! rules (which corner is one, where the tool enters, what is an error) are those of LinuxCNC 2.9, `docs/src/gcode/tool-compensation.adoc`
+//! and its interpreter; what it refuses is refused, and so is what would cut into the contour or hang on the last digit of its
+//! arithmetic. Like LinuxCNC it looks at neighbouring blocks only: a contour that meets itself further on is not seen.
+//!
+//! - `geometry`, `corner`, `meeting`: the plane's geometry, no state;
+//! - `contour`: the way of the centre, move by move, by `entry`, `straight`, `arc`;
+//! - `pending`: the last motion, whose end the next corner may still move, and what came behind it;
+//! - `piece`: a motion as a block of the flat program;
+//! - `words`, `cutter`: which words a block may have, which radius they mean;
+//! - `stage`: on, off, and between G40 and the next move.
+
+mod arc;
+mod contour;
+mod corner;
+mod cutter;
+mod entry;
+mod geometry;
+mod meeting;
+mod motion;
+mod pending;
+mod piece;
+pub(crate) mod stage;
+mod straight;
+pub(crate) mod trouble;
+mod words;

@@ -1,0 +1,144 @@
+//! Motions that wait: the end of the last one along the contour is not settled before the next one is known.
+//!
+//! Behind it wait moves in depth, which stand on its end, and all words that came since. An inside corner moves the end back; a
+//! stop of the program or G40 leaves it where it is.
+
+use std::f64::consts::TAU;
+
+use crate::expanding::expanded::Origin;
+use crate::expanding::flat::Flat;
+use crate::expanding::radius::geometry::{Point, Sense, sweep};
+use crate::expanding::radius::piece::Piece;
+use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::translate::cycle::Wrong;
+use crate::reading::options::Units;
+
+/// What must be left of a straight move, in mm.
+const LEAST_MM: f64 = 1e-9;
+
+/// What must be left of an arc, in rad: less may be read as a full circle.
+const LEAST_SWEEP: f64 = 2e-6;
+
+/// By how much an arc may turn further than programmed, in rad. LinuxCNC takes the lengths 0.0254 mm and 0.001 inch for it,
+/// by the units in force.
+fn further(units: Option<Units>) -> f64 {
+    match units {
+        Some(Units::Inches) => 0.001,
+        _ => 0.0254,
+    }
+}
+
+/// The motion along the contour that waits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Waiting {
+    /// The move to the contour may end anywhere: it cuts nothing before its end.
+    Entry,
+    /// From a place, in a direction.
+    Line { from: Point, direction: Point },
+    /// From a place about a centre; `sweep` as programmed, in rad.
+    Arc {
+        from: Point,
+        centre: Point,
+        sense: Sense,
+        sweep: f64,
+    },
+}
+
+enum Item {
+    Words(Vec<u8>, Origin),
+    Move(Piece),
+}
+
+/// What waits, in the order of the program.
+#[derive(Default)]
+pub(crate) struct Pending {
+    along: Option<Waiting>,
+    items: Vec<Item>,
+}
+
+impl Pending {
+    /// The motion along the contour whose end can still be moved.
+    pub fn along(&self) -> Option<Waiting> {
+        self.along
+    }
+
+    /// Whether anything waits.
+    pub fn is_waiting(&self) -> bool {
+        !self.items.is_empty()
+    }
+
+    /// A new motion along the contour; nothing waits before it.
+    pub fn begin(&mut self, along: Waiting, piece: Piece) {
+        self.along = Some(along);
+        self.items.push(Item::Move(piece));
+    }
+
+    /// A move in depth.
+    pub fn stand(&mut self, piece: Piece) {
+        self.items.push(Item::Move(piece));
+    }
+
+    /// Words without a motion.
+    pub fn words(&mut self, text: Vec<u8>, origin: Origin) {
+        self.items.push(Item::Words(text, origin));
+    }
+
+    /// Ends the motion at a place, and writes everything.
+    pub fn end_at(&mut self, place: Point, flat: &mut Flat<'_>) -> Result<(), Trouble> {
+        if let Some(along) = self.along.take() {
+            check(along, place, flat.interpreter.units())?;
+        }
+        for item in std::mem::take(&mut self.items) {
+            match item {
+                Item::Words(text, origin) => flat.add(&text, origin)?,
+                Item::Move(piece) => write(&Piece { to: place, ..piece }, flat)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Writes a motion behind all blocks so far.
+pub(crate) fn write(piece: &Piece, flat: &mut Flat<'_>) -> Result<(), Trouble> {
+    if let Some(text) = piece.text(&flat.interpreter)? {
+        flat.add(&text, piece.origin)?;
+    }
+    Ok(())
+}
+
+/// Whether something of a motion is left that ends at a place, and no more than was programmed.
+fn check(along: Waiting, end: Point, units: Option<Units>) -> Result<(), Wrong> {
+    let too_short = || {
+        (
+            "the corner before cannot be reached: the tool would have to go back beyond the start of its move, and cut into the contour"
+                .to_owned(),
+            "take a smaller tool, or widen the corners",
+        )
+    };
+    match along {
+        Waiting::Entry => Ok(()),
+        Waiting::Line { from, direction } => {
+            match (end - from).dot(&direction) > LEAST_MM {
+                true => Ok(()),
+                false => Err(too_short()),
+            }
+        }
+        Waiting::Arc {
+            from,
+            centre,
+            sense,
+            sweep: programmed,
+        } => {
+            let left = sweep(from, centre, sense, end);
+            let is_full = |sweep: f64| sweep > TAU - LEAST_SWEEP;
+            // Rounding may make a whole circle a circle and a hair.
+            if is_full(programmed) && (is_full(left) || left < LEAST_SWEEP) {
+                return Ok(());
+            }
+            match left > LEAST_SWEEP && left < programmed + further(units) {
+                true => Ok(()),
+                false => Err(too_short()),
+            }
+        }
+    }
+}

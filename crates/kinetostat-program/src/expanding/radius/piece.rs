@@ -1,0 +1,109 @@
+//! A motion of the tool's centre as a block of the flat program.
+
+use crate::expanding::expanded::Origin;
+use crate::expanding::number::number;
+use crate::expanding::radius::geometry::{Point, Sense};
+use crate::expanding::translate::cycle::Wrong;
+use crate::reading::interpret::Interpreter;
+
+/// Words are rounded here, in program units: far below what counts, above what the arithmetic leaves.
+const DIGITS: f64 = 1e12;
+
+/// What a piece is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shape {
+    /// `G0` or `G1`.
+    Straight(&'static str),
+    Arc {
+        centre: Point,
+        sense: Sense,
+    },
+}
+
+/// A motion that is written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Piece {
+    pub shape: Shape,
+    /// In mm, part frame.
+    pub to: Point,
+    /// Depth, in mm, where the block states it.
+    pub depth: Option<f64>,
+    /// N word.
+    pub lead: Vec<u8>,
+    /// F and comments.
+    pub tail: Vec<u8>,
+    pub origin: Origin,
+}
+
+impl Piece {
+    /// The block from where the tool is, in the modes in force; none for a straight move that goes nowhere.
+    pub fn text(&self, state: &Interpreter<'_>) -> Result<Option<Vec<u8>>, Wrong> {
+        let mut words = String::new();
+        for axis in 0..2 {
+            if let Some(value) = word(state, axis, self.to[axis])? {
+                words.push_str(&format!(" {}{value}", ["X", "Y"][axis]));
+            }
+        }
+        if let Some(depth) = self.depth {
+            let value = match (state.is_incremental(), state.coordinate(2)) {
+                (true, Ok(here)) => state.in_program(2, depth) - here,
+                (true, Err(reason)) => return Err((reason, "state Z before")),
+                (false, _) => state.in_program(2, depth),
+            };
+            words.push_str(&format!(" Z{}", rounded(value)));
+        }
+        let code = match self.shape {
+            Shape::Straight(code) => code,
+            Shape::Arc { sense, .. } => match sense {
+                Sense::CounterClockwise => "G3",
+                Sense::Clockwise => "G2",
+            },
+        };
+        if let Shape::Arc { centre, .. } = self.shape {
+            for axis in 0..2 {
+                let place = state.in_program(axis, centre[axis]);
+                let here = here(state, axis)?;
+                let value = match state.centres_are_places() {
+                    true => place,
+                    false => place - here,
+                };
+                words.push_str(&format!(" {}{}", ["I", "J"][axis], rounded(value)));
+            }
+        }
+        let moves = !words.is_empty();
+        if !moves && self.tail.is_empty() {
+            return Ok(None);
+        }
+        let mut text = self.lead.clone();
+        if moves {
+            text.extend_from_slice(code.as_bytes());
+            text.extend_from_slice(words.as_bytes());
+        }
+        if moves && !self.tail.is_empty() {
+            text.push(b' ');
+        }
+        text.extend_from_slice(&self.tail);
+        Ok(Some(text))
+    }
+}
+
+fn here(state: &Interpreter<'_>, axis: usize) -> Result<f64, Wrong> {
+    let place = state.coordinate(axis);
+    place.map_err(|reason| (reason, "state X and Y before cutter radius compensation"))
+}
+
+/// A word of X or Y; none where the axis stands still.
+fn word(state: &Interpreter<'_>, axis: usize, to: f64) -> Result<Option<String>, Wrong> {
+    let (to, here) = (state.in_program(axis, to), here(state, axis)?);
+    if (to - here).abs() * DIGITS < 1.0 {
+        return Ok(None);
+    }
+    Ok(Some(rounded(match state.is_incremental() {
+        true => to - here,
+        false => to,
+    })))
+}
+
+fn rounded(value: f64) -> String {
+    number((value * DIGITS).round() / DIGITS)
+}

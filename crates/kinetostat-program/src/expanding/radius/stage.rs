@@ -1,0 +1,267 @@
+//! Compensation off, on, and between G40 and the next move.
+//!
+//! While it is on, the blocks are run as they are programmed beside the flat program: that run knows the modes and the
+//! programmed places; the flat program knows where the tool's centre is. Behind G40 the two places stay apart until a
+//! straight move brings the tool to a place that the program says.
+
+use crate::expanding::expanded::Origin;
+use crate::expanding::flat::Flat;
+use crate::expanding::options::ExpandOptions;
+use crate::expanding::radius::contour::{Contour, Programmed, ProgrammedShape};
+use crate::expanding::radius::cutter::{InSpindle, side_and_radius};
+use crate::expanding::radius::geometry::Point;
+use crate::expanding::radius::motion::{Motion, no_motion};
+use crate::expanding::radius::pending::write;
+use crate::expanding::radius::piece::Shape;
+use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::radius::words::{Switch, Words, words};
+use crate::expanding::translate::cycle::Wrong;
+use crate::reading::interpret::Interpreter;
+use crate::reading::options::Units;
+
+/// What the compensation does.
+enum State {
+    Off,
+    /// A tool without a radius: its centre is on the contour.
+    Without,
+    On {
+        contour: Contour,
+        /// The tool was beside the programmed place when G41 or G42 came: no move since the last G40.
+        begins_beside: bool,
+    },
+    /// Behind G40.
+    Beside,
+}
+
+/// Stands between the blocks that a program runs and the flat program.
+pub(crate) struct Radius<'o> {
+    options: &'o ExpandOptions,
+    spindle: InSpindle,
+    state: State,
+    /// The blocks as programmed, where these are others than the flat ones.
+    programmed: Option<Flat<'o>>,
+}
+
+impl<'o> Radius<'o> {
+    pub fn new(options: &'o ExpandOptions) -> Self {
+        Self {
+            options,
+            spindle: InSpindle::default(),
+            state: State::Off,
+            programmed: None,
+        }
+    }
+
+    /// The run that knows the modes and the programmed places.
+    pub fn interpreter<'a>(&'a self, flat: &'a Flat<'o>) -> &'a Interpreter<'o> {
+        let programmed = self.programmed.as_ref();
+        programmed.map_or(&flat.interpreter, |programmed| &programmed.interpreter)
+    }
+
+    /// Why cycles cannot be run here; none where they can.
+    pub fn refuses_cycles(&self) -> Option<Wrong> {
+        match self.state {
+            State::Off => None,
+            State::Beside => Some(asks_behind()),
+            State::On { .. } | State::Without => Some((
+                "a canned cycle cannot be run while cutter radius compensation is on".to_owned(),
+                "write G40 and a move before it",
+            )),
+        }
+    }
+
+    /// Whether programs may not ask for the place of the tool: it is not the programmed one.
+    pub fn hides_the_place(&self) -> bool {
+        matches!(self.state, State::On { .. } | State::Without)
+    }
+
+    /// A block of plain words, behind all blocks so far.
+    pub fn block(
+        &mut self,
+        text: &[u8],
+        origin: Origin,
+        flat: &mut Flat<'o>,
+    ) -> Result<(), Trouble> {
+        let words = words(text)?;
+        self.spindle.note(&words);
+        let is_off = matches!(self.state, State::Off);
+        let rest = match words.switch {
+            None => text,
+            Some(Switch::Off) if is_off => text,
+            Some(switch) => {
+                self.switch(switch, flat)?;
+                words.rest.trim_ascii()
+            }
+        };
+        match rest {
+            [] => Ok(()),
+            rest => self.run(rest, &words, origin, flat),
+        }
+    }
+
+    /// The program has ended, or its text has.
+    pub fn finish(&self) -> Result<(), Wrong> {
+        match &self.state {
+            State::On { contour, .. } if contour.pending.is_waiting() => Err((
+                "the program ends while cutter radius compensation is on, and its last move may not be made".to_owned(),
+                "write G40, and M2 or M30 at its end",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn switch(&mut self, switch: Switch, flat: &mut Flat<'o>) -> Result<(), Trouble> {
+        if switch == Switch::Off {
+            return self.off(flat);
+        }
+        if matches!(self.state, State::On { .. } | State::Without) {
+            return Err(Trouble::Line((
+                "cutter radius compensation is on already".to_owned(),
+                "write G40 and a move before it is put on again",
+            )));
+        }
+        let state = self.interpreter(flat);
+        if state.plane_axes() != [0, 1, 2] {
+            return Err(Trouble::Line((
+                "cutter radius compensation outside the plane XY is not followed".to_owned(),
+                "write G17, or let the CAM system write the centre line of the tool",
+            )));
+        }
+        let unit = state.units().map(Units::mm_per_unit);
+        let places = [0, 1].map(|axis| state.place_mm(axis));
+        let (Some(unit), [Some(x), Some(y)]) = (unit, places) else {
+            return Err(Trouble::Line((
+                "where the tool is before cutter radius compensation is not known".to_owned(),
+                "state units, X and Y before it",
+            )));
+        };
+        let diameters = &self.options.tool_diameters_mm;
+        let Some((side, radius)) = side_and_radius(switch, self.spindle, diameters, unit)? else {
+            return Ok(());
+        };
+        let begins_beside = matches!(self.state, State::Beside);
+        if radius == 0.0 {
+            if begins_beside {
+                return Err(Trouble::Line(asks_behind()));
+            }
+            self.state = State::Without;
+            return Ok(());
+        }
+        self.programmed.get_or_insert_with(|| flat.following());
+        self.state = State::On {
+            contour: Contour::new(side, radius, Point::new(x, y)),
+            begins_beside,
+        };
+        Ok(())
+    }
+
+    fn off(&mut self, flat: &mut Flat<'o>) -> Result<(), Trouble> {
+        self.state = match &mut self.state {
+            State::Off | State::Without => State::Off,
+            State::Beside => State::Beside,
+            State::On {
+                contour,
+                begins_beside,
+            } => {
+                contour.settle(flat)?;
+                match contour.has_begun() || *begins_beside {
+                    true => State::Beside,
+                    false => State::Off,
+                }
+            }
+        };
+        if let State::Off = self.state {
+            self.programmed = None;
+        }
+        Ok(())
+    }
+
+    fn run(
+        &mut self,
+        text: &[u8],
+        words: &Words,
+        origin: Origin,
+        flat: &mut Flat<'o>,
+    ) -> Result<(), Trouble> {
+        match (&mut self.state, &mut self.programmed) {
+            (
+                State::On {
+                    contour,
+                    begins_beside,
+                },
+                Some(programmed),
+            ) => {
+                words.check_within()?;
+                let Some(motion) = Motion::of(text, &programmed.interpreter) else {
+                    programmed.add(text, origin)?;
+                    if words.stops() {
+                        contour.settle(flat)?;
+                    }
+                    return contour.words(text, origin, flat);
+                };
+                let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
+                if !motion.before.is_empty() {
+                    contour.words(&motion.before, origin, flat)?;
+                }
+                let now = Programmed::of(&made)?;
+                if *begins_beside && !contour.has_begun() {
+                    refuse_arc(now)?;
+                }
+                let after = motion.after.clone();
+                contour.go(now, motion.dress(&made, origin), flat)?;
+                if !after.is_empty() {
+                    contour.settle(flat)?;
+                    programmed.add(&after, origin)?;
+                    flat.add(&after, origin)?;
+                }
+                Ok(())
+            }
+            (State::Beside, Some(programmed)) => {
+                words.check_behind()?;
+                let Some(motion) = Motion::of(text, &programmed.interpreter) else {
+                    programmed.add(text, origin)?;
+                    return flat.add(text, origin).map_err(Trouble::from);
+                };
+                let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
+                if !motion.before.is_empty() {
+                    flat.add(&motion.before, origin)?;
+                }
+                let code = refuse_arc(Programmed::of(&made)?)?;
+                let after = motion.after.clone();
+                let dress = motion.dress(&made, origin);
+                write(&dress.last(Shape::Straight(code), made.end.xy()), flat)?;
+                if !after.is_empty() {
+                    flat.add(&after, origin)?;
+                }
+                self.state = State::Off;
+                self.programmed = None;
+                Ok(())
+            }
+            (State::Without, _) => {
+                words.check_within()?;
+                flat.add(text, origin).map_err(Trouble::from)
+            }
+            _ => flat.add(text, origin).map_err(Trouble::from),
+        }
+    }
+}
+
+/// The code of a straight move; an arc is an error.
+fn refuse_arc(now: Programmed) -> Result<&'static str, Wrong> {
+    match now.shape {
+        ProgrammedShape::Straight(code) => Ok(code),
+        ProgrammedShape::Arc(_) => Err((
+            "the first move behind G40 is an arc, and the tool is beside its start".to_owned(),
+            "move straight (G0 or G1) first",
+        )),
+    }
+}
+
+/// What asks for the place of the tool behind G40.
+fn asks_behind() -> Wrong {
+    (
+        "behind G40 the tool is beside the place that the program counts from, until it moves"
+            .to_owned(),
+        "move with G0 or G1 and X, Y first",
+    )
+}
