@@ -13,6 +13,9 @@ const LONGER_MM: f64 = 1e-9;
 /// `TOLERANCE_EQUAL`).
 const LEAST_COSINE: f64 = 1e-4;
 
+/// Radius of an entry arc by that cosine, mm: beyond it rounding moves the centre by more than the last digits.
+const LARGEST_BY_COSINE_MM: f64 = 1e5;
+
 impl Contour {
     pub fn enter(&mut self, programmed: Programmed, dress: Dress) -> Result<(), Wrong> {
         let length = (programmed.to - self.at).norm();
@@ -58,7 +61,9 @@ impl Contour {
         let chord = from - end;
         let cosine = chord.dot(&inwards) / chord.norm();
         let radius = 0.5 * chord.norm() / cosine;
-        let is_arc = cosine > LEAST_COSINE && (within == Within::Inside || radius > self.tool);
+        let is_arc = cosine > LEAST_COSINE
+            && radius < LARGEST_BY_COSINE_MM * cosine
+            && (within == Within::Inside || radius > self.tool);
         if !is_arc {
             return Err((
                 "no arc leads the tool from where it is along the end of this arc".to_owned(),

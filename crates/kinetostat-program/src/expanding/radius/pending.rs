@@ -19,6 +19,12 @@ const LEAST_MM: f64 = 1e-9;
 /// What must be left of an arc, in rad: less may be read as a full circle.
 const LEAST_SWEEP: f64 = 2e-6;
 
+/// Ends of a circle nearer than this are one place, in mm.
+const SAME_MM: f64 = 1e-10;
+
+/// A circle of which a corner leaves less than this share is none.
+const LEAST_SHARE: f64 = 0.125;
+
 /// By how much an arc may turn further than programmed, in rad. LinuxCNC takes the lengths 0.0254 mm and 0.001 inch for it,
 /// by the units in force.
 fn further(units: Option<Units>) -> f64 {
@@ -130,10 +136,15 @@ fn check(along: Waiting, end: Point, units: Option<Units>) -> Result<(), Wrong> 
             sweep: programmed,
         } => {
             let left = sweep(from, centre, sense, end);
-            let is_full = |sweep: f64| sweep > TAU - LEAST_SWEEP;
-            // Rounding may make a whole circle a circle and a hair.
-            if is_full(programmed) && (is_full(left) || left < LEAST_SWEEP) {
+            let is_circle = programmed > TAU - LEAST_SWEEP;
+            if is_circle && (end - from).norm() < SAME_MM {
                 return Ok(());
+            }
+            if is_circle && (left > TAU - LEAST_SWEEP || left < TAU * LEAST_SHARE) {
+                return Err((
+                    "the full circle is not tangent to the moves before and behind it to the last digit: its ends are beside each other, and whether that is a circle or nothing depends on the controller".to_owned(),
+                    "divide the circle into two arcs",
+                ));
             }
             match left > LEAST_SWEEP && left < programmed + further(units) {
                 true => Ok(()),
