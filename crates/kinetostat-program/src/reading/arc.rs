@@ -18,6 +18,9 @@ const SAME_POINT_MM: f64 = 1e-9;
 /// Largest radius that is taken for a circle's, in mm.
 const LARGEST_RADIUS_MM: f64 = 1e7;
 
+/// An arc by radius whose chord is its diameter but for this share is half a circle (as LinuxCNC has it).
+const HALF_CIRCLE: f64 = 1e-12;
+
 /// What an arc block is read against.
 pub(crate) struct ArcFrame {
     pub start: Vector3<f64>,
@@ -142,7 +145,11 @@ fn centre_by_radius(
             "check R and the end point",
         ));
     }
-    let height = (radius * radius - half * half).max(0.0).sqrt();
+    let height = match half > radius.abs() * (1.0 - HALF_CIRCLE) {
+        // The root would make a rounding of the last digit one of the eighth.
+        true => 0.0,
+        false => (radius * radius - half * half).sqrt(),
+    };
     // The centre of the shorter arc lies to the right of the chord when turning clockwise.
     let side = if frame.clockwise == (radius > 0.0) {
         -1.0

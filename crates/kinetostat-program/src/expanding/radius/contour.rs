@@ -67,6 +67,24 @@ impl Programmed {
     }
 }
 
+impl Programmed {
+    /// The code of a straight move; an arc is an error behind G40.
+    pub fn straight_only(&self) -> Result<&'static str, Wrong> {
+        match self.shape {
+            ProgrammedShape::Straight(code) => Ok(code),
+            ProgrammedShape::Arc(_) => Err(arc_behind()),
+        }
+    }
+}
+
+/// An arc as the first move behind G40.
+pub(crate) fn arc_behind() -> Wrong {
+    (
+        "the first move behind G40 is an arc, and the tool is beside its start".to_owned(),
+        "move straight (G0 or G1) first",
+    )
+}
+
 /// What stands around a motion in its block.
 #[derive(Debug, Clone)]
 pub(crate) struct Dress {

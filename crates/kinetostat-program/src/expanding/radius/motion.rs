@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::number::number;
-use crate::expanding::radius::contour::Dress;
+use crate::expanding::radius::contour::{Dress, arc_behind};
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::Wrong;
 use crate::path::moves::Move;
@@ -24,6 +24,7 @@ pub(crate) struct Motion {
     /// M0 and its like, run behind it.
     pub after: Vec<u8>,
     has_depth: bool,
+    is_arc: bool,
 }
 
 impl Motion {
@@ -61,8 +62,17 @@ impl Motion {
             words,
             tail,
             after: block.after.trim_ascii().to_vec(),
+            is_arc,
             has_depth: block.value(b'Z').is_some(),
         })
+    }
+
+    /// Nothing but a straight move may stand behind G40.
+    pub fn refuse_arc(&self) -> Result<(), Wrong> {
+        match self.is_arc {
+            true => Err(arc_behind()),
+            false => Ok(()),
+        }
     }
 
     /// Runs the block where it is programmed; gives its motion.

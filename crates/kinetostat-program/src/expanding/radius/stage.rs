@@ -7,7 +7,7 @@
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::options::ExpandOptions;
-use crate::expanding::radius::contour::{Contour, Programmed, ProgrammedShape};
+use crate::expanding::radius::contour::{Contour, Programmed};
 use crate::expanding::radius::cutter::{InSpindle, side_and_radius};
 use crate::expanding::radius::geometry::Point;
 use crate::expanding::radius::motion::{Motion, no_motion};
@@ -29,7 +29,8 @@ enum State {
         /// The tool was beside the programmed place when G41 or G42 came: no move since the last G40.
         begins_beside: bool,
     },
-    /// Behind G40.
+    /// Behind G40. A change of the tool ends the difference between the two places (LinuxCNC asks the machine where the tool
+    /// is), and there is no other run any more; the next move must be straight all the same.
     Beside,
 }
 
@@ -205,7 +206,7 @@ impl<'o> Radius<'o> {
                 }
                 let now = Programmed::of(&made)?;
                 if *begins_beside && !contour.has_begun() {
-                    refuse_arc(now)?;
+                    now.straight_only()?;
                 }
                 let after = motion.after.clone();
                 contour.go(now, motion.dress(&made, origin), flat)?;
@@ -216,27 +217,7 @@ impl<'o> Radius<'o> {
                 }
                 Ok(())
             }
-            (State::Beside, Some(programmed)) => {
-                words.check_behind()?;
-                let Some(motion) = Motion::of(text, &programmed.interpreter) else {
-                    programmed.add(text, origin)?;
-                    return flat.add(text, origin).map_err(Trouble::from);
-                };
-                let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
-                if !motion.before.is_empty() {
-                    flat.add(&motion.before, origin)?;
-                }
-                let code = refuse_arc(Programmed::of(&made)?)?;
-                let after = motion.after.clone();
-                let dress = motion.dress(&made, origin);
-                write(&dress.last(Shape::Straight(code), made.end.xy()), flat)?;
-                if !after.is_empty() {
-                    flat.add(&after, origin)?;
-                }
-                self.state = State::Off;
-                self.programmed = None;
-                Ok(())
-            }
+            (State::Beside, _) => self.come_back(text, words, origin, flat),
             (State::Without, _) => {
                 words.check_within()?;
                 flat.add(text, origin).map_err(Trouble::from)
@@ -244,16 +225,44 @@ impl<'o> Radius<'o> {
             _ => flat.add(text, origin).map_err(Trouble::from),
         }
     }
-}
 
-/// The code of a straight move; an arc is an error.
-fn refuse_arc(now: Programmed) -> Result<&'static str, Wrong> {
-    match now.shape {
-        ProgrammedShape::Straight(code) => Ok(code),
-        ProgrammedShape::Arc(_) => Err((
-            "the first move behind G40 is an arc, and the tool is beside its start".to_owned(),
-            "move straight (G0 or G1) first",
-        )),
+    /// A block behind G40.
+    fn come_back(
+        &mut self,
+        text: &[u8],
+        words: &Words,
+        origin: Origin,
+        flat: &mut Flat<'o>,
+    ) -> Result<(), Trouble> {
+        if words.changes_tool() {
+            self.programmed = None;
+        }
+        let Some(programmed) = &mut self.programmed else {
+            if let Some(motion) = Motion::of(text, &flat.interpreter) {
+                motion.refuse_arc()?;
+                self.state = State::Off;
+            }
+            return flat.add(text, origin).map_err(Trouble::from);
+        };
+        words.check_behind()?;
+        let Some(motion) = Motion::of(text, &programmed.interpreter) else {
+            programmed.add(text, origin)?;
+            return flat.add(text, origin).map_err(Trouble::from);
+        };
+        let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
+        if !motion.before.is_empty() {
+            flat.add(&motion.before, origin)?;
+        }
+        let code = Programmed::of(&made)?.straight_only()?;
+        let after = motion.after.clone();
+        let dress = motion.dress(&made, origin);
+        write(&dress.last(Shape::Straight(code), made.end.xy()), flat)?;
+        if !after.is_empty() {
+            flat.add(&after, origin)?;
+        }
+        self.state = State::Off;
+        self.programmed = None;
+        Ok(())
     }
 }
 

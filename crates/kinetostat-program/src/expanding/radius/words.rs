@@ -20,7 +20,6 @@ const OWN_FUNCTIONS: u32 = 1000;
 /// Codes that ask where the tool is: after G40 that is two places, in tenths.
 const ASKING: &[u32] = &[100, 280, 281, 300, 301, 382, 383, 384, 385, 520, 530, 920];
 
-/// M6 and M61.
 const CHANGES: &[u32] = &[60, 610];
 
 /// What a block does to the compensation.
@@ -145,10 +144,14 @@ impl Words {
         STOPS.iter().any(|code| self.m.contains(code))
     }
 
+    /// M6 and M61.
+    pub fn changes_tool(&self) -> bool {
+        CHANGES.iter().any(|code| self.m.contains(code))
+    }
+
     /// Codes that ask where the tool is cannot stand between G40 and the next move.
     pub fn check_behind(&self) -> Result<(), Wrong> {
         let asks = self.g.iter().any(|code| ASKING.contains(code))
-            || self.m.iter().any(|code| CHANGES.contains(code))
             || self.has_other_axes;
         match asks {
             true => Err((
