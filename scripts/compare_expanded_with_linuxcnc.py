@@ -297,6 +297,12 @@ def compare(python, expand, folder, count, seed, offsets, lines):
         error = theirs[name]["error"]
         if error is not None and mine[name] is not None:
             counts["refused by both"] += 1
+            # A line of LinuxCNC's is that of its reading, or the one before.
+            line = int(re.match(r"line (\d+)", mine[name]).group(1))
+            near = theirs[name]["line"] - line in (0, 1)
+            counts["refused by both at the same line"] += near
+            if line < theirs[name]["line"] - 1:
+                classes["kinetostat refuses earlier: " + mine[name].split("`: ", 1)[-1][:90]].append(f"{name}: {mine[name]} | {theirs[name]['line']} {theirs[name]['error']}")
         elif error is not None:
             classes["ONLY LINUXCNC REFUSES: " + error.split(":")[0]].append(f"{name}:{theirs[name]['line']}")
             wrong = True

@@ -22,7 +22,8 @@ impl Subprograms for Folders {
     }
 }
 
-const USAGE: &str = "expand [--diameter TOOL=MM ...] [--into FOLDER] PROGRAM [PROGRAM or FOLDER ...]";
+const USAGE: &str =
+    "expand [--diameter TOOL=MM ...] [--into FOLDER] PROGRAM [PROGRAM or FOLDER ...]";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut options = ExpandOptions::default();

@@ -220,7 +220,8 @@ impl Contour {
 /// An inside corner behind a stop: the end of the move before it has been made.
 pub(crate) fn behind_a_stop() -> Wrong {
     (
-        "an inside corner follows a stop (M0, M1, M60): the tool has cut into it already".to_owned(),
+        "an inside corner follows a stop (M0, M1, M60): the tool has cut into it already"
+            .to_owned(),
         "write the stop before or behind the corner",
     )
 }

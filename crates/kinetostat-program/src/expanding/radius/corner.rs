@@ -44,7 +44,9 @@ pub(crate) fn corner(
         .any(|bound| (opening - bound).abs() < UNSURE)
     {
         return Err((
-            format!("the corner turns by {opening:.3} rad, where LinuxCNC begins to take it for another kind of corner"),
+            format!(
+                "the corner turns by {opening:.3} rad, where LinuxCNC begins to take it for another kind of corner"
+            ),
             "change the angle by a little",
         ));
     }

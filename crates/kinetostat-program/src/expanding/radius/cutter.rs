@@ -50,7 +50,7 @@ pub(crate) fn side_and_radius(
         }
         Switch::Diameter(side, Some(diameter)) => (side, diameter * mm_per_unit),
     };
-    if !(diameter.abs() <= LARGEST_DIAMETER_MM) {
+    if diameter.is_nan() || diameter.abs() > LARGEST_DIAMETER_MM {
         return Err((
             format!("a tool of {diameter} mm in diameter"),
             "give the diameter in mm",

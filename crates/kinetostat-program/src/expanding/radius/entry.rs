@@ -1,6 +1,8 @@
 //! The first motion of a contour: from where the tool is to beside its end.
 
-use crate::expanding::radius::contour::{Contour, Dress, Programmed, ProgrammedArc, ProgrammedShape};
+use crate::expanding::radius::contour::{
+    Contour, Dress, Programmed, ProgrammedArc, ProgrammedShape,
+};
 use crate::expanding::radius::geometry::{Point, Within, sweep};
 use crate::expanding::radius::pending::Waiting;
 use crate::expanding::radius::piece::Shape;

@@ -76,7 +76,11 @@ impl Motion {
     }
 
     /// Runs the block where it is programmed; gives its motion.
-    pub fn run(&self, origin: Origin, programmed: &mut Flat<'_>) -> Result<Option<Move>, ProgramError> {
+    pub fn run(
+        &self,
+        origin: Origin,
+        programmed: &mut Flat<'_>,
+    ) -> Result<Option<Move>, ProgramError> {
         if !self.before.is_empty() {
             programmed.add(&self.before, origin)?;
         }
@@ -99,7 +103,15 @@ impl Motion {
 fn has_codes(text: &[u8]) -> bool {
     let mut tokens = Vec::new();
     tokens_of(text, &mut tokens);
-    let is_code = |token: &Token| matches!(token, Token::Word { letter: b'G' | b'M' | b'T', .. });
+    let is_code = |token: &Token| {
+        matches!(
+            token,
+            Token::Word {
+                letter: b'G' | b'M' | b'T',
+                ..
+            }
+        )
+    };
     tokens.iter().any(|spanned| is_code(&spanned.token))
 }
 

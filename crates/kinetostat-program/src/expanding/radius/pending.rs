@@ -123,12 +123,10 @@ fn check(along: Waiting, end: Point, units: Option<Units>) -> Result<(), Wrong> 
     };
     match along {
         Waiting::Entry => Ok(()),
-        Waiting::Line { from, direction } => {
-            match (end - from).dot(&direction) > LEAST_MM {
-                true => Ok(()),
-                false => Err(too_short()),
-            }
-        }
+        Waiting::Line { from, direction } => match (end - from).dot(&direction) > LEAST_MM {
+            true => Ok(()),
+            false => Err(too_short()),
+        },
         Waiting::Arc {
             from,
             centre,
@@ -140,7 +138,8 @@ fn check(along: Waiting, end: Point, units: Option<Units>) -> Result<(), Wrong> 
             if is_circle && (end - from).norm() < SAME_MM {
                 return Ok(());
             }
-            if is_circle && (left > TAU - LEAST_SWEEP || left < TAU * LEAST_SHARE) {
+            let shares = TAU * LEAST_SHARE..=TAU - LEAST_SWEEP;
+            if is_circle && !shares.contains(&left) {
                 return Err((
                     "the full circle is not tangent to the moves before and behind it to the last digit: its ends are beside each other, and whether that is a circle or nothing depends on the controller".to_owned(),
                     "divide the circle into two arcs",

@@ -90,6 +90,11 @@ impl<'o> Radius<'o> {
             None => text,
             Some(Switch::Off) if is_off => text,
             Some(switch) => {
+                let units = self.interpreter(flat).units().map(|units| match units {
+                    Units::Inches => 200,
+                    Units::Millimetres => 210,
+                });
+                words.check_beside_switch(units)?;
                 self.switch(switch, flat)?;
                 words.rest.trim_ascii()
             }

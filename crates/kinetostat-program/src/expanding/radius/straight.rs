@@ -68,8 +68,8 @@ impl Contour {
                     centre,
                     radius: (centre - end).norm(),
                 };
-                let to_left = (centre - self.at).dot(&left_of(direction))
-                    - self.side.sign() * self.tool;
+                let to_left =
+                    (centre - self.at).dot(&left_of(direction)) - self.side.sign() * self.tool;
                 let along = off_arc(sense.of_tool(self.side));
                 line_and_circle(direction, to_left, circle, along)
             }

@@ -102,6 +102,11 @@ fn tenths(value: f64) -> u32 {
     (10.0 * value).round() as u32
 }
 
+/// Whether a function may stand in a contour.
+fn may_stand(function: u32) -> bool {
+    FUNCTIONS.contains(&function) || function >= OWN_FUNCTIONS
+}
+
 fn switch_of(tenths: u32) -> Option<Switch> {
     match tenths {
         400 => Some(Switch::Off),
@@ -123,10 +128,7 @@ impl Words {
     pub fn check_within(&self) -> Result<(), Wrong> {
         let remedy = "write it before G41 and G42, or behind G40 and the move after it";
         let code = self.g.iter().find(|code| !CODES.contains(code));
-        let function = self
-            .m
-            .iter()
-            .find(|code| !FUNCTIONS.contains(code) && **code < OWN_FUNCTIONS);
+        let function = self.m.iter().find(|code| !may_stand(**code));
         let name = match (code, function) {
             (Some(code), _) => format!("G{}", f64::from(*code) / 10.0),
             (_, Some(code)) => format!("M{}", f64::from(*code) / 10.0),
@@ -144,6 +146,29 @@ impl Words {
         STOPS.iter().any(|code| self.m.contains(code))
     }
 
+    /// Words that a controller runs before the switch of their block, and that must not change what it rests on: the plane, the
+    /// units, the tool.
+    pub fn check_beside_switch(&self, units: Option<u32>) -> Result<(), Wrong> {
+        let is_other = |code: &&u32| match **code {
+            180 | 190 => true,
+            200 | 210 => Some(**code) != units,
+            _ => false,
+        };
+        let code = self.g.iter().find(is_other).map(|code| ('G', *code));
+        let function = self.m.iter().find(|code| !may_stand(**code));
+        let function = function.map(|code| ('M', *code));
+        match code.or(function) {
+            Some((letter, code)) => Err((
+                format!(
+                    "{letter}{} and a switch of cutter radius compensation are in one block",
+                    f64::from(code) / 10.0
+                ),
+                "write them in two blocks",
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// M6 and M61.
     pub fn changes_tool(&self) -> bool {
         CHANGES.iter().any(|code| self.m.contains(code))
@@ -151,8 +176,7 @@ impl Words {
 
     /// Codes that ask where the tool is cannot stand between G40 and the next move.
     pub fn check_behind(&self) -> Result<(), Wrong> {
-        let asks = self.g.iter().any(|code| ASKING.contains(code))
-            || self.has_other_axes;
+        let asks = self.g.iter().any(|code| ASKING.contains(code)) || self.has_other_axes;
         match asks {
             true => Err((
                 "behind G40 the tool is beside the place that the program counts from, until it moves".to_owned(),
