@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::assert_made;
+use super::{Wanted, assert_made};
 
 /// A tool of radius 2 to the left of the x axis, and one more move from the origin.
 fn after_the_axis(last: &str) -> String {
@@ -10,7 +10,7 @@ fn after_the_axis(last: &str) -> String {
 }
 
 /// How the program above goes on from beside (-20, 0): the entry comes from the left below and ends square to itself.
-fn entry() -> [(f64, f64, Option<([f64; 2], f64)>); 2] {
+fn entry() -> [Wanted; 2] {
     let r = 2.0_f64;
     let root = 0.5_f64.sqrt();
     let turn = -PI / 4.0;

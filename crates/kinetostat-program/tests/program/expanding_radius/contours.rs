@@ -96,7 +96,7 @@ impl Piece {
     }
 
     /// Distance to the whole line or circle, positive to the left.
-    fn to_left(&self, point: Point) -> f64 {
+    fn distance_to_left(&self, point: Point) -> f64 {
         match *self {
             Self::Line { from, to } => (to - from).normalize().perp(&(point - from)),
             Self::Arc {
@@ -210,7 +210,7 @@ proptest! {
             for point in sampled(motion) {
                 let distance = match rounds {
                     true => (point - pieces[own].start()).norm(),
-                    false => side * pieces[own].to_left(point),
+                    false => side * pieces[own].distance_to_left(point),
                 };
                 prop_assert!((distance - tool).abs() < NEAR_MM, "{distance} from piece {own}: {text}");
                 for near in &pieces[own.saturating_sub(1)..(own + 2).min(pieces.len())] {

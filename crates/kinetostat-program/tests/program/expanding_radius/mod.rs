@@ -47,8 +47,11 @@ pub fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9
 }
 
-/// The motions of a program behind its first line of `from`, as they must be: x, y, and of arcs centre and sweep.
-pub fn assert_made(text: &str, from: usize, expected: &[(f64, f64, Option<([f64; 2], f64)>)]) {
+/// What a motion must be: x, y, and of arcs centre and sweep.
+pub type Wanted = (f64, f64, Option<([f64; 2], f64)>);
+
+/// The motions of a program behind its first line of `from`, as they must be.
+pub fn assert_made(text: &str, from: usize, expected: &[Wanted]) {
     let all = made(&flat(text));
     let found: Vec<Made> = all.into_iter().filter(|made| made.line >= from).collect();
     assert_eq!(found.len(), expected.len(), "{text}\n{found:?}");
