@@ -181,12 +181,15 @@ impl<'o> Runner<'o> {
                 }
             }
         }
+        let text = match assignments.is_empty() {
+            true => text.trim_ascii_end(),
+            false => text.trim_ascii(),
+        };
         for (to, number, value) in assignments {
             self.assign(to, number, value)?;
         }
-        let has_words = !text.trim_ascii().is_empty() || polar.is_there();
-        match has_words {
-            true => self.emit(text.trim_ascii_end(), polar),
+        match !text.trim_ascii().is_empty() || polar.is_there() {
+            true => self.emit(text, polar),
             false => Ok(Next::Line),
         }
     }
