@@ -2,7 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
-use crate::expanding::options::ExpandOptions;
+use crate::expanding::options::{ExpandOptions, OriginComments};
 use crate::path::moves::Path;
 use crate::reading::interpret::Interpreter;
 use crate::text::program::{Program, Reader};
@@ -25,8 +25,8 @@ impl<'o> Flat<'o> {
         }
     }
 
-    /// Adds a block that came from a line; what is wrong with it is said of that line.
-    pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
+    /// Adds a block that came from a line of a file; what is wrong with it is said of that line.
+    pub fn add(&mut self, text: &[u8], origin: Origin, file: &str) -> Result<(), ProgramError> {
         let of_source = |error: ProgramError| ProgramError {
             line: origin.line,
             ..error
@@ -34,6 +34,11 @@ impl<'o> Flat<'o> {
         if self.origins.len() >= self.options.most_blocks {
             return Err(self.too_many(text, origin));
         }
+        let commented = match self.options.origin_comments {
+            OriginComments::Written => commented(text, origin.line, file),
+            OriginComments::Left => None,
+        };
+        let text = commented.as_deref().unwrap_or(text);
         self.reader.add_line(text).map_err(of_source)?;
         self.origins.push(origin);
         let index = self.origins.len() - 1;
@@ -67,4 +72,17 @@ impl<'o> Flat<'o> {
         })?;
         Ok((program, path, origins))
     }
+}
+
+/// A block with its origin behind it; none for tape marks and lines without a word.
+fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
+    let first = text.trim_ascii_start().first()?;
+    if !first.is_ascii_alphabetic() && *first != b'/' {
+        return None;
+    }
+    let origin = match file {
+        "" => format!(" (line {line})"),
+        file => format!(" ({file}, line {line})"),
+    };
+    Some([text, origin.as_bytes()].concat())
 }

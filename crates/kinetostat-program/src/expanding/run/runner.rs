@@ -223,7 +223,8 @@ impl<'o> Runner<'o> {
 
     fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
         let origin = self.origin();
-        self.flat.add(text, origin)
+        let file = &self.sources[origin.file].name;
+        self.flat.add(text, origin, file)
     }
 
     /// What is no motion of a block that is translated.

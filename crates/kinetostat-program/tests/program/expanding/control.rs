@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
-use kinetostat_program::{ExpandOptions, NoSubprograms, Subprograms, expand};
+use kinetostat_program::{ExpandOptions, NoSubprograms, OriginComments, Subprograms, expand};
 
 use super::{flat, refused};
 
@@ -140,6 +140,13 @@ fn subprograms_in_files() {
             ("", 5)
         ]
     );
+    let mut options = ExpandOptions::default();
+    options.origin_comments = OriginComments::Written;
+    let commented = expand(text, &options, &Files).unwrap();
+    let lines: Vec<&[u8]> = commented.program.bytes().split(|b| *b == b'\n').collect();
+    assert_eq!(lines[1], b"G0 X0 Y0 Z0 (line 2)");
+    assert_eq!(lines[2], b"G1 Z-2 F100 (drill, line 3)");
+    assert_eq!(commented.path, expanded.path);
     let missing = expand("O<bore> call\n", &ExpandOptions::default(), &Files).unwrap_err();
     assert!(missing.reason.contains("no subprogram 'bore'"), "{missing}");
     assert!(expand("M98 P9\n", &ExpandOptions::default(), &NoSubprograms).is_err());

@@ -5,6 +5,7 @@ mod control;
 mod cycles;
 mod expressions;
 mod polar;
+pub mod random;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};
 
@@ -24,4 +25,16 @@ fn refused(text: &str) -> ProgramError {
             String::from_utf8_lossy(expanded.program.bytes())
         ),
     }
+}
+
+#[test]
+fn random_programs_are_expanded_or_refused() {
+    let mut expanded = 0;
+    for seed in 0..20_000 {
+        match random::check(seed) {
+            Ok(taken) => expanded += usize::from(taken),
+            Err(what) => panic!("{what}"),
+        }
+    }
+    assert!(expanded > 500, "{expanded}");
 }
