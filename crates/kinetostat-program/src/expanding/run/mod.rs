@@ -7,3 +7,4 @@ pub(crate) mod frame;
 pub(crate) mod parameters;
 pub(crate) mod runner;
 pub(crate) mod source;
+pub(crate) mod steps;

@@ -117,7 +117,10 @@ fn program(seed: u64) -> String {
         if text.is_char_boundary(at) && text.is_char_boundary(at + 1) {
             match next(2) {
                 0 => drop(text.remove(at)),
-                _ => text.insert_str(at, &text[at..=at].to_owned()),
+                _ => {
+                    let twice = text[at..=at].to_owned();
+                    text.insert_str(at, &twice);
+                }
             }
         }
     }
