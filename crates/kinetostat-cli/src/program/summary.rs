@@ -70,6 +70,10 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         text.push(' ');
         text.push_str(&corners);
     }
+    if let Some(ramp) = result.ramp_text() {
+        text.push(' ');
+        text.push_str(&ramp);
+    }
     if let Some(band) = result.force_band_text() {
         text.push(' ');
         text.push_str(&band);
@@ -123,9 +127,18 @@ fn figures(result: &RunResult) -> String {
                 &of(s.feed_limited_pieces),
             );
         }
+        if let Some(change) = &f.change {
+            row("largest change of the correction", "", change);
+        }
         if let Some(longest) = &f.corner_step {
             row("corner steps", "", &of(s.corner_steps));
             row("longest of them", "", longest);
+        }
+        if let Some(longest) = &f.entry_step {
+            row("steps where a rapid ends", "", &of(s.entry_steps));
+            row("longest of these", "", longest);
+        }
+        if s.corner_steps + s.entry_steps > 0 {
             let backwards = largest_length(s.largest_backward_step_mm);
             row("longest way backwards", "", &backwards);
         }
