@@ -107,6 +107,16 @@ fn figures(result: &RunResult) -> String {
         let allowed = against(s.max_position_error_after_mm, result.tolerance.allowed_mm).1;
         row("error allowed in all", "", &allowed);
         row("largest correction", "", &f.correction);
+        if let (Some(value), Some(change)) = (&f.change, &s.largest_change_mm_per_mm) {
+            row(
+                &format!("largest change of it, line {}", change.line),
+                "",
+                value,
+            );
+            if let Some(stated) = change.stated {
+                row("largest one stated", "", &format!("{stated} mm/mm"));
+            }
+        }
         row("tool tilt that stays", "", &f.rotation);
         // Pieces whose feed is limited are slower, and have a row of their own.
         let speed = match s.feed_limited_pieces {
@@ -126,9 +136,6 @@ fn figures(result: &RunResult) -> String {
                 "",
                 &of(s.feed_limited_pieces),
             );
-        }
-        if let Some(change) = &f.change {
-            row("largest change of the correction", "", change);
         }
         if let Some(longest) = &f.corner_step {
             row("corner steps", "", &of(s.corner_steps));
