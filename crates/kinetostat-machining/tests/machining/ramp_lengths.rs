@@ -317,3 +317,110 @@ fn a_step_where_a_rapid_ends_is_no_corner() {
         "{words}"
     );
 }
+
+/// Blocks of 0.003 mm while a correction of a few digits comes: a digit more or less is a tenth of their length.
+#[test]
+fn rounding_is_no_change() {
+    let mut text = "G21 G90\nG0 X0 Y0 Z0\nG1 X0.003 F600\n".to_owned();
+    for i in 2..=600 {
+        text += &format!("X{:.3}\n", 0.003 * f64::from(i));
+    }
+    text += "G0 Z20\nM2\n";
+    let load = ProgramLoad {
+        largest_step: 0.01,
+        ..ProgramLoad::new(along_y(4.0))
+    };
+    let run = run_with(&text, [STIFF, K, STIFF], load, None);
+    let found = run.result.summary.largest_change_mm_per_mm;
+    let found = found.expect("a change");
+    // 0.01 mm over 1 mm; as written, from block to block, by whole digits or not at all.
+    assert!(found.value >= 0.01 && found.value < 0.0275, "{found:?}");
+    assert_eq!((found.lines_beyond, warned(&run)), (0, None));
+    let bytes = &run.written.as_ref().expect("written").bytes;
+    let (_, path) = read(std::str::from_utf8(bytes).expect("text"));
+    let jumps = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+    let jumps = jumps
+        .filter(|m| (m.end.y - m.start.y).abs() > 0.9e-4)
+        .count();
+    assert!((90..=110).contains(&jumps), "{jumps}");
+}
+
+/// The same figure from the written pieces, place by place in small steps.
+#[test]
+fn the_change_is_that_of_the_written_pieces() {
+    let mut text = "G21 G90\nG0 X-2 Y0 Z0\nG1 X0 F600\n".to_owned();
+    let (mut place, mut angle, mut state) = (Vector3::zeros(), 0.0_f64, 7_u32);
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / f64::from(u32::MAX)
+    };
+    for _ in 0..40 {
+        angle += 0.8 * (random() - 0.4);
+        place += (0.004 + 0.2 * random()) * vector![angle.cos(), angle.sin(), 0.0];
+        text += &format!("G1 X{:.4} Y{:.4}\n", place.x, place.y);
+    }
+    text += "G0 Z20\nM2\n";
+    let milling = CuttingLoad::Milling {
+        radial: 50.0,
+        tangential: -20.0,
+        axial: 0.0,
+    };
+    let run = run(&text, [K; 3], milling);
+    let (_, path) = read(&text);
+    let written = run.written.as_ref().expect("written");
+    let mut pieces = Vec::new();
+    let mut way = 0.0;
+    for piece in &written.pieces {
+        let motion = &path.moves[piece.move_index];
+        if motion.kind == MoveKind::Rapid {
+            continue;
+        }
+        assert!(!piece.corner_step, "one stretch is wanted");
+        let length = motion.length_mm() * (piece.share_to - piece.share_from);
+        let from = piece.commanded_from - motion.point(piece.share_from);
+        let to = piece.commanded_to - motion.point(piece.share_to);
+        pieces.push((way, length, from, to));
+        way += length;
+    }
+    let correction = |at: f64| {
+        let after = pieces.partition_point(|(from, ..)| *from <= at);
+        let (start, length, from, to) = pieces[after - 1];
+        from.lerp(&to, ((at - start) / length).clamp(0.0, 1.0))
+    };
+    let (step, window) = (0.000_3, 0.01);
+    let mut fastest = 0.0;
+    let mut at = 0.0;
+    while at + window < way {
+        let change = (correction(at + window) - correction(at)).norm() / window;
+        fastest = if change > fastest { change } else { fastest };
+        at += step;
+    }
+    let found = run.result.summary.largest_change_mm_per_mm;
+    let found = found.expect("a change").value;
+    assert!(
+        pieces.len() > 40 && fastest > 0.5,
+        "{} {fastest}",
+        pieces.len()
+    );
+    assert!(
+        found >= fastest && found < 1.02 * fastest,
+        "{found} {fastest}"
+    );
+}
+
+/// Where the height is stated below which the load acts, that is said instead.
+#[test]
+fn a_stated_height_is_said() {
+    let load = ProgramLoad {
+        below_z_mm: Some(-1.0),
+        ..ProgramLoad::new(along_y(400.0))
+    };
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z-4 F300\nG1 X20\nG0 Z20\nM2\n";
+    let run = run_with(text, [STIFF, K, STIFF], load, None);
+    let ramp = run.result.summary.load_ramp.expect("a ramp");
+    assert_eq!(ramp.begins, LoadBegins::BelowHeight);
+    assert!((ramp.length_mm - 2.0).abs() < 1e-6, "{ramp:?}");
+    let words = run.result.ramp_text().expect("a sentence");
+    assert!(words.contains("height"), "{words}");
+    assert_eq!(warned(&run), None);
+}
