@@ -6,8 +6,8 @@ use kinetostat::Wrench;
 use kinetostat_cutting::{Engagement, Linear, Shape, Side, Stock, StockSettings, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
-    LoadAxes, LoadBegins, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, Warning,
-    WarningCode, compensate_program,
+    LoadAxes, LoadBegins, Placement, PointKind, ProgramLoad, Run, RunInputs, Task, Unwatched,
+    Warning, WarningCode, compensate_program,
 };
 use kinetostat_program::{MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
@@ -212,7 +212,35 @@ fn stated_engagements_come_round_a_corner() {
     assert!(run.result.summary.corner_steps >= 1 && run.result.summary.entry_steps == 0);
     let most = run.result.summary.max_correction_mm;
     assert!(most > 0.1, "{most}");
-    assert!(run.result.summary.load_ramp.is_some());
+    let ramp = run.result.summary.load_ramp.expect("a ramp");
+    assert!(ramp.length_mm > 2.0 && ramp.length_mm < 15.0, "{ramp:?}");
+    // Round the corner behind that, all of it acts, and does not come again.
+    let text = "G21 G90\nS10000 M3\nG0 X0 Y0 Z0\nG1 X20 F300\nG1 Y20\nG0 Z20\nM2\n";
+    let engagement = Engagement::straight(3.0, 2.0, 3.0, Side::Right).expect("engagement");
+    let source = EngagementSource::Constant(engagement);
+    let run = run_with(text, [20.0; 3], load, Some(source));
+    let forces: Vec<(usize, f64, f64)> = run
+        .points
+        .iter()
+        .filter(|p| p.kind == PointKind::Feed)
+        .map(|p| (p.line, p.share, Vector3::from(p.force_n).norm()))
+        .collect();
+    let of = |line: usize, from: f64, to: f64| {
+        let there = |p: &&(usize, f64, f64)| p.0 == line && p.1 >= from && p.1 <= to;
+        let found: Vec<f64> = forces.iter().filter(there).map(|p| p.2).collect();
+        assert!(!found.is_empty(), "{line} {from}");
+        found
+    };
+    let full = of(5, 0.9, 1.0)[0];
+    let after = of(5, 0.0, 1.0).into_iter().chain(of(4, 0.95, 1.0));
+    assert!(
+        after.into_iter().all(|f| (f / full - 1.0).abs() < 0.02),
+        "{forces:?}"
+    );
+    assert!(
+        of(4, 0.0, 0.05).iter().all(|f| *f < 0.5 * full),
+        "{forces:?}"
+    );
 }
 
 /// A force of one size that turns with an arc: over an angle of 1/R per mm of path.
@@ -300,7 +328,7 @@ fn a_step_where_a_rapid_ends_is_no_corner() {
     let there = run
         .points
         .iter()
-        .find(|p| p.line == 4 && p.kind == kinetostat_machining::PointKind::Feed);
+        .find(|p| p.line == 4 && p.kind == PointKind::Feed);
     let force = Vector3::from(there.expect("a place").force_n).norm();
     let step = summary.largest_entry_step_mm;
     assert!(
