@@ -56,6 +56,8 @@ pub enum WarningCode {
     Plunge,
     /// The force changes faster in a cut than the correction may.
     ForceChangesFast,
+    /// The correction changes faster along the path than is stated for the load.
+    CorrectionChangesFast,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.
