@@ -5,13 +5,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::files::answer_files::AnswerFiles;
+use crate::force::fit_arguments::FitArgs;
 use crate::options::{number, whole};
 
 /// Force of one cut: from material, tool, width, depth and feed
 ///
 /// The force on a milling tool over the revolution: its mean, which bends the machine; its peak; and
 /// the force at the moment at which the wall is made, which prints into it. With torque, power,
-/// harmonics and how far to trust all of it. It needs no machine and no program.
+/// harmonics and how far to trust all of it. It needs no machine and no program. With --fit it goes
+/// the other way: from mean forces of a dynamometer to the coefficients of a material.
 #[derive(Debug, Args)]
 #[command(after_help = CODES, after_long_help = FORCE_HELP)]
 pub(crate) struct ForceArgs {
@@ -28,6 +30,8 @@ pub(crate) struct ForceArgs {
     pub(crate) spindle: SpindleArgs,
     #[command(flatten)]
     pub(crate) steady: SteadyArgs,
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
 }
@@ -279,11 +283,21 @@ Examples:
   kinetostat force --turning --material C45 --depth-mm 2 \\
       --feed-per-turn-mm 0.3 --approach-angle-deg 75 --speed-m-per-min 150
   kinetostat force --list-materials
+  kinetostat force --fit means.csv --material \"our 7075\" --tool flat \\
+      --diameter-mm 12 --teeth 4 --width-mm 12 --depth-mm 2 \\
+      --acts-on part --out-material ours.toml --plot fit.svg
+      coefficients of a material from mean forces in a slot
 
 Axes of the force, which is that on the tool: x along the feed of the tool over
 the part, y to the left of the feed, z along the tool towards the spindle.
 Angles of the spindle count from +y (from -y with --counter-clockwise) to the
 place of tooth 0 at the tip, as the spindle turns.
+
+Mean forces for --fit (CSV): a row for each cut, all of them but for the feed
+alike; better five feeds than two. Lines that begin with # are passed over.
+  feed_mm_per_tooth,fx_n,fy_n,fz_n
+  0.05,-95.2,149.7,19.3
+  0.10,-112.3,230.6,33.6
 
 A table of tools (TOML) has per tool
   [[tool]]

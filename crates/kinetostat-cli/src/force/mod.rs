@@ -11,6 +11,8 @@ mod csv;
 mod cut;
 mod drilling;
 mod findings;
+mod fit;
+pub(crate) mod fit_arguments;
 mod list;
 mod material;
 mod plot;
@@ -34,6 +36,9 @@ use crate::ui::failure::{Answer, Failure};
 
 pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
     let files = InputFiles::default();
+    if let Some(means) = &args.fit.fit {
+        return fit::run(&files, args, means);
+    }
     let materials = materials(&files, args.material.materials.as_deref())?;
     let mut inputs: Vec<PathBuf> = args.material.materials.iter().cloned().collect();
     if args.list_materials {
