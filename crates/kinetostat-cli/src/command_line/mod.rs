@@ -73,7 +73,7 @@ pub(crate) enum Command {
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),
     Force(Box<ForceArgs>),
-    Engagement(EngagementArgs),
+    Engagement(Box<EngagementArgs>),
     Check(CheckArgs),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

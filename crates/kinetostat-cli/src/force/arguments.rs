@@ -146,16 +146,33 @@ pub(crate) struct ToolArgs {
     #[arg(long, value_name = "L", help_heading = "Tool", allow_negative_numbers = true, value_parser = number, conflicts_with = "tool_table")]
     pub(crate) stick_out_mm: Option<f64>,
     /// Table of tools (TOML)
-    #[arg(
-        long,
-        value_name = "FILE",
-        help_heading = "Tool",
-        requires = "tool_number"
-    )]
+    #[arg(long, value_name = "FILE", help_heading = "Tool")]
     pub(crate) tool_table: Option<PathBuf>,
-    /// Number of the tool in the table
+    /// Number of the tool in the table; without it, a program calls its tools (T)
     #[arg(long, value_name = "T", help_heading = "Tool", allow_negative_numbers = true, value_parser = whole, requires = "tool_table")]
     pub(crate) tool_number: Option<usize>,
+}
+
+impl ToolArgs {
+    /// Whether any of them is given.
+    pub(crate) fn given(&self) -> bool {
+        let numbers = [
+            self.diameter_mm,
+            self.helix_deg,
+            self.corner_radius_mm,
+            self.lead_angle_deg,
+            self.run_out_um,
+            self.run_out_angle_deg,
+            self.max_chip_mm,
+            self.flute_length_mm,
+            self.stick_out_mm,
+        ];
+        let counts = [self.teeth, self.tool_number];
+        self.tool.is_some()
+            || self.tool_table.is_some()
+            || numbers.iter().any(Option::is_some)
+            || counts.iter().any(Option::is_some)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

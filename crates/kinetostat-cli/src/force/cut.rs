@@ -132,6 +132,12 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         .rpm
         .map(|rpm| within("speed of the spindle", rpm, 1e-3..=1e6, "turns per minute"))
         .transpose()?;
+    let spindle = curve(spindle)?;
+    if spindle.is_some() && rpm.is_none() {
+        return Err(Failure::input(
+            "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
+        ));
+    }
     let feed = feed(tool, args, rpm)?;
     if feed.down_mm != 0.0 && of.part != Part::Slot {
         return Err(Failure::input(
@@ -154,7 +160,7 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         feed,
         rpm,
         widest_mm: of.widest_mm,
-        spindle: curve(spindle, rpm)?,
+        spindle,
     })
 }
 
@@ -213,7 +219,8 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
     Feed::ramp(per_tooth, down).map_err(|error| refused(&error))
 }
 
-fn curve(args: &SpindleArgs, rpm: Option<f64>) -> Answer<Option<SpindleCurve>> {
+/// What the spindle gives; none where nothing is said of it.
+pub(crate) fn curve(args: &SpindleArgs) -> Answer<Option<SpindleCurve>> {
     let (Some(power), Some(base), Some(most)) = (
         args.spindle_power_w,
         args.spindle_base_rpm,
@@ -221,11 +228,6 @@ fn curve(args: &SpindleArgs, rpm: Option<f64>) -> Answer<Option<SpindleCurve>> {
     ) else {
         return Ok(None);
     };
-    if rpm.is_none() {
-        return Err(Failure::input(
-            "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
-        ));
-    }
     let curve = SpindleCurve::rated(power, base, most);
     curve.map(Some).map_err(|error| refused(&error))
 }

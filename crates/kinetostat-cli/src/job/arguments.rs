@@ -95,7 +95,7 @@ pub(crate) struct ProgramArgs {
 }
 
 /// How the program is read.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ReadingArgs {
     /// Units of a program that does not say G20 or G21
     #[arg(long, value_enum, value_name = "UNITS", help_heading = "Reading")]

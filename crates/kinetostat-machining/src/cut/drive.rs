@@ -46,7 +46,7 @@ impl CutQuestion {
         let rotation = self.rotation.or(said).ok_or_else(|| {
             missing(
                 "the tool cuts and the spindle does not turn",
-                "add M3 or M4 to the program, or give the sense of rotation",
+                "add M3 or M4 to the program, or give the sense of rotation (rotation under [spindle], --rotation of `kinetostat engagement`)",
             )
         })?;
         let rpm = self
@@ -55,7 +55,7 @@ impl CutQuestion {
         let rpm = rpm.ok_or_else(|| {
             missing(
                 "the tool cuts and no speed of the spindle is known (S with G97)",
-                "add the S word to the program, or give the speed",
+                "add the S word to the program, or give the speed (rpm under [spindle], --rpm of `kinetostat engagement`)",
             )
         })?;
         let per_turn = motion.feed_mm_per_revolution(rpm).ok_or_else(|| {

@@ -47,7 +47,7 @@ pub(crate) fn extremes(cutters: &[Cutter]) -> Option<(&Tool, &Tool)> {
 }
 
 /// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls.
-pub(super) fn cutters(
+pub(crate) fn cutters(
     files: &InputFiles,
     j: &JobFile,
     flags: &ProgramArgs,

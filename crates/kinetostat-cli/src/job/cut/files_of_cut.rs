@@ -39,10 +39,20 @@ impl FilesOfCut {
         name: &str,
     ) -> Answer<(Vec<u8>, String)> {
         let path = job.base().join(name);
+        let shown = path.display().to_string();
+        Ok((self.stated(files, what, path)?, shown))
+    }
+
+    /// The bytes of a file that an option names.
+    pub(crate) fn stated(
+        &mut self,
+        files: &InputFiles,
+        what: &str,
+        path: PathBuf,
+    ) -> Answer<Vec<u8>> {
         let bytes = files.bytes(what, &path)?;
         self.read.push(origin::file(what, &path, &bytes));
-        let shown = path.display().to_string();
         self.paths.push(path);
-        Ok((bytes, shown))
+        Ok(bytes)
     }
 }

@@ -20,6 +20,8 @@ use crate::ui::failure::Answer;
 
 /// The cuts of a job.
 pub(crate) struct CutSetup {
+    /// Name of the material.
+    pub(crate) material: String,
     pub(crate) question: CutQuestion,
     /// What was assumed, one sentence each.
     pub(crate) words: Vec<String>,
@@ -79,6 +81,7 @@ pub(crate) fn cut_setup(
     let choice = spindle.force.unwrap_or_default();
     words.push(format!("force that counts: {}", choice.description()));
     Ok(Some(CutSetup {
+        material: of_material.name().to_owned(),
         question: CutQuestion {
             tools,
             engagement: source,
