@@ -99,13 +99,15 @@ Exit codes:
 
 const ENGAGEMENT_HELP: &str = r#"Examples:
   kinetostat engagement part.ngc --material AlMg4.5Mn --tool flat \
-      --diameter-mm 6 --teeth 2 --helix-deg 30 \
-      --block-mm -30 -20 -20 30 20 0 --plot cut.svg
+      --diameter-mm 6 --teeth 2 --helix-deg 30 --rpm 12000 \
+      --rotation clockwise --block-mm -30 -20 -20 30 20 0 --plot cut.svg
+      --rpm and --rotation stand for S and M3, where the program has none
   kinetostat engagement part.ngc --material C45 --tool-table tools.toml \
-      --width-mm 2 --depth-mm 3 --part right --rpm 4000 --rotation clockwise
-      the same cut on all feed moves, with the tools that the program calls
+      --tool-number 3 --width-mm 2 --depth-mm 3 --part right --rpm 4000 \
+      --rotation clockwise
+      the same cut on all feed moves; without --tool-number, T calls the tools
   kinetostat engagement milling.toml --plot cut.svg --csv cut.csv
-  kinetostat engagement other.ngc --job milling.toml --json
+  kinetostat engagement part.ngc --job milling.toml --json
 
 A job file:
   schema = 1

@@ -9,6 +9,8 @@ pub(crate) mod arguments;
 mod csv;
 mod cut;
 mod map;
+mod missing;
+mod own_cut;
 mod plot;
 mod subject;
 mod text;

@@ -169,6 +169,7 @@ fn mean_answer(mean: &CutForce, cut: &Cut, spread: f64) -> MeanAnswer {
             radial_n: -force.y,
             tangential_n: force.x,
             axial_n: force.z,
+            moment_n_m: (1e-3 * mean.moment_n_mm).into(),
         },
     }
 }

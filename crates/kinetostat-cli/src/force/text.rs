@@ -215,6 +215,14 @@ fn meaning(a: &ForceAnswer) -> String {
         figure(load.tangential_n, size),
         figure(load.axial_n, size)
     ));
+    out.push_str("    or, with the moment on the tool about its tip:\n");
+    let [force, moment] = [a.mean.force_n, load.moment_n_m].map(|v| {
+        let size = largest_size(v);
+        v.map(|x| figure(x, size)).join(", ")
+    });
+    out.push_str(&format!(
+        "    force_n = [{force}]\n    moment_n_m = [{moment}]\n    axes = \"feed\"\n"
+    ));
     for wall in &a.walls {
         out.push_str(&item(&wall_text(wall, a)));
     }

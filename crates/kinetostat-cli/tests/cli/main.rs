@@ -24,6 +24,7 @@ mod draw;
 mod engagement;
 mod figures;
 mod force;
+mod force_fit;
 mod identical;
 mod implausible;
 mod import;

@@ -1,5 +1,6 @@
 //! The answer of `force --fit`, stable names with units.
 
+use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::force::answer::ToolAnswer;
@@ -31,7 +32,7 @@ pub(crate) struct FitAnswer {
     /// Why there is none.
     pub(crate) no_material: Option<String>,
     pub(crate) assumed: Vec<String>,
-    pub(crate) warnings: Vec<FitWarning>,
+    pub(crate) warnings: Vec<Warning>,
     /// Lines of the drawing.
     #[serde(skip)]
     pub(crate) lines: Vec<AtFeed>,
@@ -95,36 +96,4 @@ pub(crate) struct AtFeed {
     pub(crate) feed_mm_per_tooth: f64,
     pub(crate) fitted_n: [f64; 3],
     pub(crate) half_width_95_n: [Option<f64>; 3],
-}
-
-/// What somebody should know who takes these coefficients.
-#[derive(Serialize)]
-pub(crate) struct FitWarning {
-    pub(crate) code: FitWarningCode,
-    pub(crate) message: String,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum FitWarningCode {
-    /// A coefficient that no or hardly any material has.
-    ImplausibleCoefficient,
-    /// An interval as wide as the coefficient itself.
-    WideInterval,
-    /// Too few feeds to judge by.
-    FewFeeds,
-    /// Feeds that lie close together, or one far outside.
-    FeedsUnevenlySpread,
-    /// Feeds that look as if they were in another unit.
-    OddFeed,
-    /// A row far beside the line.
-    Outlier,
-    /// The force does not follow a straight line over the feed.
-    PoorFit,
-}
-
-impl std::fmt::Display for FitWarning {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.message)
-    }
 }

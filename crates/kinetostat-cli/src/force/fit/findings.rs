@@ -1,10 +1,9 @@
 //! What somebody should know who takes fitted coefficients for a cut.
 
 use kinetostat::number::{larger, smaller};
+use kinetostat_machining::{Warning, WarningCode as Code};
 
-use crate::force::fit::answer::{
-    CoefficientAnswer, FitAnswer, FitRow, FitWarning, FitWarningCode as Code,
-};
+use crate::force::fit::answer::{CoefficientAnswer, FitAnswer, FitRow};
 use crate::ui::numbers::{given, number};
 
 /// Feeds by which a straight line can be judged, and those that show how straight it is.
@@ -22,22 +21,22 @@ const SCATTER: f64 = 0.1;
 /// Tangential coefficients from soft plastic to nickel alloys, N/mm2.
 const TANGENTIAL: [f64; 2] = [20.0, 15_000.0];
 
-pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<FitWarning> {
+pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     let mut list = Vec::new();
-    let mut say = |code, message: String| list.push(FitWarning { code, message });
+    let mut say = |code, message: String| list.push(Warning::new(code, message));
     for message in of_coefficients(&a.coefficients) {
         say(Code::ImplausibleCoefficient, message);
     }
     for c in &a.coefficients {
         if let Some(message) = wide(c) {
-            say(Code::WideInterval, message);
+            say(Code::UncertainCoefficient, message);
         }
     }
     for (code, message) in of_feeds(&a.rows, diameter_mm) {
         say(code, message);
     }
     for message in outliers(&a.rows) {
-        say(Code::Outlier, message);
+        say(Code::OutliersInMeans, message);
     }
     if let Some(message) = poor(&a.rows) {
         say(Code::PoorFit, message);
@@ -94,12 +93,12 @@ fn of_feeds(rows: &[FitRow], diameter_mm: f64) -> Vec<(Code, String)> {
     let count = feeds.len();
     if count < FEEDS.0 {
         list.push((
-            Code::FewFeeds,
+            Code::FeedsOfFit,
             format!("{count} feeds: any two points lie on a line, and nobody sees whether the force grows straight with the feed; measure five"),
         ));
     } else if count < FEEDS.1 {
         list.push((
-            Code::FewFeeds,
+            Code::FeedsOfFit,
             format!("{count} feeds show little of how straight the force grows; measure five"),
         ));
     }
@@ -109,7 +108,7 @@ fn of_feeds(rows: &[FitRow], diameter_mm: f64) -> Vec<(Code, String)> {
     let first = feeds[0];
     if last < RANGE * first {
         list.push((
-            Code::FeedsUnevenlySpread,
+            Code::FeedsOfFit,
             format!(
                 "the feeds go from {} to {} mm only: the edge coefficients are where the lines meet no feed, far outside",
                 given(first),
@@ -119,7 +118,7 @@ fn of_feeds(rows: &[FitRow], diameter_mm: f64) -> Vec<(Code, String)> {
     }
     if count > 2 && last > FAR * before {
         list.push((
-            Code::FeedsUnevenlySpread,
+            Code::FeedsOfFit,
             format!(
                 "the feed of {} mm is {} times the next one: it decides the slope alone",
                 given(last),
@@ -129,7 +128,7 @@ fn of_feeds(rows: &[FitRow], diameter_mm: f64) -> Vec<(Code, String)> {
     }
     if last > LARGE * diameter_mm {
         list.push((
-            Code::OddFeed,
+            Code::FeedsOfFit,
             format!(
                 "a feed of {} mm per tooth is large for a tool of {} mm: is it the feed per turn?",
                 given(last),

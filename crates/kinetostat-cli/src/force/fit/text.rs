@@ -64,7 +64,7 @@ fn what_was_cut(a: &FitAnswer) -> Vec<(&'static str, String)> {
 }
 
 fn coefficients(a: &FitAnswer) -> String {
-    let head = ["", "", "from", "to", "unit"];
+    let head = ["", "value", "from", "to", "unit"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for c in &a.coefficients {
         let known = |end: Option<f64>| end.map_or_else(|| "-".to_owned(), |n| number(n, 4));
