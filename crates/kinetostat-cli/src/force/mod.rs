@@ -13,6 +13,7 @@ mod drilling;
 mod findings;
 mod fit;
 pub(crate) mod fit_arguments;
+mod help;
 mod list;
 pub(crate) mod material;
 mod plot;

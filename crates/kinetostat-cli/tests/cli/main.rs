@@ -22,6 +22,7 @@ mod cut_refused;
 mod demo;
 mod draw;
 mod engagement;
+mod engagement_of_program;
 mod figures;
 mod force;
 mod force_fit;
