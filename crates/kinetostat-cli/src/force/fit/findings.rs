@@ -24,7 +24,7 @@ const TANGENTIAL: [f64; 2] = [20.0, 15_000.0];
 pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
     let mut list = Vec::new();
     let mut say = |code, message: String| list.push(Warning::new(code, message));
-    for message in of_coefficients(&a.coefficients) {
+    for message in of_coefficients(&a.coefficients, a.acts_on) {
         say(Code::ImplausibleCoefficient, message);
     }
     for c in &a.coefficients {
@@ -45,16 +45,25 @@ pub(super) fn findings(a: &FitAnswer, diameter_mm: f64) -> Vec<Warning> {
 }
 
 /// Coefficients that hardly any material has.
-fn of_coefficients(all: &[CoefficientAnswer]) -> Vec<String> {
+fn of_coefficients(all: &[CoefficientAnswer], acts_on: &str) -> Vec<String> {
     let mut list = Vec::new();
+    let other = match acts_on {
+        "part" => "tool",
+        _ => "part",
+    };
+    if let Some(c) = all.iter().find(|c| c.symbol == "K_tc" && c.value < 0.0) {
+        // The others follow from the same mistake.
+        return vec![format!(
+            "K_tc = {} {}: the chip would pull the tooth along. If the forces of the file are those on the {other}, give --acts-on {other}; else look at its axes and signs, and on which side the part was",
+            number(c.value, 3),
+            c.unit
+        )];
+    }
     for c in all {
         let value = format!("{} = {} {}", c.symbol, number(c.value, 3), c.unit);
         // The interval tells a sign from what scatter may make.
         let below_zero = c.high_95.unwrap_or(c.value) < 0.0;
         match c.symbol {
-            "K_tc" if c.value < 0.0 => list.push(format!(
-                "{value}: the chip would pull the tooth along. If the forces are those on the part, give --acts-on part; else look at axes and signs of the file, and on which side the part was"
-            )),
             "K_tc" if !(TANGENTIAL[0]..=TANGENTIAL[1]).contains(&c.value) => list.push(format!(
                 "{value}: plastics have some tens, nickel alloys some thousands; look at the units of feed and force, and at depth and teeth"
             )),

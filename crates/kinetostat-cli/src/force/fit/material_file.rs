@@ -11,6 +11,16 @@ use crate::ui::numbers::{given, number};
 /// Widest band that a material may have, percent.
 const WIDEST: f64 = 200.0;
 
+/// The coefficients as the law calls them, in their order.
+const QUANTITIES: [&str; 6] = [
+    "tangential cutting coefficient",
+    "radial cutting coefficient",
+    "axial cutting coefficient",
+    "tangential edge coefficient",
+    "radial edge coefficient",
+    "axial edge coefficient",
+];
+
 /// The file, or why there is none.
 pub(super) fn material_file(
     a: &FitAnswer,
@@ -18,9 +28,14 @@ pub(super) fn material_file(
     args: &ForceArgs,
 ) -> Result<String, String> {
     of.fit.law().map_err(|error| {
+        let place = QUANTITIES.iter().position(|name| *name == error.quantity);
+        let found = place.and_then(|i| a.coefficients.get(i));
+        let found = found.map_or(error.found, |c| {
+            format!("{} = {} {}", c.symbol, number(c.value, 3), c.unit)
+        });
         format!(
-            "no material has these coefficients: {} of {}; expected {}",
-            error.quantity, error.found, error.expected
+            "no material has these coefficients: {found}; expected {}",
+            error.expected
         )
     })?;
     let spread = match a.spread_percent {

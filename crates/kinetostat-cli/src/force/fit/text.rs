@@ -91,12 +91,8 @@ fn rows(a: &FitAnswer) -> String {
     for of in a.rows.iter().take(MOST_ROWS) {
         let mut row = vec![given(of.feed_mm_per_tooth)];
         for (force, residual) in of.force_n.iter().zip(of.residual_n) {
-            let sign = match residual < 0.0 {
-                true => "",
-                false => "+",
-            };
             row.push(fixed(*force, decimals));
-            row.push(format!("{sign}{}", fixed(residual, decimals)));
+            row.push(signed(residual, decimals));
         }
         rows.push(row);
     }
@@ -108,6 +104,15 @@ fn rows(a: &FitAnswer) -> String {
     out
 }
 
+/// With its sign, but for nothing.
+fn signed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    match text.chars().any(|sign| ('1'..='9').contains(&sign)) && value > 0.0 {
+        true => format!("+{text}"),
+        false => text,
+    }
+}
+
 /// Share explained and scatter of each component.
 fn fits(a: &FitAnswer) -> String {
     let mut rows = vec![
@@ -115,13 +120,20 @@ fn fits(a: &FitAnswer) -> String {
             .map(String::from)
             .to_vec(),
     ];
+    let sizes = a.rows.iter().map(|row| largest_size(row.force_n));
+    let size = largest_size(sizes);
+    // What is rounding is nothing.
+    let of_size = |residual: f64| match residual < 1e-9 * size {
+        true => "0".to_owned(),
+        false => number(residual, 3),
+    };
     for c in &a.components {
         let share = c.r_squared.map_or_else(|| "-".to_owned(), |r| fixed(r, 5));
         rows.push(vec![
             format!("along {}", c.axis),
             share,
-            number(c.residual_rms_n, 3),
-            number(c.largest_residual_n, 3),
+            of_size(c.residual_rms_n),
+            of_size(c.largest_residual_n),
             given(c.largest_residual_at_feed_mm_per_tooth),
         ]);
     }
