@@ -46,7 +46,7 @@ use crate::stiffness::arguments::StiffnessArgs;
         "  kinetostat force --list-materials\n",
         "      what can be cut: then the force of one cut, from tool, width, depth, feed\n",
         "  kinetostat engagement milling.toml --plot cut.svg\n",
-        "      what does the program cut where, with which force and torque?\n",
+        "      what does a program cut where, with which force and torque?\n",
         "  kinetostat check my_robot.toml\n",
         "      what does the model file say, in words?\n\n",
         "Exit codes:\n",

@@ -229,7 +229,7 @@ fn a_cut_with_the_fitted_material_gives_the_means_again() {
 fn signs_and_senses() {
     let here = tempfile::tempdir().unwrap();
     let text = SLOT.file(&mut Noise(5), 1.0);
-    let turned = |signs: [f64; 3]| -> String {
+    let turned_of = |text: &str, signs: [f64; 3]| -> String {
         let mut lines = text.lines();
         let head: Vec<&str> = lines.by_ref().take(2).collect();
         let row = |line: &str| {
@@ -242,6 +242,7 @@ fn signs_and_senses() {
         let rows: String = lines.map(row).collect();
         format!("{}\n{rows}", head.join("\n"))
     };
+    let turned = |signs: [f64; 3]| turned_of(&text, signs);
     let plain = values(&fit(here.path(), &text, SLOT.options));
     let part = format!("{} --acts-on part", SLOT.options);
     let on_part = fit(here.path(), &turned([-1.0; 3]), &part);
@@ -249,6 +250,14 @@ fn signs_and_senses() {
     let other = format!("{} --counter-clockwise", SLOT.options);
     let mirrored = fit(here.path(), &turned([1.0, -1.0, 1.0]), &other);
     assert_eq!(values(&mirrored), plain);
+    for cut in [CLIMB, CONVENTIONAL] {
+        let text = cut.file(&mut Noise(6), 1.0);
+        let plain = values(&fit(here.path(), &text, cut.options));
+        let options = cut.options.replace("--part left", "--part right");
+        let options = format!("{options} --counter-clockwise");
+        let other = fit(here.path(), &turned_of(&text, [1.0, -1.0, 1.0]), &options);
+        assert_eq!(values(&other), plain);
+    }
     // The wrong sign is seen.
     let wrong = fit(here.path(), &turned([-1.0; 3]), SLOT.options);
     assert!(wrong["material_toml"].is_null());

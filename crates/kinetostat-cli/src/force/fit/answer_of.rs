@@ -25,10 +25,10 @@ const PLACES: usize = 60;
 const BEYOND: f64 = 1.05;
 
 /// A fit with the cut in which its forces were measured.
-pub(super) struct Fitted {
-    pub(super) fit: CoefficientFit,
-    pub(super) series: Series,
-    pub(super) straight: Straight,
+struct Fitted {
+    fit: CoefficientFit,
+    series: Series,
+    straight: Straight,
     /// The spindle turns counter-clockwise: the fit is that of the mirror image.
     mirrored: bool,
 }
@@ -96,7 +96,7 @@ pub(super) fn answer_of(
         warnings: Vec::new(),
     };
     answer.warnings = findings(&answer, tool.tool.diameter_mm());
-    match material_file(&answer, &fitted, args) {
+    match material_file(&answer, &fitted.fit, args) {
         Ok(text) => answer.material_toml = Some(text),
         Err(reason) => answer.no_material = Some(reason),
     }

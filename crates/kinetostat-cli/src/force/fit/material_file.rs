@@ -1,10 +1,10 @@
 //! Fitted coefficients as a file of materials, which `--materials` and jobs read.
 
-use kinetostat_cutting::Materials;
+use kinetostat::number::{larger, smaller};
+use kinetostat_cutting::{CoefficientFit, Materials};
 
 use crate::force::arguments::ForceArgs;
 use crate::force::fit::answer::{CoefficientAnswer, FitAnswer};
-use crate::force::fit::answer_of::Fitted;
 use crate::force::fit_arguments::GroupWord;
 use crate::ui::numbers::{given, number};
 
@@ -24,10 +24,10 @@ const QUANTITIES: [&str; 6] = [
 /// The file, or why there is none.
 pub(super) fn material_file(
     a: &FitAnswer,
-    of: &Fitted,
+    fit: &CoefficientFit,
     args: &ForceArgs,
 ) -> Result<String, String> {
-    of.fit.law().map_err(|error| {
+    fit.law().map_err(|error| {
         let place = QUANTITIES.iter().position(|name| *name == error.quantity);
         let found = place.and_then(|i| a.coefficients.get(i));
         let found = found.map_or(error.found, |c| {
@@ -75,8 +75,8 @@ fn written(a: &FitAnswer, args: &ForceArgs, spread: f64) -> String {
             "slot" => "a slot".to_owned(),
             way => format!("{way} milling"),
         },
-        given(end(a, f64::min)),
-        given(end(a, f64::max)),
+        given(end(a, smaller)),
+        given(end(a, larger)),
     );
     let assumption = match a.spread_from {
         Some("given") => "The spread was stated by hand.",
