@@ -211,7 +211,7 @@ fn faults_of_a_file_name_its_line_and_what_was_meant() {
             5,
             "the text \"forty\"; expected a number",
         ),
-        ("= 40", "40", 5, "keys and values"),
+        ("= 40", "40", 5, "key with no value; expected `=`"),
         (
             "group",
             "chip_mm = [0.3, 0.1]\ngroup",
