@@ -1,5 +1,8 @@
 //! Fitted coefficients as a file of materials, which `--materials` and jobs read.
 
+use std::ffi::OsStr;
+use std::path::Path;
+
 use kinetostat::number::{larger, smaller};
 use kinetostat_cutting::{CoefficientFit, Materials};
 
@@ -63,10 +66,13 @@ pub(super) fn material_file(
 
 fn written(a: &FitAnswer, args: &ForceArgs, spread: f64) -> String {
     let c = &a.cut;
+    // Its directory is left out: a material may be passed on.
+    let file = Path::new(&a.file).file_name();
+    let file = file.map_or_else(|| a.file.clone().into(), OsStr::to_string_lossy);
     let source = format!(
         "kinetostat force --fit: {} mean forces in {}; flat cutter of {} mm, {} teeth, {} mm wide, {} mm deep, {}, {} to {} mm per tooth",
         a.rows.len(),
-        a.file,
+        file,
         given(a.tool.diameter_mm),
         a.tool.teeth,
         given(c.width_mm),
