@@ -25,6 +25,18 @@ fn codes(minutes: &str, seed: &str) -> Result<()> {
     )
 }
 
+/// Programs with macros, for a twelfth of the time. One case is repeated with
+/// `cargo run --package kinetostat-program --example fuzz_expand -- case SEED`.
+fn macros(minutes: &str, seed: &str) -> Result<()> {
+    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
+    example(
+        "fuzz of programs with macros",
+        "kinetostat-program",
+        "fuzz_expand",
+        &[&minutes, seed],
+    )
+}
+
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
 pub fn run(options: &[&str]) -> Result<()> {
     let (mut minutes, mut seed, mut case) = ("10", "1", None);
@@ -47,6 +59,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         return chains(&["case", case]);
     }
     codes(minutes, seed)?;
+    macros(minutes, seed)?;
     // Programs are many more cases in a minute: a sixth of the time does.
     let time: f64 = minutes.parse()?;
     maps(&[&(time / 6.0).to_string(), seed])?;

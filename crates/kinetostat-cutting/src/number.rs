@@ -6,6 +6,12 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
+/// The smaller of two numbers, NaN where one of them is.
+#[inline]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
+
 /// Nodes and weights of Gauss and Legendre on 0 to 1, twelve of them: `(node, weight)`.
 const GAUSS: [(f64, f64); 12] = [
     (0.009_219_682_876_640_375, 0.023_587_668_193_255_914),

@@ -4,37 +4,24 @@
 //! as is a mark of byte order before the first. What is wrong is named with file and line.
 
 use crate::error::{CutError, CutErrorKind, Result};
+use crate::names::{bare, nearest};
 
-/// What stands between two cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Separator {
-    Comma,
-    /// Semicolons where the header has one, else commas.
-    CommaOrSemicolon,
-}
+/// How cells are written, for messages.
+const SEPARATED: &str = "with commas or semicolons between them";
 
-impl Separator {
-    fn words(self) -> &'static str {
-        match self {
-            Self::Comma => "with commas between them",
-            Self::CommaOrSemicolon => "with commas or semicolons between them",
-        }
-    }
-
-    fn byte(self, text: &str) -> u8 {
-        let mut lines = text.lines();
-        let header = lines.find(|line| !line.trim().is_empty() && !line.starts_with('#'));
-        match self == Self::CommaOrSemicolon && header.is_some_and(|line| line.contains(';')) {
-            true => b';',
-            false => b',',
-        }
+/// What stands between two cells: semicolons where the header has one, else commas.
+fn separator(text: &str) -> u8 {
+    let mut lines = text.lines();
+    let header = lines.find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    match header.is_some_and(|line| line.contains(';')) {
+        true => b';',
+        false => b',',
     }
 }
 
 /// The columns that a file may have.
 pub(crate) struct NumberColumns<'a> {
     pub known: &'a [&'a str],
-    pub separator: Separator,
 }
 
 impl NumberColumns<'_> {
@@ -51,10 +38,10 @@ impl NumberColumns<'_> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let at = |line: usize| move |error: CutError| error.at(name_of_file, Some(line));
         let mut reader = csv::ReaderBuilder::new()
-            .delimiter(self.separator.byte(text))
+            .delimiter(separator(text))
             .comment(Some(b'#'))
             .from_reader(text.as_bytes());
-        let headers = reader.headers().map_err(|e| at(1)(self.broken(&e)))?;
+        let headers = reader.headers().map_err(|e| at(1)(broken(&e)))?;
         let mut last = line_of(text, headers.position());
         let places = self.places(headers, accept).map_err(at(last))?;
         let mut record = csv::StringRecord::new();
@@ -63,7 +50,7 @@ impl NumberColumns<'_> {
             match reader.read_record(&mut record) {
                 Ok(true) => {}
                 Ok(false) => return Ok(last),
-                Err(e) => return Err(at(line_of(text, e.position()))(self.broken(&e))),
+                Err(e) => return Err(at(line_of(text, e.position()))(broken(&e))),
             }
             last = line_of(text, record.position());
             for ((number, place), name) in row.iter_mut().zip(&places).zip(self.known) {
@@ -82,21 +69,18 @@ impl NumberColumns<'_> {
         headers: &csv::StringRecord,
         accept: impl FnOnce(&[bool]) -> std::result::Result<(), String>,
     ) -> Result<Vec<Option<usize>>> {
-        let refuse = |found: String| {
-            let expected = format!(
-                "the columns {}, {}",
-                self.known.join(","),
-                self.separator.words()
-            );
+        let refuse = |found: String, near: Option<&str>| {
+            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let expected = format!("the columns {}, {SEPARATED}{near}", self.known.join(","));
             Err(CutError::new(CutErrorKind::File, "header", found, expected))
         };
         let names: Vec<&str> = headers.iter().map(str::trim).collect();
         for (index, name) in names.iter().enumerate() {
             if !self.known.contains(name) {
-                return refuse(format!("column `{}`", shown(name)));
+                return refuse(format!("column `{}`", shown(name)), self.near(name));
             }
             if names[..index].contains(name) {
-                return refuse(format!("column `{name}` twice"));
+                return refuse(format!("column `{name}` twice"), None);
             }
         }
         let place = |known: &&str| names.iter().position(|name| name == known);
@@ -104,23 +88,32 @@ impl NumberColumns<'_> {
         let there: Vec<bool> = places.iter().map(Option::is_some).collect();
         match accept(&there) {
             Ok(()) => Ok(places),
-            Err(found) => refuse(found),
+            Err(found) => refuse(found, None),
         }
     }
 
-    fn broken(&self, error: &csv::Error) -> CutError {
-        let found = match error.kind() {
-            csv::ErrorKind::UnequalLengths {
-                expected_len, len, ..
-            } => format!("{len} cells under {expected_len} columns"),
-            _ => error.to_string(),
-        };
-        let expected = format!(
-            "as many cells as the header has, {}",
-            self.separator.words()
-        );
-        CutError::new(CutErrorKind::File, "row", found, expected)
+    /// The column that was most likely meant: a name without its unit, or a typing mistake.
+    fn near(&self, name: &str) -> Option<&str> {
+        let given = bare(name);
+        let mut known = self.known.iter().copied();
+        let longer = known.find(|k| !given.is_empty() && bare(k).starts_with(&given));
+        longer.or_else(|| {
+            nearest(name, self.known.iter().copied(), 1)
+                .first()
+                .copied()
+        })
     }
+}
+
+fn broken(error: &csv::Error) -> CutError {
+    let found = match error.kind() {
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!("{len} cells under {expected_len} columns"),
+        _ => error.to_string(),
+    };
+    let expected = format!("as many cells as the header has, {SEPARATED}");
+    CutError::new(CutErrorKind::File, "row", found, expected)
 }
 
 fn cell(name: &str, cell: &str) -> Result<f64> {

@@ -34,8 +34,51 @@ impl Source<'_> {
     }
 }
 
-/// Where the TOML reader stopped, and its message in one line.
+/// Where the TOML reader stopped, and its message in one line, without names of types of the programming language.
 pub(crate) fn described(error: &toml::de::Error) -> (usize, String) {
     let byte = error.span().map_or(0, |span| span.start);
-    (byte, error.message().lines().collect::<Vec<_>>().join(", "))
+    let message = error.message().lines().collect::<Vec<_>>().join(", ");
+    (byte, in_words(&message))
+}
+
+/// What a message of [`described`] says was found, and what should stand there; `None` where it says neither.
+pub(crate) fn found_and_expected(message: &str) -> Option<(String, String)> {
+    let (found, expected) = message.split_once(", expected ")?;
+    Some((found.to_owned(), expected.to_owned()))
+}
+
+/// Whole numbers and others, as the reader calls them.
+const WHOLE: [&str; 10] = [
+    "usize", "u128", "u64", "u32", "u16", "u8", "i64", "i32", "i16", "i8",
+];
+const REAL: [&str; 4] = ["finite f32", "finite f64", "f32", "f64"];
+
+fn in_words(message: &str) -> String {
+    let mut words = message
+        .replace("invalid type: ", "")
+        .replace("invalid value: ", "")
+        .replace("floating point `", "the number `")
+        .replace("integer `", "the number `")
+        .replace("boolean `", "the word `")
+        .replace("string \"", "the text \"")
+        .replace("sequence, expected", "a list, expected")
+        .replace("map, expected", "a table, expected")
+        .replace("expected a sequence", "expected a list")
+        .replace("expected a map", "expected a table")
+        .replace("expected a string", "expected a text in quotes")
+        .replace("expected a boolean", "expected true or false")
+        .replace("expected an array of length ", "expected a list of ")
+        .replace("wanted string or table", "expected a table");
+    if let Some(rest) = words.strip_prefix("invalid length ") {
+        words = format!("a list of {rest}");
+    }
+    if let Some((before, _)) = words.split_once("expected struct ") {
+        words = format!("{before}expected a table");
+    }
+    for (names, word) in [(&WHOLE[..], "a whole number"), (&REAL[..], "a number")] {
+        for name in names {
+            words = words.replace(&format!("expected {name}"), &format!("expected {word}"));
+        }
+    }
+    words
 }

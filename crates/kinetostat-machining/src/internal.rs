@@ -2,7 +2,7 @@
 //! without a word.
 
 use crate::limits::{Limit, apart};
-use crate::profile::limited::{Begins, Place, limited};
+use crate::profile::limited::{Begins, Place, SinceRapid, limited};
 
 /// A figure beyond a limit as it is stated beside what is allowed.
 #[must_use]
@@ -30,7 +30,10 @@ pub fn limited_values(
         })
         .collect();
     let begins = match begins_with_nothing {
-        true => Begins::WithNothing,
+        true => Begins::WithNothing(SinceRapid {
+            before_mm: 0.0,
+            in_all_mm: places.last().map_or(0.0, |last| last.at_mm),
+        }),
         false => Begins::Anyhow,
     };
     let found = limited(&places, &[rate], begins)?.into_iter();

@@ -56,6 +56,8 @@ pub enum WarningCode {
     Plunge,
     /// The force changes faster in a cut than the correction may.
     ForceChangesFast,
+    /// The correction changes faster along the path than is stated for the load.
+    CorrectionChangesFast,
     /// A load that acts nowhere along the program.
     LoadNeverActs,
     /// The question says nothing of a tool.
@@ -110,6 +112,16 @@ pub enum WarningCode {
     ForceInRapid,
     /// A move of which nobody knows how long it takes.
     TimeUnknown,
+    /// A fitted coefficient that hardly any material has.
+    ImplausibleCoefficient,
+    /// A fitted coefficient that is hardly known.
+    UncertainCoefficient,
+    /// Too few feeds for a fit, feeds close together, far apart or in another unit.
+    FeedsOfFit,
+    /// A mean force far beside the line through the others.
+    OutliersInMeans,
+    /// Mean forces that do not follow a straight line over the feed.
+    PoorFit,
 }
 
 /// Something a person should know and did not ask for.

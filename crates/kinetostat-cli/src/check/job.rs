@@ -151,7 +151,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
             feed_moves: feed(MoveKind::Feed).count(),
             rapid_moves: feed(MoveKind::Rapid).count(),
             feed_length_mm: feed(MoveKind::Feed)
-                .filter(|m| m.known == Knowledge::Whole)
+                .filter(|m| m.is_known_feed())
                 .map(kinetostat_program::Move::length_mm)
                 .sum(),
             smallest_mm: corners.map(|(low, _)| low.into()),

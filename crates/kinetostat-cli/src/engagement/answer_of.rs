@@ -13,7 +13,7 @@ use crate::job::setting::Setting;
 
 pub(crate) fn answer_of(
     setting: &Setting,
-    (material, cut): (&str, &CutSetup),
+    cut: &CutSetup,
     (path, forces): (&Path, &ForceAlongPath),
     left: Option<&Stock>,
 ) -> EngagementAnswer {
@@ -32,7 +32,7 @@ pub(crate) fn answer_of(
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         program: setting.program_name.clone(),
-        material: material.to_owned(),
+        material: cut.material.clone(),
         files,
         tools: cut.question.tools.iter().map(tool).collect(),
         feed_length_mm: cuts.map(kinetostat_program::Move::length_mm).sum(),

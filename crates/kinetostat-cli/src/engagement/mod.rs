@@ -1,48 +1,46 @@
-//! `kinetostat engagement`: what the program of a job cuts, where, and with which force, torque and power.
+//! `kinetostat engagement`: what a program cuts, where, and with which force, torque and power.
 //!
-//! It takes the job's program, cutters, material, stock and spindle, and gives the removed volume, the force along the path,
-//! the worst lines and what was assumed, as text, JSON, table and picture. It knows no machine.
+//! It takes program, cutters, material, stock and spindle from options and from a job file, and gives the removed volume, the
+//! force along the path, the worst lines and what was assumed, as text, JSON, table and picture. It knows no machine.
 
 mod answer;
 mod answer_of;
 pub(crate) mod arguments;
 mod csv;
+mod cut;
 mod map;
+mod missing;
+mod own_cut;
 mod plot;
+mod subject;
 mod text;
-
-use kinetostat::Pose;
-use kinetostat_machining::Placement;
-use nalgebra::UnitQuaternion;
 
 use crate::engagement::answer_of::answer_of;
 use crate::engagement::arguments::EngagementArgs;
+use crate::engagement::cut::cut;
+use crate::engagement::subject::subject;
 use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::cut::along::stopped_or_within;
-use crate::job::cut::cut_setup;
 use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
 use crate::job::setting::setting;
-use crate::ui::failure::{Answer, Failure};
+use crate::ui::failure::Answer;
 use crate::ui::progress::Progress;
 
 pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let files = InputFiles::default();
-    let job = JobFile::read(&files, &args.job)?;
+    let subject = subject(args)?;
+    let job = subject.job.map(|path| JobFile::read(&files, path));
+    let job = job.transpose()?;
     let flags = ProgramArgs {
-        program: args.program.clone(),
+        program: subject.program,
+        reading: args.reading.clone(),
         ..ProgramArgs::default()
     };
-    let setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
-    let cut = cut_setup(&files, Some(&job), &flags, &as_programmed())?;
-    let Some(cut) = cut else {
-        return Err(Failure::input(format!(
-            "the job file '{}' names no material: without it nothing is known of a cut; write [material] name = \"AlMg4.5Mn\" with [stock] (or [engagement]) and the cutter of the tool",
-            job.path.display()
-        )));
-    };
+    let setting = setting(&files, job.as_ref(), &flags, &WritingFlags::default())?;
+    let cut = cut(&files, job.as_ref(), args, &flags)?;
     let (_, path) = read_program(&setting)?;
     let mut inputs = setting.inputs.clone();
     inputs.extend(cut.files.paths.iter().cloned());
@@ -52,9 +50,7 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let (forces, left) =
         walked.map_err(|failure| stopped_or_within(failure, &setting.program_name))?;
     progress.finish();
-    let material = job.job.material.as_ref();
-    let material = material.map_or("", |table| table.get_ref().name.get_ref());
-    let answer = answer_of(&setting, (material, &cut), (&path, &forces), left.as_ref());
+    let answer = answer_of(&setting, &cut, (&path, &forces), left.as_ref());
     let shown = Shown {
         text: text::answer_text(&answer),
         csv: match args.outputs.csv.is_some() {
@@ -68,14 +64,4 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
         failure: None,
     };
     claimed.finish(&shown, &answer)
-}
-
-/// The program in its own coordinates, the tool along z: a cut knows no machine.
-fn as_programmed() -> Placement {
-    Placement {
-        base_from_part: Pose::identity(),
-        tool_orientation: UnitQuaternion::identity(),
-        orientation_follows: false,
-        scale: 1.0,
-    }
 }

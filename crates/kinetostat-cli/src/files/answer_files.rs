@@ -64,6 +64,16 @@ impl ClaimedFiles {
         })
     }
 
+    /// Claims one more target, put in place together with the others.
+    pub(crate) fn claim_also(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
+        self.outputs.claim(what, target)
+    }
+
+    /// What is written there.
+    pub(crate) fn fill(&mut self, claimed: usize, bytes: &[u8]) -> Answer<()> {
+        self.outputs.fill(claimed, bytes)
+    }
+
     /// Writes what was requested and says the rest.
     pub(crate) fn finish<T: Serialize>(mut self, shown: &Shown, answer: &T) -> Answer<()> {
         if let Some(index) = self.json {

@@ -106,6 +106,9 @@ pub(crate) struct JobLoad {
     pub(crate) radial_n: f64,
     pub(crate) tangential_n: f64,
     pub(crate) axial_n: f64,
+    /// Moment on the tool about its tip in axes of the feed (x along it, z along the tool), which a job takes beside a force in
+    /// the same axes: `force_n`, `moment_n_m`, `axes = "feed"`.
+    pub(crate) moment_n_m: [f64; 3],
 }
 
 #[derive(Serialize)]

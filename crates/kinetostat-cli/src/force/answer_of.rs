@@ -64,16 +64,8 @@ pub(crate) fn answer_of(
         cut: CutAnswer {
             width_mm: cut.width_mm,
             depth_mm: cut.depth_mm,
-            part: match cut.part {
-                Part::Side(Side::Left) => "left",
-                Part::Side(Side::Right) => "right",
-                Part::Slot => "both",
-            },
-            milling: match cut.way {
-                Way::Climb => "climb",
-                Way::Conventional => "conventional",
-                Way::Slot => "slot",
-            },
+            part: part_word(cut.part),
+            milling: milling_word(cut.way),
             counter_clockwise: cut.rotation != Rotation::Clockwise,
             arc_from_deg: from.to_degrees(),
             arc_to_deg: to.to_degrees(),
@@ -100,6 +92,24 @@ pub(crate) fn answer_of(
     Ok(answer)
 }
 
+/// Where the part is, as the JSON says it.
+pub(crate) fn part_word(part: Part) -> &'static str {
+    match part {
+        Part::Side(Side::Left) => "left",
+        Part::Side(Side::Right) => "right",
+        Part::Slot => "both",
+    }
+}
+
+/// How the teeth go through the material, as the JSON says it.
+pub(crate) fn milling_word(way: Way) -> &'static str {
+    match way {
+        Way::Climb => "climb",
+        Way::Conventional => "conventional",
+        Way::Slot => "slot",
+    }
+}
+
 fn angles_per_tooth(tool: &Tool, cut: &Cut) -> usize {
     let teeth = tool.teeth() as f64;
     let windings = 1.0 + (tool.lag_per_mm() * cut.depth_mm).abs() / std::f64::consts::TAU;
@@ -124,7 +134,7 @@ pub(crate) fn material_answer(material: &Material, applied: &Applied) -> Materia
     }
 }
 
-fn tool_answer(of: &CutTool) -> ToolAnswer {
+pub(crate) fn tool_answer(of: &CutTool) -> ToolAnswer {
     let tool = &of.tool;
     let (corner_radius_mm, lead_angle_deg) = match tool.shape() {
         Shape::Flat | Shape::Ball => (None, None),
@@ -159,6 +169,7 @@ fn mean_answer(mean: &CutForce, cut: &Cut, spread: f64) -> MeanAnswer {
             radial_n: -force.y,
             tangential_n: force.x,
             axial_n: force.z,
+            moment_n_m: (1e-3 * mean.moment_n_mm).into(),
         },
     }
 }

@@ -5,13 +5,16 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::files::answer_files::AnswerFiles;
+use crate::force::fit_arguments::FitArgs;
+use crate::force::help::{CODES, FORCE_HELP};
 use crate::options::{number, whole};
 
 /// Force of one cut: from material, tool, width, depth and feed
 ///
 /// The force on a milling tool over the revolution: its mean, which bends the machine; its peak; and
 /// the force at the moment at which the wall is made, which prints into it. With torque, power,
-/// harmonics and how far to trust all of it. It needs no machine and no program.
+/// harmonics and how far to trust all of it. It needs no machine and no program. With --fit it goes
+/// the other way: from mean forces of a dynamometer to the coefficients of a material.
 #[derive(Debug, Args)]
 #[command(after_help = CODES, after_long_help = FORCE_HELP)]
 pub(crate) struct ForceArgs {
@@ -28,6 +31,8 @@ pub(crate) struct ForceArgs {
     pub(crate) spindle: SpindleArgs,
     #[command(flatten)]
     pub(crate) steady: SteadyArgs,
+    #[command(flatten)]
+    pub(crate) fit: FitArgs,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
 }
@@ -142,16 +147,33 @@ pub(crate) struct ToolArgs {
     #[arg(long, value_name = "L", help_heading = "Tool", allow_negative_numbers = true, value_parser = number, conflicts_with = "tool_table")]
     pub(crate) stick_out_mm: Option<f64>,
     /// Table of tools (TOML)
-    #[arg(
-        long,
-        value_name = "FILE",
-        help_heading = "Tool",
-        requires = "tool_number"
-    )]
+    #[arg(long, value_name = "FILE", help_heading = "Tool")]
     pub(crate) tool_table: Option<PathBuf>,
-    /// Number of the tool in the table
+    /// Number of the tool in the table; without it, a program calls its tools (T)
     #[arg(long, value_name = "T", help_heading = "Tool", allow_negative_numbers = true, value_parser = whole, requires = "tool_table")]
     pub(crate) tool_number: Option<usize>,
+}
+
+impl ToolArgs {
+    /// Whether any of them is given.
+    pub(crate) fn given(&self) -> bool {
+        let numbers = [
+            self.diameter_mm,
+            self.helix_deg,
+            self.corner_radius_mm,
+            self.lead_angle_deg,
+            self.run_out_um,
+            self.run_out_angle_deg,
+            self.max_chip_mm,
+            self.flute_length_mm,
+            self.stick_out_mm,
+        ];
+        let counts = [self.teeth, self.tool_number];
+        self.tool.is_some()
+            || self.tool_table.is_some()
+            || numbers.iter().any(Option::is_some)
+            || counts.iter().any(Option::is_some)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -254,46 +276,3 @@ pub(crate) struct SteadyArgs {
     #[arg(long, value_name = "V", help_heading = "Drilling and turning", allow_negative_numbers = true, value_parser = number, requires = "turning")]
     pub(crate) speed_m_per_min: Option<f64>,
 }
-
-const CODES: &str = "\
-Exit codes:
-  0    answered
-  1    wrong input: a file, a number or an option; the message says which";
-
-const FORCE_HELP: &str = "\
-Examples:
-  kinetostat force --material AlMg4.5Mn --tool flat --diameter-mm 12 --teeth 4 \\
-      --helix-deg 38 --width-mm 4 --depth-mm 8 --climb \\
-      --feed-per-tooth-mm 0.1 --rpm 8000 --plot cut.svg
-      the force of a climb cut over the revolution
-  kinetostat force --material C45 --tool face --diameter-mm 63 --teeth 5 \\
-      --lead-angle-deg 45 --width-mm 40 --depth-mm 2 --part left \\
-      --feed-mm-per-min 800 --rpm 1000 --wear 1.3 --spindle-power-w 7500 \\
-      --spindle-base-rpm 1500 --spindle-most-rpm 6000
-      a worn face mill: does the spindle bear it?
-  kinetostat force --material Ti-6Al-4V --tool-table tools.toml \\
-      --tool-number 3 --width-mm 1 --depth-mm 6 --climb \\
-      --feed-per-tooth-mm 0.05 --json
-  kinetostat force --drill --material C45 --diameter-mm 8 \\
-      --feed-per-turn-mm 0.2 --rpm 1200
-  kinetostat force --turning --material C45 --depth-mm 2 \\
-      --feed-per-turn-mm 0.3 --approach-angle-deg 75 --speed-m-per-min 150
-  kinetostat force --list-materials
-
-Axes of the force, which is that on the tool: x along the feed of the tool over
-the part, y to the left of the feed, z along the tool towards the spindle.
-Angles of the spindle count from +y (from -y with --counter-clockwise) to the
-place of tooth 0 at the tip, as the spindle turns.
-
-A table of tools (TOML) has per tool
-  [[tool]]
-  number = 3            # and name
-  shape = \"flat\"        # flat, ball, bull, face
-  diameter_mm = 12
-  teeth = 4             # and helix_deg, corner_radius_mm, lead_angle_deg,
-                        # run_out_um, run_out_angle_deg, rake_deg, max_chip_mm,
-                        # flute_length_mm, stick_out_mm, length_mm
-
-Exit codes:
-  0    answered
-  1    wrong input: a file, a number or an option; the message says which";

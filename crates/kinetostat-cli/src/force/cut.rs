@@ -60,7 +60,21 @@ impl Cut {
     }
 }
 
-pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answer<Cut> {
+/// A straight cut without its feed.
+#[derive(Clone, Debug)]
+pub(crate) struct Straight {
+    pub(crate) width_mm: f64,
+    pub(crate) depth_mm: f64,
+    pub(crate) part: Part,
+    pub(crate) way: Way,
+    pub(crate) rotation: Rotation,
+    pub(crate) engagement: Engagement,
+    /// Diameter at the widest place in the cut, mm.
+    widest_mm: f64,
+}
+
+/// Which part of the tool is in the material, by width, depth and side.
+pub(crate) fn straight(tool: &Tool, args: &CutArgs) -> Answer<Straight> {
     let given = |option: &str, value: Option<f64>, what: &str| -> Answer<f64> {
         let value = value
             .ok_or_else(|| Failure::input(format!("the cut needs {option}: {what}, in mm")))?;
@@ -75,10 +89,6 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
     let depth_mm = given("--depth-mm AP", args.depth_mm, "its depth along the tool")?;
     let deepest = smaller(1e4, DEEPEST * tool.diameter_mm());
     within("depth of cut", depth_mm, 1e-6..=deepest, "mm")?;
-    let rpm = args
-        .rpm
-        .map(|rpm| within("speed of the spindle", rpm, 1e-3..=1e6, "turns per minute"))
-        .transpose()?;
     let widest_mm = 2.0 * tool.radius_at_mm(depth_mm);
     // Inserts that lean outward are widest at full depth; a ball and a corner count as what they are above.
     let across_mm = match tool.shape() {
@@ -103,30 +113,54 @@ pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answ
         Part::Side(side) => (width_mm, side),
         Part::Slot => (across_mm, Side::Left),
     };
-    let mut engagement = Engagement::straight(0.5 * across_mm, width, depth_mm, seen_as)
+    let engagement = Engagement::straight(0.5 * across_mm, width, depth_mm, seen_as)
         .map_err(|error| refused(&error))?;
-    let feed = feed(tool, args, rpm)?;
-    if feed.down_mm != 0.0 && part != Part::Slot {
-        return Err(Failure::input(
-            "--down-feed-per-tooth-mm is for slots: at a side cut it depends on what the floor looks like. Make --width-mm the diameter",
-        ));
-    }
-    if feed.down_mm > 0.0 && tool.end_radius_mm() > 0.0 {
-        // The floor of a ramp falls ahead of the tool and behind it: the whole end cuts.
-        let end = Contact::end(0.0, tool.end_radius_mm(), 0.0, TAU);
-        engagement.contacts.push(end);
-    }
-    Ok(Cut {
+    Ok(Straight {
         width_mm: width,
         depth_mm,
         part,
         way,
         rotation,
         engagement,
+        widest_mm,
+    })
+}
+
+pub(crate) fn cut_of(tool: &Tool, args: &CutArgs, spindle: &SpindleArgs) -> Answer<Cut> {
+    let of = straight(tool, args)?;
+    let rpm = args
+        .rpm
+        .map(|rpm| within("speed of the spindle", rpm, 1e-3..=1e6, "turns per minute"))
+        .transpose()?;
+    let spindle = curve(spindle)?;
+    if spindle.is_some() && rpm.is_none() {
+        return Err(Failure::input(
+            "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
+        ));
+    }
+    let feed = feed(tool, args, rpm)?;
+    if feed.down_mm != 0.0 && of.part != Part::Slot {
+        return Err(Failure::input(
+            "--down-feed-per-tooth-mm is for slots: at a side cut it depends on what the floor looks like. Make --width-mm the diameter",
+        ));
+    }
+    let mut engagement = of.engagement;
+    if feed.down_mm > 0.0 && tool.end_radius_mm() > 0.0 {
+        // The floor of a ramp falls ahead of the tool and behind it: the whole end cuts.
+        let end = Contact::end(0.0, tool.end_radius_mm(), 0.0, TAU);
+        engagement.contacts.push(end);
+    }
+    Ok(Cut {
+        width_mm: of.width_mm,
+        depth_mm: of.depth_mm,
+        part: of.part,
+        way: of.way,
+        rotation: of.rotation,
+        engagement,
         feed,
         rpm,
-        widest_mm,
-        spindle: curve(spindle, rpm)?,
+        widest_mm: of.widest_mm,
+        spindle,
     })
 }
 
@@ -185,7 +219,8 @@ fn feed(tool: &Tool, args: &CutArgs, rpm: Option<f64>) -> Answer<Feed> {
     Feed::ramp(per_tooth, down).map_err(|error| refused(&error))
 }
 
-fn curve(args: &SpindleArgs, rpm: Option<f64>) -> Answer<Option<SpindleCurve>> {
+/// What the spindle gives; none where nothing is said of it.
+pub(crate) fn curve(args: &SpindleArgs) -> Answer<Option<SpindleCurve>> {
     let (Some(power), Some(base), Some(most)) = (
         args.spindle_power_w,
         args.spindle_base_rpm,
@@ -193,11 +228,6 @@ fn curve(args: &SpindleArgs, rpm: Option<f64>) -> Answer<Option<SpindleCurve>> {
     ) else {
         return Ok(None);
     };
-    if rpm.is_none() {
-        return Err(Failure::input(
-            "what the spindle gives depends on its speed: --spindle-power-w needs --rpm",
-        ));
-    }
     let curve = SpindleCurve::rated(power, base, most);
     curve.map(Some).map_err(|error| refused(&error))
 }

@@ -48,15 +48,15 @@ pub(crate) enum Made {
     Steadily,
 }
 
-/// Its law for this cut. `rake_deg`: of the table of tools; `speed_m_per_min`: where the speed is to be corrected for.
-pub(crate) fn applied(
-    material: &Material,
+/// The factors by which a cut differs from the test. `rake_deg`: of the table of tools; `speed_m_per_min`: where the speed is to
+/// be corrected for.
+pub(crate) fn correction(
     args: &MaterialArgs,
     made: Made,
     rake_deg: Option<f64>,
     speed_m_per_min: Option<f64>,
-) -> Answer<Applied> {
-    let correction = Correction {
+) -> Correction {
+    Correction {
         process: match made {
             Made::Milled => args.process_factor,
             Made::Steadily => args.process_factor.or(Some(1.0)),
@@ -75,7 +75,18 @@ pub(crate) fn applied(
             Some(CoolantWord::Oil) => Coolant::Oil,
         },
         ..Correction::default()
-    };
+    }
+}
+
+/// Its law for this cut.
+pub(crate) fn applied(
+    material: &Material,
+    args: &MaterialArgs,
+    made: Made,
+    rake_deg: Option<f64>,
+    speed_m_per_min: Option<f64>,
+) -> Answer<Applied> {
+    let correction = correction(args, made, rake_deg, speed_m_per_min);
     let applied = material.for_milling(&correction);
     let mut applied = applied.map_err(|error| refused(&error))?;
     if args.process_factor.is_none() && made == Made::Steadily {

@@ -8,15 +8,18 @@ mod answer_of;
 pub(crate) mod arguments;
 mod assumed;
 mod csv;
-mod cut;
+pub(crate) mod cut;
 mod drilling;
 mod findings;
+mod fit;
+pub(crate) mod fit_arguments;
+mod help;
 mod list;
-mod material;
+pub(crate) mod material;
 mod plot;
-mod refusal;
+pub(crate) mod refusal;
 mod text;
-mod tool;
+pub(crate) mod tool;
 mod trust;
 mod turning;
 
@@ -34,6 +37,9 @@ use crate::ui::failure::{Answer, Failure};
 
 pub(crate) fn run(args: &ForceArgs) -> Answer<()> {
     let files = InputFiles::default();
+    if let Some(means) = &args.fit.fit {
+        return fit::run(&files, args, means);
+    }
     let materials = materials(&files, args.material.materials.as_deref())?;
     let mut inputs: Vec<PathBuf> = args.material.materials.iter().cloned().collect();
     if args.list_materials {

@@ -5,7 +5,7 @@ use kinetostat_cutting::CutError;
 use crate::ui::failure::Failure;
 
 /// Quantities of the library and the options that give them.
-const OPTIONS: [(&str, &str); 29] = [
+const OPTIONS: [(&str, &str); 30] = [
     ("diameter", "--diameter-mm"),
     ("teeth", "--teeth"),
     ("corner radius", "--corner-radius-mm"),
@@ -35,6 +35,7 @@ const OPTIONS: [(&str, &str); 29] = [
     ("chisel factor", "--chisel-factor"),
     ("approach angle", "--approach-angle-deg"),
     ("feed per turn", "--feed-per-turn-mm"),
+    ("spread", "--spread-percent"),
 ];
 
 /// An error of the library as the command says it: with the option, or with file and line.

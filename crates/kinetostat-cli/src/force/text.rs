@@ -2,7 +2,7 @@
 
 use kinetostat::number::largest_size;
 
-use crate::force::answer::{CutAnswer, ForceAnswer, ToolAnswer, WallAnswer};
+use crate::force::answer::{ForceAnswer, ToolAnswer, WallAnswer};
 use crate::force::cut::{Cut, Way};
 use crate::force::tool::CutTool;
 use crate::force::trust::trust;
@@ -11,17 +11,21 @@ use crate::ui::numbers::{given, number, triple};
 
 /// What is asked, in one sentence.
 pub(crate) fn question(material: &str, tool: &CutTool, cut: &Cut) -> String {
-    let way = match cut.way {
-        Way::Climb => "climb milling",
-        Way::Conventional => "conventional milling",
-        Way::Slot => "a slot",
-    };
+    let way = way_text(cut.way);
     let tool = match (tool.number, tool.name.as_str()) {
         (None, _) => String::new(),
         (Some(number), "") => format!(" with tool {number}"),
         (Some(number), name) => format!(" with tool {number} ({name})"),
     };
     format!("Force of one cut: {way} in {material}{tool}")
+}
+
+pub(crate) fn way_text(way: Way) -> &'static str {
+    match way {
+        Way::Climb => "climb milling",
+        Way::Conventional => "conventional milling",
+        Way::Slot => "a slot",
+    }
 }
 
 /// The word of the JSON as a person says it.
@@ -66,7 +70,14 @@ fn what_is_cut(a: &ForceAnswer) -> Vec<(&'static str, String)> {
     let c = &a.cut;
     let mut rows = vec![
         ("tool", tool_text(&a.tool)),
-        ("cut", cut_text(c, a.tool.diameter_mm)),
+        (
+            "cut",
+            cut_text(
+                (c.width_mm, c.depth_mm),
+                (c.part, c.counter_clockwise),
+                a.tool.diameter_mm,
+            ),
+        ),
     ];
     let mut feed = format!("{} mm per tooth", given(c.feed_per_tooth_mm));
     if c.down_feed_per_tooth_mm != 0.0 {
@@ -97,7 +108,7 @@ fn what_is_cut(a: &ForceAnswer) -> Vec<(&'static str, String)> {
     rows
 }
 
-fn tool_text(t: &ToolAnswer) -> String {
+pub(crate) fn tool_text(t: &ToolAnswer) -> String {
     let mut text = format!(
         "{}, {} mm, {} {}, helix {} deg",
         t.shape,
@@ -121,20 +132,24 @@ fn tool_text(t: &ToolAnswer) -> String {
     text
 }
 
-fn cut_text(c: &CutAnswer, diameter_mm: f64) -> String {
-    let part = match c.part {
+pub(crate) fn cut_text(
+    (width_mm, depth_mm): (f64, f64),
+    (part, counter_clockwise): (&str, bool),
+    diameter_mm: f64,
+) -> String {
+    let part = match part {
         "both" => String::new(),
         side => format!(", part on the {side}"),
     };
-    let turning = match c.counter_clockwise {
+    let turning = match counter_clockwise {
         true => ", spindle counter-clockwise (M4)",
         false => "",
     };
     format!(
         "{} mm wide, {} % of the diameter, {} mm deep{part}{turning}",
-        given(c.width_mm),
-        number(100.0 * c.width_mm / diameter_mm, 3),
-        given(c.depth_mm)
+        given(width_mm),
+        number(100.0 * width_mm / diameter_mm, 3),
+        given(depth_mm)
     )
 }
 
@@ -193,12 +208,20 @@ fn meaning(a: &ForceAnswer) -> String {
     let mut out = item(
         "The mean bends the machine: its drives and links are too heavy to follow single teeth. As load of a job:",
     );
-    // A line that can be copied.
+    // Lines that can be copied.
     out.push_str(&format!(
         "    milling = {{ radial_n = {}, tangential_n = {}, axial_n = {} }}\n",
         figure(load.radial_n, size),
         figure(load.tangential_n, size),
         figure(load.axial_n, size)
+    ));
+    out.push_str("    or, with the moment on the tool about its tip:\n");
+    let [force, moment] = [a.mean.force_n, load.moment_n_m].map(|v| {
+        let size = largest_size(v);
+        v.map(|x| figure(x, size)).join(", ")
+    });
+    out.push_str(&format!(
+        "    force_n = [{force}]\n    moment_n_m = [{moment}]\n    axes = \"feed\"\n"
     ));
     for wall in &a.walls {
         out.push_str(&item(&wall_text(wall, a)));

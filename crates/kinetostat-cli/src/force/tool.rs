@@ -31,15 +31,26 @@ pub(crate) fn tool_of(files: &InputFiles, args: &ToolArgs) -> Answer<CutTool> {
     }
 }
 
+pub(crate) fn tool_table(files: &InputFiles, path: &std::path::Path) -> Answer<ToolTable> {
+    let text = files.text("table of tools", path)?;
+    let table = ToolTable::read(&path.display().to_string(), &text);
+    table.map_err(|error| refused(&error))
+}
+
 fn from_table(
     files: &InputFiles,
     path: &std::path::Path,
     number: Option<usize>,
 ) -> Answer<CutTool> {
-    let text = files.text("table of tools", path)?;
-    let table = ToolTable::read(&path.display().to_string(), &text);
-    let table = table.map_err(|error| refused(&error))?;
+    let table = tool_table(files, path)?;
     let numbers = || -> Vec<String> { table.entries().map(|e| e.number.to_string()).collect() };
+    if number.is_none() {
+        return Err(Failure::input(format!(
+            "--tool-table needs --tool-number T: which of the tools of '{}' cuts? It has {}",
+            path.display(),
+            numbers().join(", ")
+        )));
+    }
     let number = number.and_then(|number| u32::try_from(number).ok());
     let entry = number.and_then(|number| table.entries().find(|e| e.number == number));
     let entry = entry.ok_or_else(|| {

@@ -66,24 +66,8 @@ pub(crate) struct ProgramArgs {
     /// The load acts only below this height of the program, mm
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) below_z_mm: Option<f64>,
-    /// Units of a program that does not say G20 or G21
-    #[arg(long, value_enum, value_name = "UNITS", help_heading = "Reading")]
-    pub(crate) units: Option<UnitsWord>,
-    /// Largest difference of an arc's radii at start and end, mm [default: 0.005]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
-    pub(crate) arc_tolerance: Option<f64>,
-    /// Origin of a work coordinate system in the part, mm: G54=x,y,z (repeat for more)
-    #[arg(long, value_name = "G54=X,Y,Z", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Reading")]
-    pub(crate) work_offset: Vec<String>,
-    /// Blocks marked with `/`: run them (the default), or skip them
-    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Reading")]
-    pub(crate) block_delete: Option<BlockDeleteWord>,
-    /// Rotary and second axes (A B C U V W) stand still: take a program with their words
-    #[arg(long, help_heading = "Reading")]
-    pub(crate) axes_stand_still: bool,
-    /// Where the tool stands before the first block, mm
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
-    pub(crate) start_position_mm: Option<Vec<f64>>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a
     /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]
@@ -108,6 +92,29 @@ pub(crate) struct ProgramArgs {
     /// Number of threads; all cores without it. The result is the same
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,
+}
+
+/// How the program is read.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct ReadingArgs {
+    /// Units of a program that does not say G20 or G21
+    #[arg(long, value_enum, value_name = "UNITS", help_heading = "Reading")]
+    pub(crate) units: Option<UnitsWord>,
+    /// Largest difference of an arc's radii at start and end, mm [default: 0.005]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
+    pub(crate) arc_tolerance: Option<f64>,
+    /// Origin of a work coordinate system in the part, mm: G54=x,y,z (repeat for more)
+    #[arg(long, value_name = "G54=X,Y,Z", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Reading")]
+    pub(crate) work_offset: Vec<String>,
+    /// Blocks marked with `/`: run them (the default), or skip them
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Reading")]
+    pub(crate) block_delete: Option<BlockDeleteWord>,
+    /// Rotary and second axes (A B C U V W) stand still: take a program with their words
+    #[arg(long, help_heading = "Reading")]
+    pub(crate) axes_stand_still: bool,
+    /// Where the tool stands before the first block, mm
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
+    pub(crate) start_position_mm: Option<Vec<f64>>,
 }
 
 /// Options that only the writing needs.

@@ -3,7 +3,7 @@
 use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units};
 use nalgebra::Vector3;
 
-use crate::job::arguments::ProgramArgs;
+use crate::job::arguments::ReadingArgs;
 use crate::job::format::BlockDeleteWord;
 use crate::job::job_file::JobFile;
 use crate::job::units_word::UnitsWord;
@@ -11,7 +11,7 @@ use crate::job::values::{arc_tolerance, chosen};
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
-pub(crate) fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
+pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<ReadOptions> {
     let table = job.map(|j| j.job.reading.clone()).unwrap_or_default();
     let mut reading = {
         let mut reading = ReadOptions::default();

@@ -43,7 +43,7 @@ pub(crate) fn setting(
     let mut inputs: Vec<PathBuf> = job.iter().map(|j| j.path.clone()).collect();
     let path = program_path(job, flags)?;
     inputs.push(path.clone());
-    let reading = reading(job, flags)?;
+    let reading = reading(job, &flags.reading)?;
     let limits = limits(job, &flags.limits)?;
     let (mut write, stated) = tolerances(job, flags, writing)?;
     let header = job.and_then(|j| j.job.output.header).unwrap_or(true);

@@ -165,6 +165,7 @@ fn lines(
                 PointKind::Feed => "feed",
                 PointKind::Rapid => "rapid",
                 PointKind::Corner => "corner",
+                PointKind::Entry => "entry",
             }
             .into(),
         );

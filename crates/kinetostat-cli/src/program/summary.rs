@@ -70,6 +70,10 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         text.push(' ');
         text.push_str(&corners);
     }
+    if let Some(ramp) = result.ramp_text() {
+        text.push(' ');
+        text.push_str(&ramp);
+    }
     if let Some(band) = result.force_band_text() {
         text.push(' ');
         text.push_str(&band);
@@ -103,6 +107,16 @@ fn figures(result: &RunResult) -> String {
         let allowed = against(s.max_position_error_after_mm, result.tolerance.allowed_mm).1;
         row("error allowed in all", "", &allowed);
         row("largest correction", "", &f.correction);
+        if let (Some(value), Some(change)) = (&f.change, &s.largest_change_mm_per_mm) {
+            row(
+                &format!("largest change of it, line {}", change.line),
+                "",
+                value,
+            );
+            if let Some(stated) = change.stated {
+                row("largest one stated", "", &format!("{stated} mm/mm"));
+            }
+        }
         row("tool tilt that stays", "", &f.rotation);
         // Pieces whose feed is limited are slower, and have a row of their own.
         let speed = match s.feed_limited_pieces {
@@ -126,6 +140,12 @@ fn figures(result: &RunResult) -> String {
         if let Some(longest) = &f.corner_step {
             row("corner steps", "", &of(s.corner_steps));
             row("longest of them", "", longest);
+        }
+        if let Some(longest) = &f.entry_step {
+            row("steps where a rapid ends", "", &of(s.entry_steps));
+            row("longest of these", "", longest);
+        }
+        if s.corner_steps + s.entry_steps > 0 {
             let backwards = largest_length(s.largest_backward_step_mm);
             row("longest way backwards", "", &backwards);
         }

@@ -84,6 +84,34 @@ fn a_climb_cut_has_the_reference_forces() {
     assert_eq!(a["schema"], 1);
 }
 
+/// The load that is printed for a job has force and moment in axes of the feed, and a job takes it as it stands.
+#[test]
+fn the_mean_is_a_load_with_its_moment() {
+    let here = crate::common::workplace();
+    let a = answer(here.path(), CLIMB);
+    let (mean, load) = (&a["mean"], &a["mean"]["job_load"]);
+    let moment = triple(&load["moment_n_m"]);
+    for (k, of_tip) in triple(&mean["moment_n_mm"]).into_iter().enumerate() {
+        close(moment[k], 1e-3 * of_tip, 1e-12, "moment");
+    }
+    // The torque of the reference values is the moment about the tool, N mm.
+    close(moment[2].abs(), 0.81201, 1e-4, "torque");
+    let words = words(CLIMB);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let said = run(here.path(), &words).answered().out;
+    let lines = said.lines().map(str::trim);
+    let lines: Vec<&str> = lines
+        .skip_while(|line| !line.starts_with("force_n = ["))
+        .take(3)
+        .collect();
+    assert!(lines[1].starts_with("moment_n_m = [") && lines[2] == "axes = \"feed\"");
+    let milling = "milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }";
+    let job = crate::common::JOB.replace(milling, &lines.join("\n"));
+    assert!(job.contains("moment_n_m"));
+    std::fs::write(here.path().join("job.toml"), job).expect("a file");
+    run(here.path(), &["compensate", "job.toml"]).answered();
+}
+
 /// `shared/theory/cutting.md`, "The force that prints into the wall": five heights and the mean.
 #[test]
 fn the_force_that_makes_the_wall_is_the_reference() {

@@ -361,6 +361,10 @@ fn examples_in_the_help_can_be_copied() {
         "tools.toml",
         "[[tool]]\nnumber = 3\nshape = \"flat\"\ndiameter_mm = 12\nteeth = 4\n",
     );
+    put(
+        "means.csv",
+        "feed_mm_per_tooth,fx_n,fy_n,fz_n\n0.05,75,-140,-24\n0.1,97,-190,-44\n0.15,119,-239,-63\n0.2,141,-291,-84\n",
+    );
     let commands = [
         "",
         "compensate",

@@ -17,6 +17,8 @@ pub struct MeasuredCut {
     depth_mm: f64,
     entry: f64,
     exit: f64,
+    /// Half the diameter: a tooth that moves on by more from turn to turn is a mistake of units.
+    most_feed_mm: f64,
 }
 
 impl MeasuredCut {
@@ -80,6 +82,7 @@ impl MeasuredCut {
             depth_mm,
             entry,
             exit,
+            most_feed_mm: tool.radius_mm(),
         })
     }
 
@@ -109,6 +112,16 @@ impl MeasuredCut {
     /// Largest thickness of chip at a feed per tooth, mm.
     pub(crate) fn largest_chip_mm(&self, feed_mm_per_tooth: f64) -> f64 {
         feed_mm_per_tooth * Contact::side(0.0, self.depth_mm, self.entry, self.exit).largest_sine()
+    }
+
+    /// Feeds per tooth above this are refused, mm.
+    pub(crate) fn most_feed_mm(&self) -> f64 {
+        self.most_feed_mm
+    }
+
+    /// Thickness of chip at a feed per tooth in the mean over the arc, mm.
+    pub(crate) fn mean_chip_mm(&self, feed_mm_per_tooth: f64) -> f64 {
+        feed_mm_per_tooth * (self.entry.cos() - self.exit.cos()) / (self.exit - self.entry)
     }
 
     /// What multiplies `K_tc`, `K_rc`, `K_te` and `K_re` in the mean force along x and along y.

@@ -1,11 +1,11 @@
 //! Coefficients of the linear law that fit mean forces best.
 
 use crate::error::{CutError, CutErrorKind, Result};
-use crate::fitting::least_squares::solve;
+use crate::fitting::cut::MeasuredCut;
+use crate::fitting::least_squares::{Solution, solve};
 use crate::fitting::series::{MeanForce, Series};
-use crate::fitting::student::student_95;
 use crate::law::Linear;
-use crate::number::larger;
+use crate::number::{larger, smaller};
 
 /// Coefficients in the order of a fit, with their units.
 const NAMES: [(&str, &str); 6] = [
@@ -48,8 +48,13 @@ pub struct CoefficientFit {
     /// Share of the variance about the mean that the fit explains, along x, y and z over all series; `None` where the
     /// measured force does not vary.
     pub r_squared: [Option<f64>; 3],
+    /// Mean thickness of chip at the smallest feed, mm: the law is not measured below it.
+    pub least_mean_chip_mm: f64,
     /// Largest thickness of chip that occurred, mm: the law is not measured beyond it.
     pub largest_chip_mm: f64,
+    /// What solved for tangential and radial coefficients, and for axial ones.
+    plane: Solution,
+    axial: Solution,
 }
 
 impl CoefficientFit {
@@ -63,6 +68,38 @@ impl CoefficientFit {
             [value(0), value(1), value(2)],
             [value(3), value(4), value(5)],
         )
+    }
+
+    /// Half width of the 95 % confidence interval of the mean force that the fit gives along x, y and z, N; `None` where there
+    /// are no more forces than coefficients. Feed per tooth in mm.
+    ///
+    /// It says how well the line through the forces is known; single means lie further from it.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{
+    ///     Engagement, MeasuredCut, Series, Shape, Side, Tool, fit_coefficients,
+    /// };
+    ///
+    /// let tool = Tool::new(Shape::Flat, 20.0, 4)?;
+    /// let slot = Engagement::straight(10.0, 20.0, 2.0, Side::Left)?; // mm
+    /// let cut = MeasuredCut::new(&tool, &slot)?;
+    /// let text = "feed_mm_per_tooth;fx_n;fy_n;fz_n\n0.05;-95;150;19\n0.1;-112;231;34\n0.2;-146;390;62\n";
+    /// let fit = fit_coefficients(&[Series::read("slot.csv", text, cut)?])?;
+    /// let within = fit.force_half_width_95(&cut, 0.1)[1].unwrap_or(f64::NAN);
+    /// // Wider where nothing was measured.
+    /// assert!(fit.force_half_width_95(&cut, 0.4)[1].is_some_and(|beyond| beyond > 2.0 * within));
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    #[must_use]
+    pub fn force_half_width_95(
+        &self,
+        cut: &MeasuredCut,
+        feed_mm_per_tooth: f64,
+    ) -> [Option<f64>; 3] {
+        let [x, y] = cut.plane_rows(feed_mm_per_tooth);
+        let z = cut.axial_row(feed_mm_per_tooth);
+        let plane = |row: [f64; 4]| self.plane.half_width_95(&row);
+        [plane(x), plane(y), self.axial.half_width_95(&z)]
     }
 }
 
@@ -144,9 +181,10 @@ pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
         for (i, place) in places.iter().enumerate() {
             let coefficient = &mut coefficients[*place];
             coefficient.value = solution.values[i];
-            coefficient.standard_error = solution.standard_errors.as_ref().map(|all| all[i]);
-            let t = student_95(solution.freedom);
-            coefficient.half_width_95 = coefficient.standard_error.zip(t).map(|(s, t)| s * t);
+            let mut alone = vec![0.0; places.len()];
+            alone[i] = 1.0;
+            coefficient.standard_error = solution.standard_error(&alone);
+            coefficient.half_width_95 = solution.half_width_95(&alone);
         }
     }
     let values = coefficients.map(|coefficient| coefficient.value);
@@ -162,14 +200,22 @@ pub fn fit_coefficients(series: &[Series]) -> Result<CoefficientFit> {
         coefficients,
         r_squared: [0, 1, 2].map(|axis| r_squared(series, &residuals_n, axis)),
         residuals_n,
-        largest_chip_mm: series
-            .iter()
-            .flat_map(|s| {
-                s.rows
-                    .iter()
-                    .map(|row| s.cut.largest_chip_mm(row.feed_mm_per_tooth))
-            })
+        least_mean_chip_mm: cuts(series)
+            .map(|(cut, feed)| cut.mean_chip_mm(feed))
+            .fold(f64::INFINITY, smaller),
+        largest_chip_mm: cuts(series)
+            .map(|(cut, feed)| cut.largest_chip_mm(feed))
             .fold(0.0, larger),
+        plane,
+        axial,
+    })
+}
+
+/// The cuts and feeds of all rows.
+fn cuts(series: &[Series]) -> impl Iterator<Item = (&MeasuredCut, f64)> {
+    series.iter().flat_map(|s| {
+        let rows = s.rows.iter();
+        rows.map(move |row| (&s.cut, row.feed_mm_per_tooth))
     })
 }
 

@@ -2,19 +2,38 @@
 
 use nalgebra::{ColPivQR, DMatrix, DVector, RowDVector};
 
+use crate::fitting::student::student_95;
 use crate::number::larger;
 
 /// Elements of the triangle's diagonal below this share of the largest are no information: any noise is larger.
 const RANK: f64 = 1e-7;
 
 /// Unknowns that fit best, and how well they are known.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Solution {
     /// The unknowns.
     pub(crate) values: Vec<f64>,
-    /// Standard error of each; `None` where no residual is left to judge by.
-    pub(crate) standard_errors: Option<Vec<f64>>,
+    /// Variances and covariances of the unknowns, `N x N`; `None` where no residual is left to judge by.
+    pub(crate) covariance: Option<DMatrix<f64>>,
     /// Residuals beyond the unknowns.
     pub(crate) freedom: usize,
+}
+
+impl Solution {
+    /// Half width of the 95 % confidence interval (Student's t) of a sum of the unknowns with these factors.
+    pub(crate) fn half_width_95(&self, factors: &[f64]) -> Option<f64> {
+        let t = student_95(self.freedom)?;
+        Some(t * self.standard_error(factors)?)
+    }
+
+    /// Standard error of the same.
+    pub(crate) fn standard_error(&self, factors: &[f64]) -> Option<f64> {
+        let covariance = self.covariance.as_ref()?;
+        let factors = DVector::from_column_slice(factors);
+        let variance = factors.dot(&(covariance * &factors));
+        // A variance of nothing may come out below zero by rounding.
+        Some(larger(0.0, variance).sqrt())
+    }
 }
 
 /// Solves `rows x unknowns = seen`, all rows of one accuracy. Unknowns with the same number in `units` have the same unit.
@@ -68,17 +87,20 @@ pub(crate) fn solve<const N: usize>(
     scaled += solve(&(&seen - &design * &scaled));
     let residuals = &seen - &design * &scaled;
     let freedom = rows.len().saturating_sub(N);
-    let standard_errors = (freedom > 0).then(|| {
+    let covariance = (freedom > 0).then(|| {
         let variance = residuals.norm_squared() / freedom as f64;
-        let mut errors = vec![0.0; N];
-        for (k, j) in order.iter().enumerate() {
-            errors[*j] = variance.sqrt() * inverse.row(k).norm() / lengths[*j];
+        let mut covariance = DMatrix::zeros(N, N);
+        for (a, j) in order.iter().enumerate() {
+            for (b, k) in order.iter().enumerate() {
+                let shared = inverse.row(a).dot(&inverse.row(b));
+                covariance[(*j, *k)] = variance * shared / (lengths[*j] * lengths[*k]);
+            }
         }
-        errors
+        covariance
     });
     Ok(Solution {
         values: (0..N).map(|j| scaled[j] / lengths[j]).collect(),
-        standard_errors,
+        covariance,
         freedom,
     })
 }

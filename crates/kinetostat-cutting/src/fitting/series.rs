@@ -2,7 +2,7 @@
 
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::fitting::cut::MeasuredCut;
-use crate::number_columns::{NumberColumns, Separator};
+use crate::number_columns::NumberColumns;
 
 const FEED: &str = "feed_mm_per_tooth";
 const FORCES: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
@@ -29,18 +29,18 @@ impl Series {
     /// Forces that were measured in a cut.
     ///
     /// # Errors
-    /// Feeds that are not above zero, fewer than two different ones, forces that are no numbers, more than 100 000 rows.
+    /// Feeds that are not above zero or above half the tool's diameter, fewer than two different ones, forces that are no numbers, more than 100 000 rows.
     pub fn new(cut: MeasuredCut, rows: Vec<MeanForce>) -> Result<Self> {
         most_rows(rows.len())?;
         for row in &rows {
-            checked(row)?;
+            checked(row, &cut)?;
         }
         different_feeds(&rows)?;
         Ok(Self { cut, rows })
     }
 
     /// Forces from CSV with the columns `feed_mm_per_tooth`, `fx_n`, `fy_n`, `fz_n` in any order; a force that was not
-    /// measured has no column. Lines that begin with `#` are passed over.
+    /// measured has no column. Lines that begin with `#` are passed over; semicolons may stand in place of the commas.
     ///
     /// ```
     /// use kinetostat_cutting::{Engagement, MeasuredCut, Series, Shape, Side, Tool};
@@ -59,10 +59,7 @@ impl Series {
     /// As [`Series::new`]; no header, columns that are unknown, missing or there twice, cells that are no numbers; with file
     /// and line.
     pub fn read(name_of_file: &str, text: &str, cut: MeasuredCut) -> Result<Self> {
-        let columns = NumberColumns {
-            known: &COLUMNS,
-            separator: Separator::Comma,
-        };
+        let columns = NumberColumns { known: &COLUMNS };
         let mut rows = Vec::new();
         let last = columns.read(name_of_file, text, accepted, |cells, _| {
             most_rows(rows.len() + 1)?;
@@ -70,12 +67,26 @@ impl Series {
                 feed_mm_per_tooth: cells[0].unwrap_or(f64::NAN),
                 force_n: [cells[1], cells[2], cells[3]],
             };
-            checked(&row)?;
+            checked(&row, &cut)?;
             rows.push(row);
             Ok(())
         })?;
         different_feeds(&rows).map_err(|error| error.at(name_of_file, Some(last)))?;
         Ok(Self { cut, rows })
+    }
+}
+
+impl Series {
+    /// The cut in which the forces were measured.
+    #[must_use]
+    pub fn cut(&self) -> &MeasuredCut {
+        &self.cut
+    }
+
+    /// The forces by rows.
+    #[must_use]
+    pub fn rows(&self) -> &[MeanForce] {
+        &self.rows
     }
 }
 
@@ -88,7 +99,7 @@ fn accepted(there: &[bool]) -> std::result::Result<(), String> {
     }
 }
 
-fn checked(row: &MeanForce) -> Result<()> {
+fn checked(row: &MeanForce, cut: &MeasuredCut) -> Result<()> {
     let refuse = |quantity: &str, found: String, expected: &str| {
         Err(CutError::new(
             CutErrorKind::Measurement,
@@ -100,6 +111,10 @@ fn checked(row: &MeanForce) -> Result<()> {
     let feed = row.feed_mm_per_tooth;
     if !(1e-6..=10.0).contains(&feed) {
         return refuse(FEED, format!("{feed} mm"), "0.000001 to 10 mm");
+    }
+    if feed > cut.most_feed_mm() {
+        let expected = "at most half the diameter of the tool: a feed per tooth, not per minute";
+        return refuse(FEED, format!("{feed} mm"), expected);
     }
     for (name, force) in FORCES.iter().zip(row.force_n) {
         if let Some(force) = force.filter(|force| !(-1e6..=1e6).contains(force)) {

@@ -10,7 +10,7 @@ use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::law::Law;
 use crate::material::entry::{Group, Material, MeasuredIn};
 use crate::names::{bare, nearest};
-use crate::source::{Source, described};
+use crate::source::{Source, described, found_and_expected};
 
 const MOST_BYTES: usize = 10_000_000;
 const MOST_MATERIALS: usize = 10_000;
@@ -57,8 +57,12 @@ impl Source<'_> {
                 self.error(byte, "key of a material", found, expected)
             }
             _ => {
-                let expected = "keys and values as in library.toml: name, group, law, spread_percent, source, measured_in";
-                self.error(byte, "file of materials", message, expected.to_owned())
+                let whole = || {
+                    let expected = "keys and values as in library.toml: name, group, law, spread_percent, source, measured_in";
+                    (message.clone(), expected.to_owned())
+                };
+                let (found, expected) = found_and_expected(&message).unwrap_or_else(whole);
+                self.error(byte, "file of materials", found, expected)
             }
         }
     }

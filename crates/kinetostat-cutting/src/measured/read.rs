@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::measured::log::{CHANNELS, ForceLog, LoggedBy, in_order, most_rows, possible, two_rows};
-use crate::number_columns::{NumberColumns, Separator};
+use crate::number_columns::NumberColumns;
 
 const COLUMNS: [&str; 8] = [
     "time_s", "along_mm", "fx_n", "fy_n", "fz_n", "mx_n_m", "my_n_m", "mz_n_m",
@@ -25,10 +25,7 @@ impl ForceLog {
     /// With file and line: no header, columns that are unknown, missing or there twice, cells that are no numbers, rows of
     /// another length, and as [`ForceLog::new`].
     pub fn read(name_of_file: &str, text: &str) -> Result<Self> {
-        let columns = NumberColumns {
-            known: &COLUMNS,
-            separator: Separator::CommaOrSemicolon,
-        };
+        let columns = NumberColumns { known: &COLUMNS };
         let mut found = None;
         let (mut at, mut lines) = (Vec::new(), Vec::new());
         let mut channels = vec![Vec::new(); CHANNELS.len()];

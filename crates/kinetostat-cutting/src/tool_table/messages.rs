@@ -6,7 +6,7 @@ use serde_spanned::Spanned;
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::names;
-use crate::source::{Source, described};
+use crate::source::{Source, described, found_and_expected};
 
 impl Source<'_> {
     /// A message of the TOML reader; for a key that is not known, with the nearest one.
@@ -30,12 +30,14 @@ impl Source<'_> {
                 format!("no `{key}`"),
                 format!("a line `{key} = ...` under this [[tool]]"),
             ),
-            _ => (
-                "table of tools",
-                message.clone(),
-                "[[tool]] with number, shape, diameter_mm, teeth, each on a line of its own"
-                    .to_owned(),
-            ),
+            _ => {
+                let whole = || {
+                    let expected = "[[tool]] with number, shape, diameter_mm, teeth, each on a line of its own";
+                    (message.clone(), expected.to_owned())
+                };
+                let (found, expected) = found_and_expected(&message).unwrap_or_else(whole);
+                ("table of tools", found, expected)
+            }
         };
         self.error(byte, quantity, found, expected)
     }

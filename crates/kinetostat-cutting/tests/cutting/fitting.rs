@@ -446,6 +446,55 @@ fn csv_is_read_in_any_order_with_comments() {
 }
 
 #[test]
+fn semicolons_stand_for_commas() {
+    let read = |text: &str| Series::read("slot.csv", text, SLOT.measured()).unwrap();
+    let commas = "feed_mm_per_tooth,fx_n,fy_n\n0.1,-2,30\n0.2,-5,60\n";
+    assert_eq!(read(commas), read(&commas.replace(',', ";")));
+    let series = read(commas);
+    assert_eq!(series.cut(), &SLOT.measured());
+    assert_eq!(series.rows()[1].force_n, [Some(-5.0), Some(60.0), None]);
+}
+
+/// The interval of a line through points (Student's t on `s sqrt(1/n + (x - mean)^2 / S_xx)`): along z a slot has one such
+/// line, alone.
+#[test]
+fn the_interval_of_the_force_is_that_of_a_straight_line() {
+    let feeds = [0.05, 0.08, 0.12, 0.15, 0.2];
+    let forces = [21.0, 29.5, 40.2, 47.0, 63.1];
+    let row = |(feed, force): (&f64, &f64)| MeanForce {
+        feed_mm_per_tooth: *feed,
+        force_n: [Some(-10.0 * feed), Some(40.0 * feed), Some(*force)],
+    };
+    let rows = feeds.iter().zip(&forces).map(row).collect();
+    let fit = fit_coefficients(&[Series::new(SLOT.measured(), rows).unwrap()]).unwrap();
+    let n = feeds.len() as f64;
+    let mean = feeds.iter().sum::<f64>() / n;
+    let mean_force = forces.iter().sum::<f64>() / n;
+    let s_xx: f64 = feeds.iter().map(|x| (x - mean).powi(2)).sum();
+    let s_xy: f64 = feeds
+        .iter()
+        .zip(&forces)
+        .map(|(x, y)| (x - mean) * (y - mean_force))
+        .sum();
+    let slope = s_xy / s_xx;
+    let left: f64 = feeds
+        .iter()
+        .zip(&forces)
+        .map(|(x, y)| (y - mean_force - slope * (x - mean)).powi(2))
+        .sum();
+    let s = (left / (n - 2.0)).sqrt();
+    for feed in [0.0, 0.05, 0.1, 0.3] {
+        // 97.5 % of Student's distribution with 3 degrees of freedom.
+        let expected = 3.182_446 * s * (1.0 / n + (feed - mean).powi(2) / s_xx).sqrt();
+        let found = fit.force_half_width_95(&SLOT.measured(), feed)[2].unwrap();
+        assert!(
+            (found - expected).abs() < 1e-6 * expected,
+            "{feed}: {found}"
+        );
+    }
+}
+
+#[test]
 fn faults_of_a_file_name_its_line() {
     let header = "feed_mm_per_tooth,fx_n,fy_n,fz_n";
     let cases = [
@@ -489,9 +538,24 @@ fn faults_of_a_file_name_its_line() {
             "no column of a force",
         ),
         (
-            "feed_mm_per_tooth;fx_n\n".to_owned(),
+            "feed_mm_per_tooth|fx_n\n".to_owned(),
             1,
-            "commas between them",
+            "commas or semicolons between them",
+        ),
+        (
+            "feed;fx_n;fy_n;fz_n\n".to_owned(),
+            1,
+            "did you mean `feed_mm_per_tooth`?",
+        ),
+        (
+            "feed_mm_per_tooth,Fx,fy_n,fz_n\n".to_owned(),
+            1,
+            "did you mean `fx_n`?",
+        ),
+        (
+            format!("{header}\n0.1,1,2,3\n8.5,1,2,3\n"),
+            3,
+            "half the diameter",
         ),
     ];
     for (text, line, expected) in cases {

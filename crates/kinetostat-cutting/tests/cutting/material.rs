@@ -205,8 +205,13 @@ fn faults_of_a_file_name_its_line_and_what_was_meant() {
         ("[20, 8", "[-20, 8", 9, "1 to 100000 N/mm2"),
         ("[20, 8", "[inf, 8", 9, "1 to 100000 N/mm2"),
         ("= \"wax\"", "= \" . \"", 3, "letters or digits"),
-        ("= 40", "= \"forty\"", 5, "keys and values"),
-        ("= 40", "40", 5, "keys and values"),
+        (
+            "= 40",
+            "= \"forty\"",
+            5,
+            "the text \"forty\"; expected a number",
+        ),
+        ("= 40", "40", 5, "key with no value; expected `=`"),
         (
             "group",
             "chip_mm = [0.3, 0.1]\ngroup",

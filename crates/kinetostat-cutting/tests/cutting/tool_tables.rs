@@ -40,6 +40,46 @@ diameter_mm = 8
 teeth = 2
 "#;
 
+/// No type of a programming language stands in what a person is told.
+#[test]
+fn wrong_values_are_told_in_words() {
+    for (from, to, words) in [
+        (
+            "teeth = 4",
+            "teeth = 2.5",
+            "the number `2.5`; expected a whole number",
+        ),
+        (
+            "number = 1\n",
+            "number = -1\n",
+            "the number `-1`; expected a whole number",
+        ),
+        (
+            "diameter_mm = 8",
+            "diameter_mm = \"8\"",
+            "the text \"8\"; expected a number",
+        ),
+        (
+            "diameter_mm = 8",
+            "diameter_mm = [8]",
+            "a list; expected a number",
+        ),
+        (
+            "name = \"6 mm two-flute\"",
+            "name = true",
+            "the word `true`; expected a text in quotes",
+        ),
+    ] {
+        assert!(OURS.contains(from));
+        let error = ToolTable::read("tools.toml", &OURS.replacen(from, to, 1)).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            error.line.is_some() && said.contains(words),
+            "{words}: {said}"
+        );
+    }
+}
+
 #[test]
 fn every_key_arrives_in_its_unit() {
     let table = ToolTable::read("tools.toml", OURS).unwrap();
@@ -100,7 +140,7 @@ fn each_mistake_is_named_with_its_line_and_key() {
             "diameter_mm = 6\n",
             "diameter_mm = \"6\"\n",
             6,
-            "invalid type",
+            "expected a number",
         ),
         (
             "diameter_mm = 6\n",

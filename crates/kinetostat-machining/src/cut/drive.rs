@@ -1,7 +1,7 @@
 //! How the tool turns and goes: what program and question say of spindle and feed.
 
 use kinetostat_cutting::Rotation;
-use kinetostat_program::{Move, Path, SpindleRotation};
+use kinetostat_program::{Move, Path, SpeedMode, SpindleRotation};
 
 use crate::cut::cutting_tool::CuttingTool;
 use crate::cut::failure::CutFailure;
@@ -46,16 +46,19 @@ impl CutQuestion {
         let rotation = self.rotation.or(said).ok_or_else(|| {
             missing(
                 "the tool cuts and the spindle does not turn",
-                "add M3 or M4 to the program, or give the sense of rotation",
+                "add M3 or M4 to the program, or give the sense of rotation (rotation under [spindle], --rotation of `kinetostat engagement`)",
             )
         })?;
-        let rpm = self
-            .rpm
-            .or(spindle.speed.and(spindle.rpm()).filter(|rpm| *rpm > 0.0));
+        // A spindle whose sense is stated turns at its S, though the program has no M3.
+        let said = match spindle.mode {
+            SpeedMode::Constant => spindle.speed.filter(|rpm| *rpm > 0.0),
+            SpeedMode::ConstantSurface { .. } => None,
+        };
+        let rpm = self.rpm.or(said);
         let rpm = rpm.ok_or_else(|| {
             missing(
                 "the tool cuts and no speed of the spindle is known (S with G97)",
-                "add the S word to the program, or give the speed",
+                "add the S word to the program, or give the speed (rpm under [spindle], --rpm of `kinetostat engagement`)",
             )
         })?;
         let per_turn = motion.feed_mm_per_revolution(rpm).ok_or_else(|| {

@@ -6,6 +6,7 @@
 pub(crate) mod along_path;
 pub(crate) mod headings;
 pub(crate) mod law;
+pub(crate) mod ramp_findings;
 pub(crate) mod ramps;
 pub(crate) mod runs;
 pub(crate) mod tool;

@@ -3,8 +3,9 @@
 //! A correction that jumps would move the tool while it stands at one place of the part: a plunge would go up before it goes
 //! down. So the load may change only by what moves the tool by [`ProgramLoad::largest_step`] per mm of path, at the machine's
 //! smallest stiffness against a force. The change goes into the air before and after a cut, where it does not matter where the
-//! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid. At sharp
-//! corners the load turns while the tool steps, as everywhere.
+//! tool is; a stated load, of which nobody knows where it begins, comes over the first millimetres after a rapid, round corners
+//! too. Only where there is less feed than that between two rapids it comes faster: all of it acts before the second one. At
+//! sharp corners the load turns while the tool steps, as everywhere.
 
 use std::collections::BTreeMap;
 
@@ -15,28 +16,11 @@ use kinetostat_program::{Curve, Move};
 use crate::cut::vertices::Scale;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::{CuttingLoad, ProgramLoad};
+use crate::load::ramp_findings::{LoadBegins, RampFindings, TooFast};
 use crate::load::runs::{begins, of_run, runs};
 use crate::profile::by_move::{ByMove, Profile};
-use crate::profile::limited::{Begins, limited};
+use crate::profile::limited::{Begins, comes_over_mm, limited};
 use crate::profile::reduced::reduced;
-
-/// A change of the force inside a cut that is faster than the correction may follow, where that is worst on a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TooFast {
-    /// Line of the program.
-    pub line: usize,
-    /// Force that the correction lacks there, N.
-    pub force_n: f64,
-    /// By how much that moves the tool at the machine's smallest stiffness, mm.
-    pub off_mm: f64,
-}
-
-impl TooFast {
-    /// Whether it is large beside the tolerance of the path.
-    pub fn matters(&self, tolerance_mm: f64) -> bool {
-        self.off_mm > 0.5 * tolerance_mm
-    }
-}
 
 /// A load in two readings.
 #[derive(Clone, Debug)]
@@ -45,17 +29,16 @@ pub(crate) struct Ramped<'a> {
     pub followed: LoadAlongPath<'a>,
     /// That which acts: where the tool cuts, what was computed, as far as it is known where.
     pub acting: LoadAlongPath<'a>,
-    /// One for each line.
-    pub too_fast: Vec<TooFast>,
+    pub findings: RampFindings,
 }
 
 impl<'a> Ramped<'a> {
     /// The correction follows all of the load that acts.
-    fn alike(load: LoadAlongPath<'a>) -> Self {
+    fn alike(load: LoadAlongPath<'a>, findings: RampFindings) -> Self {
         Self {
             acting: load.clone(),
             followed: load,
-            too_fast: Vec::new(),
+            findings,
         }
     }
 }
@@ -65,9 +48,10 @@ impl<'a> LoadAlongPath<'a> {
     pub(crate) fn ramped(self, stiffness: f64) -> Ramped<'a> {
         let steps = stiffness > 0.0 && stiffness.is_finite();
         if !steps {
-            return Ramped::alike(self);
+            return Ramped::alike(self, RampFindings::default());
         }
-        let begun = self.begun(stiffness);
+        let mut findings = RampFindings::default();
+        let begun = self.begun(stiffness, &mut findings);
         let followed = self.with_part(begun);
         let changed = followed.cut.as_ref().and_then(|cut| {
             let limit = Limit {
@@ -76,26 +60,27 @@ impl<'a> LoadAlongPath<'a> {
                 stiffness,
                 resolution_mm: cut.resolution_mm,
             };
-            limit.cut(&cut.profile)
+            limit.cut(&cut.profile, &mut findings)
         });
-        let Some((asked, acting, too_fast)) = changed else {
-            return Ramped::alike(followed);
+        let Some((asked, acting)) = changed else {
+            return Ramped::alike(followed, findings);
         };
         Ramped {
             acting: followed.clone().with_profile(acting),
             followed: followed.with_profile(asked),
-            too_fast,
+            findings,
         }
     }
 
     /// The part of stated loads that acts, along the path; `None` where nothing is stated.
-    fn begun(&self, stiffness: f64) -> Option<Profile<1>> {
+    fn begun(&self, stiffness: f64, findings: &mut RampFindings) -> Option<Profile<1>> {
         let stated = |i: usize| stated_force(self.load_of(i));
         let path = self.path();
         if !(0..path.moves.len()).any(|i| stated(i).is_some()) {
             return None;
         }
         let mut all = vec![Vec::new(); path.moves.len()];
+        let begins = begins(path);
         for run in runs(path, |_, _| true) {
             let Some(force) = stated(run[0]) else {
                 continue;
@@ -103,7 +88,13 @@ impl<'a> LoadAlongPath<'a> {
             let load = self.load_of(run[0]);
             let rate = [load.largest_step * stiffness / force];
             let places = of_run(path, &run, |i| stated_part(load, &path.moves[i]));
-            for found in limited(&places, &rate, begins(path, run[0])).unwrap_or_default() {
+            let begins = begins[run[0]];
+            let own = match load.below_z_mm {
+                Some(_) => LoadBegins::BelowHeight,
+                None => LoadBegins::AfterRapid,
+            };
+            findings.begins((path, &run), begins, own, comes_over_mm(&places, &rate));
+            for found in limited(&places, &rate, begins).unwrap_or_default() {
                 let place = &found.place;
                 all[place.move_index].push((place.share, found.value));
             }
@@ -171,12 +162,12 @@ struct Limit<'l, 'a> {
 /// Vertices of the moves on which a profile is another.
 type Changed = Vec<Option<Vec<(f64, [f64; 6])>>>;
 
-/// A profile to be followed, that which acts, and the worst of their differences in a cut.
-type Followed = (Profile<6>, Profile<6>, Vec<TooFast>);
+/// A profile to be followed, and that which acts.
+type Followed = (Profile<6>, Profile<6>);
 
 impl Limit<'_, '_> {
     /// `None` where nothing changes too fast.
-    fn cut(&self, cut: &Profile<6>) -> Option<Followed> {
+    fn cut(&self, cut: &Profile<6>, findings: &mut RampFindings) -> Option<Followed> {
         let path = self.load.path();
         let count = path.moves.len();
         let mut asked: Changed = vec![None; count];
@@ -190,6 +181,7 @@ impl Limit<'_, '_> {
             (Some(from), Some(to)) => from.angle(&to) <= self.load.base_load().gentle_corner,
             _ => true,
         };
+        let begins = begins(path);
         for run in runs(path, joined) {
             let load = self.load.load_of(run[0]);
             if !matches!(load.cutting, CuttingLoad::FromCut { .. }) {
@@ -199,9 +191,11 @@ impl Limit<'_, '_> {
             let rate = self.rate(load);
             // A force that is known to act where a rapid ends acts there at once.
             let begins = match stated {
-                true => begins(path, run[0]),
+                true => begins[run[0]],
                 false => Begins::Anyhow,
             };
+            let needs_mm = comes_over_mm(&places, &rate);
+            findings.begins((path, &run), begins, LoadBegins::AfterRapid, needs_mm);
             let Some(found) = limited(&places, &rate, begins) else {
                 continue;
             };
@@ -243,7 +237,8 @@ impl Limit<'_, '_> {
             force_n,
             off_mm: force_n / self.stiffness,
         });
-        Some((profile(asked), profile(acting), too_fast.collect()))
+        findings.too_fast.extend(too_fast);
+        Some((profile(asked), profile(acting)))
     }
 
     /// Vertices of a move with its ends, and whether the tool cuts there.

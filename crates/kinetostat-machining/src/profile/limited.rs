@@ -25,12 +25,21 @@ pub(crate) struct Place<const N: usize> {
 }
 
 /// How a profile begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Begins {
     /// With any value.
     Anyhow,
     /// With nothing, whatever is asked for: the tool comes out of a rapid.
-    WithNothing,
+    WithNothing(SinceRapid),
+}
+
+/// Where a profile begins on the feed path between two rapids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SinceRapid {
+    /// Length at feed from the rapid to the first place, mm.
+    pub before_mm: f64,
+    /// Length at feed from the rapid to the next one, mm.
+    pub in_all_mm: f64,
 }
 
 /// A place with the value that the profile has there.
@@ -94,7 +103,7 @@ struct Bounds<'a, const N: usize> {
     low: Vec<[f64; N]>,
     high: Vec<[f64; N]>,
     /// Rate at the start, from nothing; `None` where it may begin anyhow.
-    from_nothing: Option<[f64; N]>,
+    from_nothing: Option<([f64; N], SinceRapid)>,
 }
 
 impl<'a, const N: usize> Bounds<'a, N> {
@@ -118,7 +127,10 @@ impl<'a, const N: usize> Bounds<'a, N> {
             at_mm: places.iter().map(|p| p.at_mm).collect(),
             low,
             high,
-            from_nothing: (begins == Begins::WithNothing).then(|| at_the_start(places, rate)),
+            from_nothing: match begins {
+                Begins::WithNothing(since) => Some((at_the_start(places, rate, since), since)),
+                Begins::Anyhow => None,
+            },
         }
     }
 
@@ -162,8 +174,8 @@ impl<'a, const N: usize> Bounds<'a, N> {
             if low > high {
                 limited.length_mm = larger(limited.length_mm, (low - high) / r);
             }
-            if let Some(steepest) = self.from_nothing {
-                let most = rise(steepest[k], place.at_mm - self.at_mm[0]);
+            if let Some((steepest, since)) = self.from_nothing {
+                let most = rise(steepest[k], since.before_mm + place.at_mm - self.at_mm[0]);
                 if value.abs() > most {
                     value = most.copysign(value);
                     limited.begins = true;
@@ -181,9 +193,10 @@ impl<'a, const N: usize> Bounds<'a, N> {
         for k in 0..N {
             let r = self.rate[k];
             // Straight lines over the way from the first place: value there, and slope.
-            let begun = self
-                .from_nothing
-                .map(|steepest| (rise(steepest[k], a.at_mm - self.at_mm[0]), steepest[k]));
+            let begun = self.from_nothing.map(|(steepest, since)| {
+                let way = since.before_mm + a.at_mm - self.at_mm[0];
+                (rise(steepest[k], way), steepest[k])
+            });
             // None crosses what is no line.
             let (begun, steepest) = begun.unwrap_or((f64::NAN, f64::NAN));
             let lines = [
@@ -218,18 +231,29 @@ fn rise(rate: f64, way_mm: f64) -> f64 {
     }
 }
 
-/// The rate at the start: at least so large that every value is reached on the first half of the path.
-fn at_the_start<const N: usize>(places: &[Place<N>], rate: &[f64; N]) -> [f64; N] {
-    let length = match (places.first(), places.last()) {
-        (Some(first), Some(last)) => last.at_mm - first.at_mm,
-        _ => 0.0,
-    };
-    std::array::from_fn(|k| {
-        let sizes = places.iter().map(|p| p.value[k].abs());
-        let size = sizes.fold(0.0, larger);
-        match size > 0.0 && length > 0.0 {
-            true => larger(rate[k], 2.0 * size / length),
-            false => rate[k],
-        }
+/// The rate at the start: at least so large that every value is reached before the next rapid.
+fn at_the_start<const N: usize>(
+    places: &[Place<N>],
+    rate: &[f64; N],
+    since: SinceRapid,
+) -> [f64; N] {
+    let sizes = largest(places);
+    std::array::from_fn(|k| match sizes[k] > 0.0 && since.in_all_mm > 0.0 {
+        true => larger(rate[k], sizes[k] / since.in_all_mm),
+        false => rate[k],
     })
+}
+
+/// Length over which the largest value comes from nothing, mm.
+pub(crate) fn comes_over_mm<const N: usize>(places: &[Place<N>], rate: &[f64; N]) -> f64 {
+    let sizes = largest(places);
+    let ways = (0..N)
+        .filter(|k| sizes[*k] > 0.0)
+        .map(|k| sizes[k] / rate[k]);
+    ways.fold(0.0, larger)
+}
+
+/// Largest size of each component.
+fn largest<const N: usize>(places: &[Place<N>]) -> [f64; N] {
+    std::array::from_fn(|k| places.iter().map(|p| p.value[k].abs()).fold(0.0, larger))
 }

@@ -29,6 +29,10 @@ pub struct Figures {
     pub speed: String,
     /// Longest step at a corner; none without steps.
     pub corner_step: Option<String>,
+    /// Longest step where a rapid ends; none without such steps.
+    pub entry_step: Option<String>,
+    /// Fastest change of the correction per mm of path; none where none was written.
+    pub change: Option<String>,
     /// Shortest piece of a divided block; none if no block was divided.
     pub shortest_piece: Option<String>,
     /// Most blocks per second; none where the program's feed does not say.
@@ -43,6 +47,11 @@ pub struct Figures {
     pub actuator_force: Vec<String>,
     /// Largest change of each actuator.
     pub actuator_correction: Vec<String>,
+}
+
+/// A change in mm per mm of path.
+pub(crate) fn per_mm(value: f64) -> String {
+    largest(value, "mm/mm")
 }
 
 impl Figures {
@@ -72,6 +81,8 @@ impl Figures {
             rotation: largest_angle(s.max_residual_rotation_deg),
             speed: largest(s.max_speed_deviation_percent, "%"),
             corner_step: (s.corner_steps > 0).then(|| largest_length(s.largest_corner_step_mm)),
+            entry_step: (s.entry_steps > 0).then(|| largest_length(s.largest_entry_step_mm)),
+            change: s.largest_change_mm_per_mm.map(|c| per_mm(c.value)),
             shortest_piece: above_zero(s.smallest_piece_mm).map(least_length),
             blocks_per_second: s
                 .blocks_per_second

@@ -13,8 +13,25 @@ pub enum PointKind {
     Feed,
     /// At the end of a rapid.
     Rapid,
-    /// On a corner step, where the load turns while the tool stands.
+    /// On a step at a corner (or inside a cut), where the load turns while the tool stands.
     Corner,
+    /// On a step where a rapid ends and the load is there at once.
+    Entry,
+}
+
+impl PointKind {
+    /// Whether it lies on a step, which only a written program has.
+    ///
+    /// ```
+    /// use kinetostat_machining::PointKind;
+    ///
+    /// assert!(PointKind::Corner.is_step() && PointKind::Entry.is_step());
+    /// assert!(!PointKind::Feed.is_step() && !PointKind::Rapid.is_step());
+    /// ```
+    #[must_use]
+    pub fn is_step(self) -> bool {
+        matches!(self, Self::Corner | Self::Entry)
+    }
 }
 
 /// One point of the path.

@@ -46,7 +46,7 @@ fn extremes(points: &[PointResult]) -> Vec<usize> {
     let mut found: Vec<Option<usize>> = vec![
         farthest(points, |p| size(&p.error_before_mm)),
         farthest(points, |p| match p.kind {
-            PointKind::Corner => f64::NAN,
+            PointKind::Corner | PointKind::Entry => f64::NAN,
             _ => size(&p.error_before_mm),
         }),
         farthest(points, |p| size(&p.error_after_mm)),
@@ -81,7 +81,7 @@ fn farthest(points: &[PointResult], value: impl Fn(&PointResult) -> f64) -> Opti
 /// Indices of the worst points before compensation, at most ten, not two from one line or from
 /// neighbouring ones.
 pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
-    let programmed = |i: &usize| points[*i].kind != PointKind::Corner;
+    let programmed = |i: &usize| !points[*i].kind.is_step();
     let cutting = |i: &usize| points[*i].kind == PointKind::Feed;
     let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
     if order.is_empty() {

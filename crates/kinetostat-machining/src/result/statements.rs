@@ -2,6 +2,7 @@
 //! terminal and in the report.
 
 use crate::load::law::CornerLoad;
+use crate::load::ramp_findings::LoadBegins;
 use crate::number::{counted, largest, largest_length};
 use crate::result::force_band::ForceBand;
 use crate::result::run_result::RunResult;
@@ -20,13 +21,24 @@ impl RunResult {
             .map(unchanged_text)
     }
 
-    /// What is assumed at sharp corners, how many steps that concerns, and what becomes of the claim
-    /// otherwise; none for a program without such steps.
+    /// What is assumed at sharp corners and where a rapid ends under load, how many steps that concerns, and what becomes of the
+    /// claim otherwise; none for a program without such steps.
     #[must_use]
     pub fn corners_text(&self) -> Option<String> {
         let s = &self.summary;
-        let known = s.largest_corner_step_mm.is_finite() && s.corner_points_percent.is_finite();
-        if s.corner_steps == 0 || !known {
+        let lengths = [s.largest_corner_step_mm, s.largest_entry_step_mm];
+        let known = lengths.iter().all(|mm| mm.is_finite()) && s.corner_points_percent.is_finite();
+        let (places, turns, at_once) = match (s.corner_steps, s.entry_steps) {
+            (0, 0) => return None,
+            (_, 0) => ("At sharp corners", "turns", "follows the feed on the steps"),
+            (0, _) => ("Where a rapid ends in the cut", "comes", "is there at once"),
+            (_, _) => (
+                "At sharp corners and where a rapid ends in the cut",
+                "turns or comes",
+                "follows the feed on the steps",
+            ),
+        };
+        if !known {
             return None;
         }
         let mm = |value: Option<f64>| match value.filter(|value| value.is_finite()) {
@@ -37,29 +49,63 @@ impl RunResult {
         let if_follows = mm(s.max_corner_error_if_load_follows_feed_mm);
         let (holds, otherwise) = match self.read_at_corners() {
             (Some(CornerLoad::Turns), _) => (
-                "the load turns evenly while the tool steps".to_owned(),
-                format!("if it follows the feed on the steps instead, the tool is {if_follows}"),
+                format!("the load {turns} evenly while the tool steps"),
+                format!("if it {at_once} instead, the tool is {if_follows}"),
             ),
             (Some(CornerLoad::FollowsFeed), _) => (
-                "the load follows the feed on the steps".to_owned(),
-                format!("if it turns evenly while the tool steps, the tool is {if_turns}"),
+                format!("the load {at_once}"),
+                format!("if it {turns} evenly while the tool steps, the tool is {if_turns}"),
             ),
-            (None, [turns, follows]) => (
+            (None, [by_turning, following]) => (
                 format!(
-                    "the load turns evenly while the tool steps ({turns}), or follows the feed on the steps ({follows})"
+                    "the load {turns} evenly while the tool steps ({by_turning}), or {at_once} ({following})"
                 ),
                 format!(
-                    "if it turns evenly with all tools, they are {if_turns}; if it follows the feed with all of \
+                    "if it {turns} evenly with all tools, they are {if_turns}; if it {at_once} with all of \
                      them, they are {if_follows}"
                 ),
             ),
         };
+        let kinds = [
+            (s.corner_steps, "corner step", s.largest_corner_step_mm),
+            (
+                s.entry_steps,
+                "step where a rapid ends",
+                s.largest_entry_step_mm,
+            ),
+        ];
+        let kinds = kinds.into_iter().filter(|(count, ..)| *count > 0);
+        let steps: Vec<String> = kinds
+            .map(|(count, what, longest)| {
+                let counted = match what.split_once(' ') {
+                    Some(("step", rest)) => format!("{} {rest}", counted(count, "step")),
+                    _ => counted(count, what),
+                };
+                format!("{counted}, up to {} long", largest_length(longest))
+            })
+            .collect();
         Some(format!(
-            "At sharp corners this takes it that {holds}: {}, up to {} long, {} of the points; {otherwise}.",
-            counted(s.corner_steps, "corner step"),
-            largest_length(s.largest_corner_step_mm),
+            "{places} this takes it that {holds}: {}, {} of the points; {otherwise}.",
+            steps.join(", and "),
             largest(s.corner_points_percent, "%")
         ))
+    }
+
+    /// Over which length a stated load is taken to come, for nobody stated where the cut begins; none where no load is stated.
+    #[must_use]
+    pub fn ramp_text(&self) -> Option<String> {
+        let ramp = self.summary.load_ramp?;
+        let length = largest_length(ramp.length_mm);
+        Some(match ramp.begins {
+            LoadBegins::AfterRapid => format!(
+                "It is not stated where a cut begins after a rapid: the load is taken to come over at most the first {length} of feed \
+                 there, and to act until the next rapid begins."
+            ),
+            LoadBegins::BelowHeight => format!(
+                "The load comes over the {length} of path before the tool is below the height where it acts, and goes over as \
+                 much behind; where a rapid ends nearer than that, over the first {length} of feed."
+            ),
+        })
     }
 
     /// What the machine's own weight has to do with the errors, and for whom it must not be corrected; none

@@ -1,5 +1,7 @@
 //! Figures of a whole run.
 
+use crate::load::ramp_findings::LoadRamp;
+use crate::result::largest_change::LargestChange;
 use crate::result::solving::Solving;
 use serde::{Deserialize, Serialize};
 
@@ -23,10 +25,22 @@ pub struct Summary {
     pub bytes_out: usize,
     /// Straight pieces written for feed moves.
     pub pieces: usize,
-    /// Moves at a corner that change only the correction.
+    /// Moves at a corner that change only the correction; see also `entry_steps`.
     pub corner_steps: usize,
     /// Longest of them, mm.
     pub largest_corner_step_mm: f64,
+    /// Steps where a rapid ends: the load is there at once.
+    #[serde(default)]
+    pub entry_steps: usize,
+    /// Longest of them, mm.
+    #[serde(default)]
+    pub largest_entry_step_mm: f64,
+    /// Fastest change of the correction outside steps; none where none was written.
+    #[serde(default)]
+    pub largest_change_mm_per_mm: Option<LargestChange>,
+    /// Over which length of path a stated load comes; none where no load is stated.
+    #[serde(default)]
+    pub load_ramp: Option<LoadRamp>,
     /// Nothing was to be corrected: the program came back byte for byte.
     #[serde(default)]
     pub unchanged: bool,

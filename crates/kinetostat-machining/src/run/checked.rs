@@ -1,7 +1,8 @@
 //! What was checked of a written program besides its points.
 
-use crate::load::ramps::TooFast;
+use crate::load::ramp_findings::RampFindings;
 use crate::result::force_band::ForceBand;
+use crate::run::largest_change::Changes;
 use crate::warning::Warning;
 
 /// What was checked of a written program besides its points.
@@ -19,6 +20,8 @@ pub(crate) struct Checked {
     pub(crate) divided_again: Option<Warning>,
     /// The program as it is keeps the tolerance, and was left so.
     pub(crate) within_before: bool,
-    /// Where the force changes faster than the correction may.
-    pub(crate) too_fast: Vec<TooFast>,
+    /// Fastest changes of the correction.
+    pub(crate) changes: Changes,
+    /// How the load comes and goes.
+    pub(crate) ramps: RampFindings,
 }

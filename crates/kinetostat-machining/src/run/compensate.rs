@@ -12,7 +12,8 @@ use crate::field::ModelField;
 use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
-use crate::load::ramps::{Ramped, TooFast};
+use crate::load::ramp_findings::TooFast;
+use crate::load::ramps::Ramped;
 use crate::result::point::{PointResult, most, size};
 use crate::result::run_result::bound_mm;
 use crate::result::tolerance::keeps_as_it_is;
@@ -23,6 +24,7 @@ use crate::run::divide_again::Again;
 use crate::run::first_look::FirstLook;
 use crate::run::following::jump;
 use crate::run::force_band::force_band;
+use crate::run::largest_change::changes;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
@@ -53,11 +55,16 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
     let looked = FirstLook::new(task, &load, watch)?;
     refuse(looked.folding_load(task))?;
-    let load = load.ramped(looked.stiffness()).acting;
+    let Ramped {
+        acting: load,
+        findings: ramps,
+        ..
+    } = load.ramped(looked.stiffness());
     let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (mut points, _) = solve(task, sites, false, watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
+        ramps,
         ..Checked::default()
     };
     Ok(conclude(task, &load, points, None, &checked))
@@ -76,7 +83,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     let Ramped {
         followed,
         acting: load,
-        too_fast,
+        findings: ramps,
     } = load.ramped(looked.stiffness());
     let field = ModelField::new(task.mechanism, task.placement, &followed);
     let mut again = Again::default();
@@ -125,7 +132,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     }
     // Where the force changes faster than the correction may, a block may end farther off; the tolerance is missed there.
     let matters = |found: &TooFast| found.matters(task.writing.tolerance_mm);
-    if let Some(worse) = worse.filter(|_| !too_fast.iter().any(matters)) {
+    if let Some(worse) = worse.filter(|_| !ramps.too_fast.iter().any(matters)) {
         return Err(worse);
     }
     if let Some(line) = jump(task, &points) {
@@ -142,7 +149,10 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
             false => again.description(allowed_mm),
         },
         within_before,
-        too_fast,
+        changes: changes(task.path, &written, &task.writing, |line| {
+            task.load_on(line).largest_step
+        }),
+        ramps,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
 }

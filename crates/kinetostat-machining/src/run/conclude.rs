@@ -7,7 +7,7 @@ use kinetostat_program::{Corrected, Path};
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
 use crate::load::along_path::LoadAlongPath;
-use crate::load::ramps::TooFast;
+use crate::load::ramp_findings::TooFast;
 use crate::result::point::{PointKind, PointResult};
 use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
@@ -16,6 +16,7 @@ use crate::result::summary::Summary;
 use crate::result::tolerance::ToleranceResult;
 use crate::run::checked::Checked;
 use crate::run::cutting::cutting_result;
+use crate::run::fast_change::changes_faster_than_stated;
 use crate::run::following::following;
 use crate::run::nearest_singular::nearest_singular;
 use crate::run::summary::summarise;
@@ -65,7 +66,7 @@ pub(crate) fn conclude(
 ) -> Run {
     let summary = summarise(task, &points, written.as_ref(), checked);
     let near_singularity = nearest_singular(task, &points);
-    let mut warnings = warnings(task, &points, &summary, written.as_ref(), checked);
+    let mut warnings = warnings(task, load, &points, &summary, written.as_ref(), checked);
     // Said first: near a singular posture every other figure is larger than elsewhere.
     if let Some(near) = &near_singularity {
         warnings.insert(0, near_singular_warning(near));
@@ -84,7 +85,7 @@ pub(crate) fn conclude(
         near_singularity,
         points: Vec::new(),
     };
-    result.tolerance = tolerance(&result, &points, written.as_ref(), &checked.too_fast);
+    result.tolerance = tolerance(&result, &points, written.as_ref(), &checked.ramps.too_fast);
     result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
         .into_iter()
         .map(|i| points[i].clone())
@@ -160,6 +161,7 @@ fn feed_box(points: &[PointResult]) -> ([f64; 3], [f64; 3]) {
 /// compensated one.
 fn warnings(
     task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
     points: &[PointResult],
     summary: &Summary,
     written: Option<&Corrected>,
@@ -169,6 +171,7 @@ fn warnings(
     let mut warnings = of_program(task.path, of_writer);
     warnings.extend(checked.divided_again.clone());
     warnings.extend(changes_fast(task, checked));
+    warnings.extend(changes_faster_than_stated(task, load, points, checked));
     if !summary.stable {
         let first = points.iter().find(|p| !p.stable).map_or(0, |p| p.line);
         warnings.push(Warning::at_line(
@@ -230,7 +233,7 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
 /// Where the force changes faster in a cut than the correction may, if that matters beside the tolerance.
 fn changes_fast(task: &Task<'_>, checked: &Checked) -> Option<Warning> {
     let matters = |found: &&TooFast| found.matters(task.writing.tolerance_mm);
-    let all = || checked.too_fast.iter().filter(matters);
+    let all = || checked.ramps.too_fast.iter().filter(matters);
     let found = all().max_by(|a, b| a.off_mm.total_cmp(&b.off_mm))?;
     let more = match all().count() {
         1 => String::new(),

@@ -188,10 +188,10 @@ pub(crate) fn of_written<'a>(
             sites.push(Site {
                 line: motion.line,
                 output_line: piece.output_line,
-                kind: if piece.corner_step {
-                    PointKind::Corner
-                } else {
-                    kind(motion)
+                kind: match piece.corner_step {
+                    true if piece.turn.is_some_and(|turn| turn.is_entry(path)) => PointKind::Entry,
+                    true => PointKind::Corner,
+                    false => kind(motion),
                 },
                 share,
                 path_mm: starts[piece.move_index] + share * known_length(motion),

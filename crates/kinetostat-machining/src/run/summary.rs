@@ -9,6 +9,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::solving::{Solving, one_by_one_because};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
+use crate::run::fast_change::of_correction;
 use crate::task::Task;
 use kinetostat::number::smaller;
 
@@ -55,7 +56,7 @@ pub(crate) fn summarise(
             .sum(),
         max_position_error_before_mm: most(&|p| match p.kind {
             // Only a written program has steps.
-            PointKind::Corner => 0.0,
+            PointKind::Corner | PointKind::Entry => 0.0,
             _ => before(p),
         }),
         rms_position_error_before_mm: rms(&programmed, &before),
@@ -83,6 +84,7 @@ pub(crate) fn summarise(
         converged: true,
         stable: points.iter().all(|p| p.stable),
         solving: solving(task, points),
+        load_ramp: checked.ramps.ramp,
         ..Summary::default()
     };
     if let Some(written) = written {
@@ -112,7 +114,7 @@ fn of_what_was_written(
     checked: &Checked,
 ) {
     let a = &written.accounting;
-    let corners = || points.iter().filter(|p| p.kind == PointKind::Corner);
+    let corners = || points.iter().filter(|p| p.kind.is_step());
     // By one reading for all steps: as it was solved where that reading was chosen, and once more elsewhere.
     let by = |reading: CornerLoad, elsewhere: Option<f64>| {
         corners()
@@ -131,6 +133,9 @@ fn of_what_was_written(
     summary.pieces = a.pieces;
     summary.corner_steps = a.corner_steps;
     summary.largest_corner_step_mm = a.largest_corner_step_mm;
+    summary.entry_steps = a.entry_steps;
+    summary.largest_entry_step_mm = a.largest_entry_step_mm;
+    summary.largest_change_mm_per_mm = of_correction(&checked.changes);
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
     summary.blocks_per_second = a.peak_blocks_per_second;
     summary.max_rounding_error_mm = a.largest_rounding_mm;

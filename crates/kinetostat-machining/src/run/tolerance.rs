@@ -3,7 +3,7 @@
 use kinetostat::number::largest_length;
 use kinetostat_program::Corrected;
 
-use crate::load::ramps::TooFast;
+use crate::load::ramp_findings::TooFast;
 use crate::result::point::{PointKind, PointResult, size};
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::{MissedTolerance, ToleranceResult, left_out};
@@ -29,6 +29,8 @@ pub(crate) fn tolerance(
             left_out(a)
         } else if p.kind == PointKind::Corner {
             "the tool is at rest at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
+        } else if p.kind == PointKind::Entry {
+            "the load is there at once where a rapid ends, and the correction is written for the ends of the step there; begin the cut in the air".to_owned()
         } else if size(&p.correction_mm) == 0.0 {
             "this block is carried over as it was: it comes before all axes are stated, or is of a kind that is not corrected".to_owned()
         } else if a.largest_jump_taken_up_mm > 0.5 * error(p) {

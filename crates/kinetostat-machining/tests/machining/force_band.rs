@@ -13,33 +13,13 @@ use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
 
-/// Three drives one after the other, of which that along y gives way alone, 400 N/mm.
-const ONE_SPRING: &str = r#"
-schema = 1
-[mechanism]
-name = "one spring"
-[[platform]]
-name = "tool"
-home = { position_mm = [0, 0, 0] }
-[chain.drives]
-elements = [
-  { actuator = "prismatic", name = "x", axis = "x", stiffness_n_per_mm = 1e9 },
-  { actuator = "prismatic", name = "y", axis = "y", stiffness_n_per_mm = 400 },
-  { actuator = "prismatic", name = "z", axis = "z", stiffness_n_per_mm = 1e9 },
-]
-[[limb]]
-name = "drives"
-from = "base"
-to = "tool"
-chain = "drives"
-"#;
+use crate::springs::{self, STIFF};
 
 const PROGRAM: &str = "G21 G90\nS10000 M3\nG0 X0 Y0 Z0\nG1 X40 F600\nG1 Y30\nG0 Z5\n";
 
+/// That along y gives way alone.
 fn machine() -> Mechanism {
-    Model::from_toml(ONE_SPRING, "one_spring.toml")
-        .expect("model")
-        .mechanism
+    springs::machine([STIFF, 400.0, STIFF])
 }
 
 /// The force of the law times `factor`, known to `spread`.

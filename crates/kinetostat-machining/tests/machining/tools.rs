@@ -2,8 +2,8 @@
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Bounds, CornerLoad, CuttingLoad, Placement, PointKind, ProgramLoad, Run, RunError, RunInputs,
-    Task, Tool, Unwatched, analyse, compensate_program, straight_tool,
+    Bounds, CornerLoad, CuttingLoad, Placement, ProgramLoad, Run, RunError, RunInputs, Task, Tool,
+    Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -246,7 +246,7 @@ fn each_tool_has_its_own_reading_of_the_load_at_corners() {
     let (mut steps, mut apart) = ([0, 0], <[Worst; 2]>::default());
     let both = turns.points.iter().zip(&follows.points);
     for (point, (turning, following)) in mixed.points.iter().zip(both) {
-        if point.kind != PointKind::Corner {
+        if !point.kind.is_step() {
             continue;
         }
         let tool = usize::from(second(point.line));
@@ -284,7 +284,7 @@ fn each_tool_has_its_own_reading_of_the_load_at_corners() {
     let words = mixed.result.corners_text().expect("steps");
     assert!(
         words.contains(
-            "turns evenly while the tool steps (tool 1), or follows the feed on the steps (tool 2)"
+            "turns or comes evenly while the tool steps (tool 1), or follows the feed on the steps (tool 2)"
         ),
         "{words}"
     );

@@ -1,8 +1,10 @@
 //! The flat program as it grows, and where the tool is after its last block.
 
+use std::collections::BTreeMap;
+
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
-use crate::expanding::options::ExpandOptions;
+use crate::expanding::options::{ExpandOptions, OriginComments};
 use crate::path::moves::Path;
 use crate::reading::interpret::Interpreter;
 use crate::text::program::{Program, Reader};
@@ -12,6 +14,9 @@ pub(crate) struct Flat<'o> {
     reader: Reader,
     pub interpreter: Interpreter<'o>,
     origins: Vec<Origin>,
+    /// Names of the files that blocks came from, by their index.
+    files: BTreeMap<usize, String>,
+    comments: OriginComments,
     options: &'o ExpandOptions,
 }
 
@@ -21,6 +26,8 @@ impl<'o> Flat<'o> {
             reader: Reader::new(Vec::new()),
             interpreter: Interpreter::new(&options.reading),
             origins: Vec::new(),
+            files: BTreeMap::new(),
+            comments: options.origin_comments,
             options,
         }
     }
@@ -31,11 +38,18 @@ impl<'o> Flat<'o> {
             reader: Reader::new(Vec::new()),
             interpreter: self.interpreter.following(),
             origins: Vec::new(),
+            files: BTreeMap::new(),
+            comments: OriginComments::Left,
             options: self.options,
         }
     }
 
-    /// Adds a block that came from a line; what is wrong with it is said of that line.
+    /// Blocks come from a file of this name.
+    pub fn name_file(&mut self, file: usize, name: &str) {
+        self.files.entry(file).or_insert_with(|| name.to_owned());
+    }
+
+    /// Adds a block that came from a line of a file; what is wrong with it is said of that line.
     pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
         let of_source = |error: ProgramError| ProgramError {
             line: origin.line,
@@ -44,6 +58,14 @@ impl<'o> Flat<'o> {
         if self.origins.len() >= self.options.most_blocks {
             return Err(self.too_many(text, origin));
         }
+        let commented = match self.comments {
+            OriginComments::Written => {
+                let file = self.files.get(&origin.file);
+                commented(text, origin.line, file.map_or("", String::as_str))
+            }
+            OriginComments::Left => None,
+        };
+        let text = commented.as_deref().unwrap_or(text);
         self.reader.add_line(text).map_err(of_source)?;
         self.origins.push(origin);
         let index = self.origins.len() - 1;
@@ -77,4 +99,17 @@ impl<'o> Flat<'o> {
         })?;
         Ok((program, path, origins))
     }
+}
+
+/// A block with its origin behind it; none for tape marks and lines without a word.
+fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
+    let first = text.trim_ascii_start().first()?;
+    if !first.is_ascii_alphabetic() && *first != b'/' {
+        return None;
+    }
+    let origin = match file {
+        "" => format!(" (line {line})"),
+        file => format!(" ({file}, line {line})"),
+    };
+    Some([text, origin.as_bytes()].concat())
 }

@@ -9,6 +9,16 @@ use crate::reading::options::ReadOptions;
 /// Most blocks of a flat program, if nothing else is said.
 const MOST_BLOCKS: usize = 5_000_000;
 
+/// Whether flat blocks say where they came from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum OriginComments {
+    /// Nothing is added; [`crate::Expanded::origins`] knows it.
+    #[default]
+    Left,
+    /// Behind each block, as in `(line 12)` or `(drill, line 3)`.
+    Written,
+}
+
 /// Settings of the expansion.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -17,6 +27,8 @@ pub struct ExpandOptions {
     pub reading: ReadOptions,
     /// Most blocks of the flat program: loops that do not end are refused by their line.
     pub most_blocks: usize,
+    /// Whether flat blocks say where they came from.
+    pub origin_comments: OriginComments,
     /// Values of numbered parameters before the program, as a controller keeps them.
     pub parameters: BTreeMap<u32, f64>,
     /// Diameters of tools by their numbers, mm: the radius of G41 and G42. A tool that is not named here is refused there. A
@@ -33,6 +45,7 @@ impl Default for ExpandOptions {
         Self {
             reading: ReadOptions::default(),
             most_blocks: MOST_BLOCKS,
+            origin_comments: OriginComments::default(),
             parameters: BTreeMap::new(),
             tool_diameters_mm: BTreeMap::new(),
             machine_zero_mm: None,

@@ -7,6 +7,7 @@ pub(crate) mod curve;
 pub(crate) mod feed;
 pub(crate) mod moves;
 pub(crate) mod pause;
+pub(crate) mod pauses;
 pub(crate) mod position_offset;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;

@@ -42,11 +42,16 @@ pub struct Accounting {
     pub left_out_mm: f64,
     /// Shortest piece of a feed move that was split, measured on the part; `None` if none was.
     pub smallest_piece_mm: Option<f64>,
-    /// Steps of the tool at places where the correction jumps (a corner turns the load, a cut
-    /// begins).
+    /// Steps of the tool at places where the correction jumps (a corner turns the load), but for those where a rapid ends.
     pub corner_steps: usize,
     /// Longest of these steps.
     pub largest_corner_step_mm: f64,
+    /// Steps of the tool where a rapid ends and the load is there at once ([`Turn::is_entry`](crate::Turn::is_entry)).
+    pub entry_steps: usize,
+    /// Longest of these steps.
+    pub largest_entry_step_mm: f64,
+    /// Line of the input with the longest of them.
+    pub largest_entry_step_line: Option<usize>,
     /// Largest jump of the correction that got no step, because it is below
     /// [`crate::WriteOptions::corner_step_mm`]; the piece after it starts that far from its place.
     pub largest_jump_taken_up_mm: f64,

@@ -464,7 +464,14 @@ impl<'a> Emitter<'a> {
                 accounting.largest_correction_line = Some(motion.line);
             }
         }
-        if step.corner_step {
+        let entry = step.turn.is_some_and(|turn| turn.is_entry(self.path));
+        if step.corner_step && entry {
+            accounting.entry_steps += 1;
+            if written_mm > accounting.largest_entry_step_mm {
+                accounting.largest_entry_step_line = Some(motion.line);
+            }
+            accounting.largest_entry_step_mm = larger(accounting.largest_entry_step_mm, written_mm);
+        } else if step.corner_step {
             accounting.corner_steps += 1;
             accounting.largest_corner_step_mm =
                 larger(accounting.largest_corner_step_mm, written_mm);

@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use crate::path::moves::{MoveKind, Path};
+
 /// The stretch of a turn that a corner step covers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Turn {
@@ -16,6 +18,25 @@ pub struct Turn {
     pub part_from: f64,
     /// Part of the turn that is done after the step, 0 to 1.
     pub part_to: f64,
+}
+
+impl Turn {
+    /// Whether the step is where a rapid ends: the load is there at once, where others are at corners or inside a cut.
+    ///
+    /// ```
+    /// use kinetostat_program::*;
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600\nG1 Y10\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let after = |from_move| Turn { from_move, from_share: 1.0, to_share: 0.0, part_from: 0.0, part_to: 1.0 };
+    /// assert!(after(0).is_entry(&path) && !after(1).is_entry(&path));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn is_entry(&self, path: &Path) -> bool {
+        let before = path.moves.get(self.from_move);
+        before.is_some_and(|before| before.kind == MoveKind::Rapid)
+    }
 }
 
 /// A jump of the correction and the corrections inside it.

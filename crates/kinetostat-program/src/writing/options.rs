@@ -103,9 +103,23 @@ impl WriteOptions {
         self.corner_step_mm.unwrap_or(self.tolerance_mm)
     }
 
+    /// The last digit that is written, in mm, of words in a unit of so many mm.
+    ///
+    /// ```
+    /// use kinetostat_program::WriteOptions;
+    ///
+    /// let writing = WriteOptions::default(); // four decimals, one more in inches
+    /// assert!((writing.last_digit_mm(1.0) - 1e-4).abs() < 1e-12);
+    /// assert!((writing.last_digit_mm(25.4) - 25.4e-5).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn last_digit_mm(&self, mm_per_unit: f64) -> f64 {
+        mm_per_unit * 10_f64.powi(-(self.decimals_for(mm_per_unit) as i32))
+    }
+
     /// Half of the last digit that is written, in mm: what is smaller cannot be written.
     pub(crate) fn half_digit_mm(&self, mm_per_unit: f64) -> f64 {
-        0.5 * mm_per_unit * 10_f64.powi(-(self.decimals_for(mm_per_unit) as i32))
+        0.5 * self.last_digit_mm(mm_per_unit)
     }
 
     /// Digits after the point of coordinate words in a unit of this size.

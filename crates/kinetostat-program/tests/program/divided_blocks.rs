@@ -77,6 +77,24 @@ fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
 }
 
 #[test]
+fn a_jump_where_a_rapid_ends_is_no_corner() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
+    let text = "G21 G90\nG0 X1\nG1 X10 F600\nY10\nG0 Z5\nG1 Z4\n";
+    let after_rapids = |request: &Request| match request.move_index {
+        0 | 3 => Ok(Vector3::zeros()),
+        _ => field(request),
+    };
+    let (_, result) = written_with(text, &after_rapids, &at_origin(), &bare());
+    let a = &result.accounting;
+    assert_eq!((a.corner_steps, a.entry_steps), (1, 2));
+    assert!((a.largest_corner_step_mm - 0.02 * 2.0_f64.sqrt()).abs() < 1e-9);
+    assert!((a.largest_entry_step_mm - 0.02).abs() < 1e-9);
+    assert_eq!(a.largest_entry_step_line, Some(3));
+    let steps = result.pieces.iter().filter(|piece| piece.corner_step);
+    assert_eq!(steps.count(), 3);
+}
+
+#[test]
 fn smaller_jumps_than_requested_get_no_step_and_are_accounted_for() {
     let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
     let writing = {

@@ -12,6 +12,7 @@ mod arcs;
 mod code_programs;
 mod codes;
 mod divided_blocks;
+mod expanding;
 mod expanding_radius;
 mod internal;
 mod map;

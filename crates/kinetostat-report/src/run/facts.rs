@@ -130,6 +130,7 @@ fn motion(point: &PointResult) -> String {
         }
         PointKind::Rapid => "rapid".to_owned(),
         PointKind::Corner => "corner".to_owned(),
+        PointKind::Entry => "where a rapid ends".to_owned(),
     }
 }
 
@@ -180,17 +181,17 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
             run_inputs.decimals
         ),
     ));
-    let steps = match summary.corner_steps {
+    let steps = |count, longest: &Option<String>| match count {
         0 => "none".to_owned(),
         steps => format!(
             "{}, longest {}",
             number::count(steps),
-            result.figures.corner_step.as_deref().unwrap_or(MISSING)
+            longest.as_deref().unwrap_or(MISSING)
         ),
     };
     rows.push(row(
         "Corner steps",
-        steps,
+        steps(summary.corner_steps, &result.figures.corner_step),
         format!(
             "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
              step there while the tool stays at its corner. {}",
@@ -199,6 +200,16 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
         .trim_end()
         .to_owned(),
     ));
+    if summary.entry_steps > 0 {
+        rows.push(row(
+            "Steps where a rapid ends",
+            steps(summary.entry_steps, &result.figures.entry_step),
+            "The load is there at once where a rapid ends in the cut: the program makes a step while the tool stays at its \
+             place."
+                .to_owned(),
+        ));
+    }
+    rows.extend(change(result));
     if summary.largest_backward_step_mm > 0.0 {
         rows.push(row(
             "Way backwards",
@@ -228,6 +239,32 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
         ));
     }
     rows
+}
+
+/// The fastest change of the correction outside steps, with its line, beside what is stated.
+fn change(result: &Shown<'_>) -> Option<Value> {
+    let change = result.summary.largest_change_mm_per_mm?;
+    let line = number::count(change.line);
+    let beside = match (change.stated, change.lines_beyond) {
+        (Some(stated), 0) => format!(
+            "; no line changes faster than the {stated} mm/mm that are stated (largest_step_mm_per_mm)"
+        ),
+        (Some(stated), lines) => format!(
+            ". {} faster than stated ({stated} mm/mm at this one, largest_step_mm_per_mm): see the warnings",
+            match lines {
+                1 => "1 line changes".to_owned(),
+                lines => format!("{} lines change", number::count(lines)),
+            }
+        ),
+        (None, _) => String::new(),
+    };
+    Some(context! {
+        name => "Change of the correction",
+        size => result.figures.change.clone().unwrap_or_else(|| MISSING.to_owned()),
+        text => format!(
+            "The fastest one per mm of path outside steps, from the written positions, at line {line}{beside}."
+        ),
+    })
 }
 
 /// The first lines under the title: what the result is about.

@@ -99,6 +99,10 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&corners);
     }
+    if let Some(ramp) = result.ramp_text() {
+        meaning.sentence.push(' ');
+        meaning.sentence.push_str(&ramp);
+    }
     if let Some(band) = result.force_band_text() {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&band);

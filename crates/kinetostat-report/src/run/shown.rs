@@ -62,6 +62,8 @@ pub(crate) fn in_type(result: &RunResult) -> Figures {
         rotation: set(&plain.rotation),
         speed: set(&plain.speed),
         corner_step: maybe(&plain.corner_step),
+        entry_step: maybe(&plain.entry_step),
+        change: maybe(&plain.change),
         shortest_piece: maybe(&plain.shortest_piece),
         blocks_per_second: maybe(&plain.blocks_per_second),
         feed_length: set(&plain.feed_length),

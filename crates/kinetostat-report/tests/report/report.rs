@@ -1,7 +1,7 @@
 //! The page holds what it must, whatever the data.
 
 use crate::common::*;
-use kinetostat_machining::{PointResult, RunResult};
+use kinetostat_machining::{LargestChange, LoadBegins, LoadRamp, PointResult, RunResult};
 use kinetostat_report::{html, plot_preview_svg};
 
 fn fixtures() -> Vec<(&'static str, RunResult)> {
@@ -183,6 +183,30 @@ fn what_users_of_such_tools_ask_for_is_said() {
         !plain(&html(&circle_groove()).unwrap()).contains("points shown"),
         "nothing is left out there"
     );
+}
+
+#[test]
+fn how_fast_the_correction_changes_is_said() {
+    let mut result = circle_groove();
+    let mut change = LargestChange::default();
+    (change.value, change.line, change.stated) = (0.4312, 8, Some(0.5));
+    result.summary.largest_change_mm_per_mm = Some(change);
+    result.summary.load_ramp = Some(LoadRamp {
+        begins: LoadBegins::AfterRapid,
+        length_mm: 1.25,
+    });
+    let page = plain(&html(&result).unwrap());
+    assert!(page.contains("Change of the correction"));
+    assert!(page.contains("at line 8; no line changes faster than the 0.5 mm/mm that are stated"));
+    assert!(page.contains("over at most the first 1.25 mm of feed"));
+    assert!(!page.contains("Steps where a rapid ends"));
+    change.lines_beyond = 3;
+    (change.value, result.summary.entry_steps) = (0.83, 2);
+    result.summary.largest_change_mm_per_mm = Some(change);
+    result.summary.largest_entry_step_mm = 0.21;
+    let page = plain(&html(&result).unwrap());
+    assert!(page.contains("3 lines change faster than stated (0.5 mm/mm at this one"));
+    assert!(page.contains("Steps where a rapid ends") && page.contains("2, longest"));
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The cutters of a job: stated in it, or from tables of tools.
 
-use kinetostat_cutting::{LinuxCncTable, MachineUnit, ToolEntry, ToolTable, WrittenTool};
+use std::path::Path;
+
+use kinetostat_cutting::{LinuxCncTable, MachineUnit, Tool, ToolEntry, ToolTable, WrittenTool};
 use kinetostat_program::Program;
 use serde_spanned::Spanned;
 
@@ -14,12 +16,40 @@ use crate::job::units_word::UnitsWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
-/// The number of a tool, and its edges; without a number it is that of all others.
-type Cutter = (Option<u32>, ToolEntry);
+/// The edges of a tool, and what is known beside them.
+#[derive(Clone, Debug)]
+pub(crate) struct Cutter {
+    /// Number by which the program calls it; without one it is the tool of all blocks whose tool has no entry.
+    pub(crate) number: Option<u32>,
+    pub(crate) tool: Tool,
+    pub(crate) rake_deg: Option<f64>,
+    pub(crate) max_chip_mm: Option<f64>,
+    /// Length of its edges, or outside the holder, mm.
+    pub(crate) reach_mm: Option<f64>,
+}
+
+impl Cutter {
+    pub(crate) fn of_entry(number: Option<u32>, entry: &ToolEntry) -> Self {
+        Self {
+            number,
+            tool: entry.tool,
+            rake_deg: entry.rake_deg,
+            max_chip_mm: entry.max_chip_mm,
+            reach_mm: entry.flute_length_mm.or(entry.stick_out_mm),
+        }
+    }
+}
+
+/// The smallest and the largest of some tools by their diameters; none of none.
+pub(crate) fn extremes(cutters: &[Cutter]) -> Option<(&Tool, &Tool)> {
+    let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
+    let edges = || cutters.iter().map(|cutter| &cutter.tool);
+    edges().min_by(by_diameter).zip(edges().max_by(by_diameter))
+}
 
 /// The cutters of a job, by the numbers of the tools: those that it states, and those of its table that the program calls;
 /// what was taken for granted goes to `words`.
-pub(super) fn cutters(
+pub(crate) fn cutters(
     files: &InputFiles,
     j: &JobFile,
     flags: &ProgramArgs,
@@ -44,7 +74,9 @@ pub(super) fn cutters(
             ));
         }
         let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
-        entry.map(|entry| (number, entry)).map_err(Failure::input)
+        entry
+            .map(|entry| Cutter::of_entry(number, &entry))
+            .map_err(Failure::input)
     };
     let one = j.job.tool.cutter.iter().map(|cutter| read(None, cutter));
     let numbered = j.job.tools.iter().filter_map(|tool| {
@@ -57,22 +89,21 @@ pub(super) fn cutters(
     if let Some(table) = &j.job.cutters {
         let table = table_of(files, j, table.get_ref(), files_read)?;
         let path = program_path(Some(j), flags)?;
-        let program = Program::read(files.bytes("program", &path)?).map_err(Failure::input)?;
-        for number in program.tool_numbers() {
-            if all.iter().any(|(own, _)| *own == Some(number)) {
+        for (number, entry) in called(files, &path, &table)? {
+            if all.iter().any(|own| own.number == Some(number)) {
                 continue;
             }
-            match table.tool(number) {
-                Ok(entry) => {
+            match entry {
+                Some(entry) => {
                     words.extend(other_length(j, number, entry));
-                    all.push((Some(number), entry.clone()));
+                    all.push(Cutter::of_entry(Some(number), entry));
                 }
                 // T0 is no tool.
-                Err(_) if number != 0 && j.job.tool.cutter.is_some() => words.push(format!(
+                None if number != 0 && j.job.tool.cutter.is_some() => words.push(format!(
                     "tool {number} of the program is not in the table of tools: the cutter under [tool] is taken for it"
                 )),
                 // A tool that cuts, and of which nothing is known, is named with its line where it cuts.
-                Err(_) => {}
+                None => {}
             }
         }
     }
@@ -102,6 +133,19 @@ fn other_length(j: &JobFile, number: u32, entry: &ToolEntry) -> Option<String> {
             short(in_job)
         )
     })
+}
+
+/// The tools that a program calls, with their entries in a table.
+pub(crate) fn called<'t>(
+    files: &InputFiles,
+    program: &Path,
+    table: &'t ToolTable,
+) -> Answer<Vec<(u32, Option<&'t ToolEntry>)>> {
+    let program = Program::read(files.bytes("program", program)?).map_err(Failure::input)?;
+    let numbers = program.tool_numbers().into_iter();
+    Ok(numbers
+        .map(|number| (number, table.tool(number).ok()))
+        .collect())
 }
 
 /// The table of tools, completed by that of the machine.

@@ -41,14 +41,24 @@ impl FilesOfCut {
         name: &Spanned<String>,
     ) -> Answer<(Vec<u8>, String)> {
         let path = job.base().join(name.get_ref());
-        let bytes = files.bytes(what, &path);
-        let bytes = bytes.map_err(|failure| {
+        let shown = path.display().to_string();
+        let bytes = self.stated(files, what, path).map_err(|failure| {
             let help = "paths count from the folder of the job file";
             job.error(name, &failure.plain, help)
         })?;
-        self.read.push(origin::file(what, &path, &bytes));
-        let shown = path.display().to_string();
-        self.paths.push(path);
         Ok((bytes, shown))
+    }
+
+    /// The bytes of a file that an option names.
+    pub(crate) fn stated(
+        &mut self,
+        files: &InputFiles,
+        what: &str,
+        path: PathBuf,
+    ) -> Answer<Vec<u8>> {
+        let bytes = files.bytes(what, &path)?;
+        self.read.push(origin::file(what, &path, &bytes));
+        self.paths.push(path);
+        Ok(bytes)
     }
 }

@@ -1,9 +1,12 @@
 //! The material of a job.
 
-use kinetostat_cutting::{Applied, Correction, Material, Materials};
-use serde_spanned::Spanned;
+use std::sync::Arc;
+
+use kinetostat_cutting::{Correction, CutError, Material, Materials};
+use kinetostat_machining::CuttingTool;
 
 use crate::files::input_files::InputFiles;
+use crate::job::cut::cutters::Cutter;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::refused::refused;
 use crate::job::cut_tables::MaterialTable;
@@ -11,40 +14,72 @@ use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
 /// The material, how it is cut, and what was assumed.
-pub(super) struct MaterialSetup {
+pub(crate) struct MaterialSetup {
     material: Material,
     correction: Correction,
-    name: Spanned<String>,
-    pub(super) words: Vec<String>,
+    pub(crate) words: Vec<String>,
 }
 
 impl MaterialSetup {
-    /// Its law with the factors for a tool: the rake of its edges, where the job states none for all.
-    pub(super) fn for_tool(
+    /// A material that is cut under these conditions.
+    ///
+    /// # Errors
+    /// Factors that nobody measured.
+    pub(crate) fn new(material: &Material, correction: Correction) -> Result<Self, CutError> {
+        let applied = material.for_milling(&correction)?;
+        let mut words = vec![
+            format!("material {}: {}", material.name, material.law.description()),
+            format!("source: {}", material.source),
+        ];
+        words.extend(material.assumptions.iter().cloned());
+        words.extend(applied.factors.iter().map(|f| format!("factor {f}")));
+        words.push(format!(
+            "the force may be {:.0} % more or less than stated",
+            100.0 * applied.spread
+        ));
+        Ok(Self {
+            material: material.clone(),
+            correction,
+            words,
+        })
+    }
+
+    pub(crate) fn name(&self) -> &str {
+        &self.material.name
+    }
+
+    /// A tool with its law: with the rake of its edges, where none is stated for all.
+    pub(crate) fn for_tool(
         &self,
-        job: &JobFile,
-        number: Option<u32>,
-        rake_deg: Option<f64>,
+        cutter: &Cutter,
         words: &mut Vec<String>,
-    ) -> Answer<Applied> {
-        let own = self.correction.rake_deg.is_none() && rake_deg.is_some();
+    ) -> Result<CuttingTool, CutError> {
+        let own = self.correction.rake_deg.is_none() && cutter.rake_deg.is_some();
         let correction = Correction {
-            rake_deg: self.correction.rake_deg.or(rake_deg),
+            rake_deg: self.correction.rake_deg.or(cutter.rake_deg),
             ..self.correction
         };
-        let applied = self.material.for_milling(&correction);
-        let applied = applied.map_err(|error| refused(job, &self.name, &error))?;
+        let applied = self.material.for_milling(&correction)?;
         if own {
-            let tool = number.map_or_else(|| "the tool".to_owned(), |n| format!("tool {n}"));
+            let tool = cutter
+                .number
+                .map_or_else(|| "the tool".to_owned(), |n| format!("tool {n}"));
             let all = applied.factors.iter();
             let of_rake = all.filter(|factor| factor.symbol == "K_gamma");
             words.extend(of_rake.map(|factor| format!("{tool}: factor {factor}")));
         }
-        Ok(applied)
+        Ok(CuttingTool {
+            number: cutter.number,
+            tool: cutter.tool,
+            law: Arc::new(applied.law),
+            spread: applied.spread,
+            max_chip_mm: cutter.max_chip_mm,
+            flute_length_mm: cutter.reach_mm,
+        })
     }
 }
 
-pub(super) fn material(
+pub(crate) fn material(
     files: &InputFiles,
     job: &JobFile,
     table: &MaterialTable,
@@ -55,8 +90,8 @@ pub(super) fn material(
         let (text, name) = read.text(files, job, "file of materials", file)?;
         known.with(Materials::read(&name, &text).map_err(Failure::input)?);
     }
-    let found = known.find(table.name.get_ref());
-    let found = found.map_err(|error| refused(job, &table.name, &error))?;
+    let wrong = |error: CutError| refused(job, &table.name, &error);
+    let found = known.find(table.name.get_ref()).map_err(wrong)?;
     let correction = Correction {
         process: table.process_factor,
         cutting_speed_m_per_min: table.cutting_speed_m_per_min,
@@ -66,23 +101,5 @@ pub(super) fn material(
         coolant: table.coolant,
         ..Correction::default()
     };
-    let applied = found
-        .for_milling(&correction)
-        .map_err(|error| refused(job, &table.name, &error))?;
-    let mut words = vec![
-        format!("material {}: {}", found.name, found.law.description()),
-        format!("source: {}", found.source),
-    ];
-    words.extend(found.assumptions.iter().cloned());
-    words.extend(applied.factors.iter().map(|f| format!("factor {f}")));
-    words.push(format!(
-        "the force may be {:.0} % more or less than stated",
-        100.0 * applied.spread
-    ));
-    Ok(MaterialSetup {
-        material: found.clone(),
-        correction,
-        name: table.name.clone(),
-        words,
-    })
+    MaterialSetup::new(found, correction).map_err(wrong)
 }

@@ -3,14 +3,14 @@
 //! Takes the tables; gives the question for [`kinetostat_machining::CutQuestion`] and what was assumed, in words.
 
 pub(crate) mod along;
-mod cutters;
+pub(crate) mod cutters;
 mod engagement;
 mod files_of_cut;
-mod material;
+pub(crate) mod material;
 mod measured;
-mod question;
-mod refused;
-mod stock;
+pub(crate) mod question;
+pub(crate) mod refused;
+pub(crate) mod stock;
 mod twice;
 
 pub(crate) use files_of_cut::FilesOfCut;

@@ -1,15 +1,13 @@
 //! What a job says about its cuts, as one question.
 
-use std::sync::Arc;
-
 use kinetostat_cutting::{Engagement, SpindleCurve, Tool};
-use kinetostat_machining::{CutQuestion, CuttingTool, Placement};
+use kinetostat_machining::{CutQuestion, EngagementSource, Placement};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
-use crate::job::cut::cutters::cutters;
+use crate::job::cut::cutters::{cutters, extremes};
 use crate::job::cut::engagement::engagement;
 use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::material::material;
@@ -22,6 +20,8 @@ use crate::ui::failure::Answer;
 
 /// The cuts of a job.
 pub(crate) struct CutSetup {
+    /// Name of the material.
+    pub(crate) material: String,
     pub(crate) question: CutQuestion,
     /// What was assumed, one sentence each.
     pub(crate) words: Vec<String>,
@@ -46,30 +46,34 @@ pub(crate) fn cut_setup(
     let mut read = FilesOfCut::default();
     let of_material = material(files, j, table.get_ref(), &mut read)?;
     let mut words = of_material.words.clone();
+    let cutters = cutters(files, j, flags, (&mut read, &mut words))?;
     let mut tools = Vec::new();
-    for (number, entry) in cutters(files, j, flags, (&mut read, &mut words))? {
-        let applied = of_material.for_tool(j, number, entry.rake_deg, &mut words)?;
-        tools.push(CuttingTool {
-            number,
-            tool: entry.tool,
-            law: Arc::new(applied.law),
-            spread: applied.spread,
-            max_chip_mm: entry.max_chip_mm,
-            flute_length_mm: entry.flute_length_mm.or(entry.stick_out_mm),
-        });
+    for cutter in &cutters {
+        let tool = of_material.for_tool(cutter, &mut words);
+        tools.push(tool.map_err(|error| refused(j, &table.get_ref().name, &error))?);
     }
-    let by_diameter = |a: &&Tool, b: &&Tool| a.diameter_mm().total_cmp(&b.diameter_mm());
-    let edges = || tools.iter().map(|tool| &tool.tool);
-    let (Some(smallest), Some(largest)) =
-        (edges().min_by(by_diameter), edges().max_by(by_diameter))
-    else {
+    let Some(extremes) = extremes(&cutters) else {
         return Err(j.error(
             table,
             "a material is named, and no tool has a cutter",
             "write cutter = { shape = \"flat\", diameter_mm = 6, teeth = 2, helix_deg = 30 } under [tool] (or under each of [[tools]]), or [cutters] file = \"tools.toml\"",
         ));
     };
-    let (source, source_words) = where_it_cuts((files, &mut read), j, table, (smallest, largest))?;
+    let source = where_it_cuts((files, &mut read), j, extremes)?;
+    let (source, source_words) = match source {
+        Some(source) => source,
+        // What was wrong with it has been said.
+        None if j.lacks("stock") || j.lacks("engagement") => {
+            (EngagementSource::Constant(Engagement::air()), String::new())
+        }
+        None => {
+            return Err(j.error(
+                table,
+                "it is not said where the tool is in the material",
+                "write [stock] block_mm = [[x, y, z], [x, y, z]], or [engagement] width_mm = ..., depth_mm = ..., part = \"right\"",
+            ));
+        }
+    };
     words.push(source_words);
     let spindle = j.job.spindle.as_ref().map(|s| s.get_ref().clone());
     let spindle = spindle.unwrap_or_default();
@@ -77,6 +81,7 @@ pub(crate) fn cut_setup(
     let choice = spindle.force.unwrap_or_default();
     words.push(format!("force that counts: {}", choice.description()));
     Ok(Some(CutSetup {
+        material: of_material.name().to_owned(),
         question: CutQuestion {
             tools,
             engagement: source,
@@ -151,43 +156,33 @@ fn no_material(j: &JobFile) -> Answer<()> {
     Ok(())
 }
 
-fn where_it_cuts(
+/// Where the tools are in the material, and it in words; `None` where the job does not say it.
+pub(crate) fn where_it_cuts(
     (files, read): (&InputFiles, &mut FilesOfCut),
     j: &JobFile,
-    table: &Spanned<MaterialTable>,
     (smallest, largest): (&Tool, &Tool),
-) -> Answer<(kinetostat_machining::EngagementSource, String)> {
+) -> Answer<Option<(EngagementSource, String)>> {
     match (&j.job.stock, &j.job.engagement) {
         (Some(table), None) => {
             let (stock, words) = stock(files, j, table, (smallest, largest), read)?;
-            let source = kinetostat_machining::EngagementSource::Stock(Box::new(stock));
-            Ok((source, words))
+            Ok(Some((EngagementSource::Stock(Box::new(stock)), words)))
         }
         (None, Some(table)) if smallest.diameter_mm() < largest.diameter_mm() => Err(j.error(
             table,
             "an engagement of some width is another for tools of different diameters",
             "give [stock], from which each tool has its own, or one program for each tool",
         )),
-        (None, Some(table)) => engagement(j, table, smallest),
+        (None, Some(table)) => engagement(j, table, smallest).map(Some),
         (Some(stock), Some(_)) => Err(j.error(
             stock,
             "the engagement is given twice: by a stock, and as stated",
             "keep [stock] or [engagement]",
         )),
-        // What was wrong with it has been said.
-        (None, None) if j.lacks("stock") || j.lacks("engagement") => Ok((
-            kinetostat_machining::EngagementSource::Constant(Engagement::air()),
-            String::new(),
-        )),
-        (None, None) => Err(j.error(
-            table,
-            "it is not said where the tool is in the material",
-            "write [stock] block_mm = [[x, y, z], [x, y, z]], or [engagement] width_mm = ..., depth_mm = ..., part = \"right\"",
-        )),
+        (None, None) => Ok(None),
     }
 }
 
-fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
+pub(crate) fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
     let Some(rpm) = &table.rpm else {
         return Ok(None);
     };
@@ -201,7 +196,7 @@ fn spindle_speed(j: &JobFile, table: &SpindleTable) -> Answer<Option<f64>> {
     }
 }
 
-fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
+pub(crate) fn curve(j: &JobFile, table: &SpindleTable) -> Answer<Option<SpindleCurve>> {
     let Some(power) = &table.power_w else {
         return match &j.job.spindle {
             Some(_) if j.lacks("power_w") => Ok(None),

@@ -7,7 +7,7 @@ use crate::job::job_file::JobFile;
 use crate::ui::failure::Failure;
 
 /// An error of the library where the job states what it is about; in a file of its own, it names that.
-pub(super) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Failure {
+pub(crate) fn refused<T>(job: &JobFile, at: &Spanned<T>, error: &CutError) -> Failure {
     if error.file.is_some() {
         return Failure::input(error);
     }

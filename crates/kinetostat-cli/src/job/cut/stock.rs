@@ -8,7 +8,7 @@ use crate::job::cut::files_of_cut::FilesOfCut;
 use crate::job::cut::refused::refused;
 use crate::job::cut_tables::StockTable;
 use crate::job::job_file::JobFile;
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{given, short};
 
 /// Largest cell, as a share of the tool's diameter: forces in coarser ones are off by percents and more.
@@ -17,44 +17,109 @@ const COARSEST: f64 = 0.1 + 1e-9;
 /// Smallest cell, as a share of the diameter of the largest tool: a rim of thousands of cells takes minutes and shows no more.
 const FINEST: f64 = 1e-3;
 
+/// What a fault of a stock's resolution is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum About {
+    Cell,
+    Memory,
+    Stock,
+}
+
+/// The resolution of a stock as it is asked for, and the names under which it is.
+pub(crate) struct Resolution<'a> {
+    pub(crate) cell_mm: Option<f64>,
+    pub(crate) memory_mb: Option<f64>,
+    /// Names of both where they are stated.
+    pub(crate) names: [&'static str; 2],
+    /// A fault where it stands: what it is about, what is wrong, what helps.
+    pub(crate) refuse: &'a dyn Fn(About, &str, &str) -> Failure,
+}
+
+impl Resolution<'_> {
+    /// The settings for tools from the smallest to the largest diameter.
+    pub(crate) fn settings(&self, (smallest, largest): (&Tool, &Tool)) -> Answer<StockSettings> {
+        let finest = FINEST * largest.diameter_mm();
+        let mut settings = match self.cell_mm {
+            Some(cell) if cell < finest => {
+                return Err((self.refuse)(
+                    About::Cell,
+                    &format!(
+                        "cells of {} mm are finer than a thousandth of the tool's diameter of {} mm",
+                        given(cell),
+                        short(largest.diameter_mm())
+                    ),
+                    &format!("write at least {}", given(finest)),
+                ));
+            }
+            Some(cell) => StockSettings::with_cell_mm(cell).map_err(|error| self.wrong(&error))?,
+            None => StockSettings::for_tool(smallest).coarser_if_needed(),
+        };
+        if let Some(mb) = self.memory_mb {
+            if !(1.0..=1e5).contains(&mb) {
+                return Err((self.refuse)(
+                    About::Memory,
+                    "1 to 100000 MB can be given to a stock",
+                    "correct the number",
+                ));
+            }
+            settings = settings.with_memory_bytes((1e6 * mb) as u64);
+        }
+        Ok(settings)
+    }
+
+    /// A stock that shows where these tools cut, with its resolution in words.
+    pub(crate) fn of_stock(&self, stock: &Stock, smallest: &Tool) -> Answer<String> {
+        let [cell, memory] = self.names;
+        if stock.cell_mm() > COARSEST * smallest.diameter_mm() {
+            return Err((self.refuse)(
+                About::Stock,
+                &format!(
+                    "cells of {} mm do not show where a tool of {} mm cuts: at most a tenth of its diameter does",
+                    given(stock.cell_mm()),
+                    short(smallest.diameter_mm())
+                ),
+                &format!("write a smaller {cell}, give more {memory}, or take a smaller stock"),
+            ));
+        }
+        let coarser = match stock.coarsened_from_mm() {
+            Some(asked) => format!(" ({} mm need more memory than {memory})", short(asked)),
+            None => String::new(),
+        };
+        Ok(format!(
+            "engagement from the stock, a height field of cells of {} mm{coarser}, in the coordinates of the program with its work offsets: no undercuts, tool along z of the part",
+            given(stock.cell_mm())
+        ))
+    }
+
+    fn wrong(&self, error: &CutError) -> Failure {
+        let what = format!("{}: {}", error.quantity, error.found);
+        (self.refuse)(About::Stock, &what, &format!("expected {}", error.expected))
+    }
+}
+
 /// The stock, and its resolution in words, for tools from the smallest to the largest diameter.
-pub(super) fn stock(
+pub(crate) fn stock(
     files: &InputFiles,
     job: &JobFile,
     table: &Spanned<StockTable>,
-    (smallest, largest): (&Tool, &Tool),
+    tools: (&Tool, &Tool),
     files_read: &mut FilesOfCut,
 ) -> Answer<(Stock, String)> {
     let wrong = |error: CutError| refused(job, table, &error);
     let t = table.get_ref();
-    let finest = FINEST * largest.diameter_mm();
-    if let Some(cell) = &t.cell_mm
-        && *cell.get_ref() < finest
-    {
-        return Err(job.error(
-            cell,
-            &format!(
-                "cells of {} mm are finer than a thousandth of the tool's diameter of {} mm",
-                given(*cell.get_ref()),
-                short(largest.diameter_mm())
-            ),
-            &format!("write at least {}", given(finest)),
-        ));
-    }
-    let mut settings = match &t.cell_mm {
-        Some(cell) => StockSettings::with_cell_mm(*cell.get_ref()).map_err(wrong)?,
-        None => StockSettings::for_tool(smallest).coarser_if_needed(),
+    let number = |value: &Option<Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
+    let refuse = |about: About, message: &str, help: &str| match (about, &t.cell_mm, &t.memory_mb) {
+        (About::Cell, Some(cell), _) => job.error(cell, message, help),
+        (About::Memory, _, Some(memory)) => job.error(memory, message, help),
+        _ => job.error(table, message, help),
     };
-    if let Some(mb) = &t.memory_mb {
-        if !(1.0..=1e5).contains(mb.get_ref()) {
-            return Err(job.error(
-                mb,
-                "1 to 100000 MB can be given to a stock",
-                "correct the number",
-            ));
-        }
-        settings = settings.with_memory_bytes((1e6 * mb.get_ref()) as u64);
-    }
+    let resolution = Resolution {
+        cell_mm: number(&t.cell_mm),
+        memory_mb: number(&t.memory_mb),
+        names: ["cell_mm", "memory_mb"],
+        refuse: &refuse,
+    };
+    let settings = resolution.settings(tools)?;
     let shapes = [
         t.block_mm.is_some(),
         t.cylinder.is_some(),
@@ -90,29 +155,11 @@ pub(super) fn stock(
         ));
     };
     let stock = stock.map_err(wrong)?;
-    let most = COARSEST * smallest.diameter_mm();
-    if stock.cell_mm() > most {
-        return Err(job.error(
-            table,
-            &format!(
-                "cells of {} mm do not show where a tool of {} mm cuts: at most a tenth of its diameter does",
-                given(stock.cell_mm()),
-                short(smallest.diameter_mm())
-            ),
-            "write a smaller cell_mm, give more memory_mb, or take a smaller stock",
-        ));
+    let mut words = resolution.of_stock(&stock, tools.0)?;
+    if t.stl.is_some() {
+        words.push_str(
+            "; walls of the mesh stand at points of the grid, up to a cell from where they are",
+        );
     }
-    let coarser = match stock.coarsened_from_mm() {
-        Some(asked) => format!(" ({} mm need more memory than memory_mb)", short(asked)),
-        None => String::new(),
-    };
-    let walls = match t.stl.is_some() {
-        true => "; walls of the mesh stand at points of the grid, up to a cell from where they are",
-        false => "",
-    };
-    let words = format!(
-        "engagement from the stock, a height field of cells of {} mm{coarser}, in the coordinates of the program with its work offsets: no undercuts, tool along z of the part{walls}",
-        given(stock.cell_mm())
-    );
     Ok((stock, words))
 }

@@ -108,8 +108,8 @@ fn the_change_goes_into_the_air() {
         compared += 1;
     }
     assert!(compared > 6, "{compared}");
-    // Nothing before the beginning: it comes over the first millimetres, over half of the way at most.
-    for (length, full_after) in [(100.0, 2.0), (1.0, 0.5)] {
+    // Nothing before the beginning: it comes over the first millimetres, over all of the way at most.
+    for (length, full_after) in [(100.0, 2.0), (2.5, 2.0), (1.0, 1.0)] {
         let whole = [(0.0, 40.0, true), (length, 40.0, true)];
         let found = limited_values(&whole, 20.0, true).expect("begins");
         let value = |place: f64| {

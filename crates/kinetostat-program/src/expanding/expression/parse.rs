@@ -130,7 +130,9 @@ impl<'l> Cursor<'l> {
         loop {
             match self.next() {
                 Some(b'>') if !name.is_empty() => return Ok(name),
-                Some(byte) if byte.is_ascii_graphic() && !matches!(byte, b'<' | b'(' | b'>') => {
+                Some(byte)
+                    if byte.is_ascii_graphic() && !matches!(byte, b'<' | b'(' | b')' | b'>') =>
+                {
                     name.push(char::from(byte.to_ascii_lowercase()));
                 }
                 _ => return Err(self.malformed("a name in < > is not closed or has no letters")),

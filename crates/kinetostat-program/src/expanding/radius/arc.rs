@@ -9,7 +9,7 @@ use crate::expanding::radius::meeting::{Circle, circles, line_and_circle, onto_a
 use crate::expanding::radius::pending::{Waiting, write};
 use crate::expanding::radius::piece::Shape;
 use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// An arc inside which the tool goes must be larger than the tool by this, in mm: equal radii differ by rounding.
 const LARGER_MM: f64 = 1e-9;

@@ -6,8 +6,8 @@ use crate::expanding::radius::geometry::{Point, Sense, Side};
 use crate::expanding::radius::pending::Pending;
 use crate::expanding::radius::piece::{Piece, Shape};
 use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::translate::cycle::Wrong;
-use crate::path::curve::{Curve, NO_LENGTH_MM};
+use crate::expanding::translate::wrong::Wrong;
+use crate::path::curve::Curve;
 use crate::path::moves::{FeedMode, Move, MoveKind};
 
 /// A programmed motion, in mm of the part frame.
@@ -140,38 +140,6 @@ impl Contour {
             at,
             normal: None,
             pending: Pending::default(),
-        }
-    }
-
-    /// The next motion of the contour.
-    pub fn go(
-        &mut self,
-        programmed: Programmed,
-        dress: Dress,
-        flat: &mut Flat<'_>,
-    ) -> Result<(), Trouble> {
-        let way = (programmed.to - self.at).norm();
-        let is_arc = matches!(programmed.shape, ProgrammedShape::Arc(_));
-        if way > 0.0 && way < NO_LENGTH_MM && !is_arc {
-            return Err(Trouble::Line((
-                format!("a move of {way:.1e} mm has no direction beyond rounding"),
-                "remove it",
-            )));
-        }
-        let Some(normal) = self.normal else {
-            self.enter(programmed, dress)?;
-            return Ok(());
-        };
-        match programmed.shape {
-            ProgrammedShape::Straight(code) if way == 0.0 => {
-                let piece = dress.last(Shape::Straight(code), self.tool_at(normal));
-                self.pending.stand(piece);
-                Ok(())
-            }
-            ProgrammedShape::Straight(code) => {
-                self.straight(programmed.to, code, normal, dress, flat)
-            }
-            ProgrammedShape::Arc(arc) => self.arc(programmed.to, arc, normal, dress, flat),
         }
     }
 

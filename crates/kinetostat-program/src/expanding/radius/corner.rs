@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::expanding::radius::geometry::{Point, Side};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// Corners flatter than this are none, in rad (LinuxCNC, `TOLERANCE_CONCAVE_CORNER`).
 const FLAT: f64 = 0.05;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::expanding::radius::geometry::Side;
 use crate::expanding::radius::words::{Switch, Words};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// A number this near to a whole one is one (LinuxCNC).
 const WHOLE: f64 = 1e-4;

@@ -6,7 +6,7 @@ use crate::expanding::radius::contour::{
 use crate::expanding::radius::geometry::{Point, Within, sweep};
 use crate::expanding::radius::pending::Waiting;
 use crate::expanding::radius::piece::Shape;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// An entry must be longer than the tool's radius by this, in mm: equal lengths differ by rounding.
 const LONGER_MM: f64 = 1e-9;

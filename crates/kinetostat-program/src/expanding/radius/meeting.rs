@@ -4,7 +4,7 @@
 //! the place that it reaches without leaving the free side.
 
 use crate::expanding::radius::geometry::{Point, Sense, Side, Within, left_of};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// A circle that is touched rather than crossed moves its meeting point by far more than the arithmetic errs; squared sine.
 const TOUCHING: f64 = 1e-6;

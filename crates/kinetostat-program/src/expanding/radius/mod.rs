@@ -6,7 +6,7 @@
 //! arithmetic. Like LinuxCNC it looks at neighbouring blocks only: a contour that meets itself further on is not seen.
 //!
 //! - `geometry`, `corner`, `meeting`: the plane's geometry, no state;
-//! - `contour`: the way of the centre, move by move, by `entry`, `straight`, `arc`;
+//! - `contour`: a contour and the tool beside it; `follow` leads it along by `entry`, `straight`, `arc`;
 //! - `pending`: the last motion, whose end the next corner may still move, and what came behind it;
 //! - `piece`: a motion as a block of the flat program;
 //! - `words`, `cutter`: which words a block may have, which radius they mean;
@@ -17,6 +17,7 @@ mod contour;
 mod corner;
 mod cutter;
 mod entry;
+mod follow;
 mod geometry;
 mod meeting;
 mod motion;

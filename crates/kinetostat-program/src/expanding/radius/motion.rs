@@ -6,7 +6,7 @@ use crate::expanding::flat::Flat;
 use crate::expanding::number::number;
 use crate::expanding::radius::contour::{Dress, arc_behind};
 use crate::expanding::translate::block::{MotionBlock, Polar};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::path::moves::Move;
 use crate::reading::interpret::Interpreter;
 use crate::text::lex::{Token, tokens_of};

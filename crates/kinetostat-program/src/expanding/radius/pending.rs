@@ -10,7 +10,7 @@ use crate::expanding::flat::Flat;
 use crate::expanding::radius::geometry::{Point, Sense, sweep};
 use crate::expanding::radius::piece::Piece;
 use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::reading::options::Units;
 
 /// What must be left of a straight move, in mm.

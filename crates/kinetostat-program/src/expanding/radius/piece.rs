@@ -3,7 +3,7 @@
 use crate::expanding::expanded::Origin;
 use crate::expanding::number::number;
 use crate::expanding::radius::geometry::{Point, Sense};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpret::Interpreter;
 
 /// Words are rounded here, in program units: far below what counts, above what the arithmetic leaves.

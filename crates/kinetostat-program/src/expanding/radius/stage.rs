@@ -15,7 +15,7 @@ use crate::expanding::radius::pending::write;
 use crate::expanding::radius::piece::Shape;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::radius::words::{Switch, Words, words};
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
 

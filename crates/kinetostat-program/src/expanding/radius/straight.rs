@@ -8,7 +8,7 @@ use crate::expanding::radius::meeting::{Circle, line_and_circle, lines, off_arc}
 use crate::expanding::radius::pending::{Waiting, write};
 use crate::expanding::radius::piece::Shape;
 use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 impl Contour {
     pub fn straight(

@@ -1,7 +1,7 @@
 //! What can be wrong with a compensated block.
 
 use crate::error::ProgramError;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 
 /// Why a block is refused.
 pub(crate) enum Trouble {

@@ -1,7 +1,7 @@
 //! The words of a block that have to do with cutter radius compensation, and which words may stand while it is on.
 
 use crate::expanding::radius::geometry::Side;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// G4, the moves, and modes that change nothing about the contour; in tenths.

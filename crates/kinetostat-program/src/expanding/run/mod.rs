@@ -2,8 +2,11 @@
 //!
 //! Takes statements; gives plain blocks to the flat program, one after the other, with the line of each.
 
+pub(crate) mod calls;
 pub(crate) mod control;
 pub(crate) mod frame;
+pub(crate) mod loops;
 pub(crate) mod parameters;
 pub(crate) mod runner;
 pub(crate) mod source;
+pub(crate) mod steps;

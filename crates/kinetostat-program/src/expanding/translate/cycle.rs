@@ -3,6 +3,7 @@
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
 use crate::expanding::translate::moves::Place;
+use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpret::Interpreter;
 
 /// Most repeats of a cycle.
@@ -21,9 +22,6 @@ pub(crate) struct Cycle {
     /// Depth coordinate before the first cycle of a row.
     initial: f64,
 }
-
-/// What is wrong, and what to do.
-pub(crate) type Wrong = (String, &'static str);
 
 fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
     Err((reason.into(), remedy))

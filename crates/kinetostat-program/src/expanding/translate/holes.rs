@@ -1,7 +1,7 @@
 //! The motions of one hole, from its retract level on.
 
 use crate::expanding::number::number;
-use crate::expanding::translate::cycle::Wrong;
+use crate::expanding::translate::wrong::Wrong;
 use crate::path::spindle::SpindleRotation;
 use crate::reading::interpret::Interpreter;
 

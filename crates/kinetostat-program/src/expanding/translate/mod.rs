@@ -8,3 +8,4 @@ pub(crate) mod cycle;
 pub(crate) mod holes;
 pub(crate) mod moves;
 pub(crate) mod polar;
+pub(crate) mod wrong;

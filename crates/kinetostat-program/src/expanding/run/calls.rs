@@ -1,0 +1,199 @@
+//! Subprograms: O words with `call`, M98 and M99, and their ends.
+
+use crate::error::ProgramError;
+use crate::expanding::expression::tree::Expression;
+use crate::expanding::run::frame::{Frame, LOCAL, Label, Opened};
+use crate::expanding::run::runner::{Next, Runner};
+use crate::expanding::run::source::Source;
+use crate::text::lex::{Token, tokens_of};
+
+impl Runner<'_> {
+    /// `O.. call`.
+    pub fn call(&mut self, label: Label, values: &[Expression]) -> Result<(), ProgramError> {
+        if values.len() > LOCAL {
+            return Err(self.refuse("a call takes at most 30 values", "give it fewer"));
+        }
+        let mut numbered = [0.0; LOCAL];
+        for (slot, value) in numbered.iter_mut().zip(values) {
+            *slot = self.value(value)?;
+        }
+        let (file, line) = self.find_sub(&label)?;
+        let mut frame = Frame::new(file, line + 1, Opened::Call);
+        frame.numbered = numbered;
+        self.open(frame)
+    }
+
+    /// Where a subprogram is: in the file that runs, in the program, in a file of its own.
+    pub fn find_sub(&mut self, label: &Label) -> Result<(usize, usize), ProgramError> {
+        let known = [self.frame().file, 0].into_iter();
+        let known = known.chain(0..self.sources.len());
+        let sub = |file: usize| Some((file, *self.sources[file].subs.get(label)?));
+        if let Some(found) = known.into_iter().find_map(sub) {
+            return Ok(found);
+        }
+        let name = match label {
+            Label::Name(name) => name.clone(),
+            Label::Number(number) => number.to_string(),
+        };
+        if let Some(bytes) = self.library.find(&name) {
+            let source = Source::new(name.clone(), bytes);
+            if let Some(line) = source.subs.get(label).copied() {
+                self.sources.push(source);
+                return Ok((self.sources.len() - 1, line));
+            }
+        }
+        Err(self.refuse(
+            &format!(
+                "there is no subprogram '{name}', neither in the program nor as a file '{name}.ngc'"
+            ),
+            "put the file into the folder of the program, or name the folder of the subprograms",
+        ))
+    }
+
+    /// `endsub`, `return`, with the value that they give.
+    pub fn close(&mut self, value: Option<&Expression>) -> Result<Next, ProgramError> {
+        let value = value.map(|of| self.value(of)).transpose()?;
+        if self.frame().opened != Opened::Call {
+            return Err(self.refuse(
+                "the end of a subprogram that was not called",
+                "call it, or take the line out",
+            ));
+        }
+        let named = &mut self.shared.named;
+        named.insert("_value".to_owned(), value.unwrap_or(0.0));
+        named.insert(
+            "_value_returned".to_owned(),
+            f64::from(u8::from(value.is_some())),
+        );
+        self.frames.pop();
+        Ok(Next::Line)
+    }
+
+    /// Runs on where the file of a subprogram, or the program, ends.
+    pub fn end_of_file(&mut self) -> Result<Next, ProgramError> {
+        match self.frame().opened {
+            Opened::Program => Ok(Next::End),
+            Opened::Call => Err(self.refuse("a subprogram does not end", "write its endsub")),
+            Opened::Repeated(_) => self.return_from_m98(),
+        }
+    }
+
+    pub fn program_number(&mut self, number: u32) -> Result<Next, ProgramError> {
+        let line = self.running();
+        let frame = self.frame();
+        let is_first = self.sources[frame.file].programs.get(&number) == Some(&line)
+            && self.sources[frame.file].programs.values().min() == Some(&line);
+        match (frame.opened, is_first || frame.first == line) {
+            (_, true) => Ok(Next::Line),
+            (Opened::Program, false) => Ok(Next::End),
+            (Opened::Repeated(_) | Opened::Call, false) => self.return_from_m98(),
+        }
+    }
+
+    /// M98 and M99 of a block of plain words.
+    pub fn called(&mut self, text: &[u8]) -> Result<Option<Next>, ProgramError> {
+        if !text.contains(&b'9') {
+            return Ok(None);
+        }
+        let mut tokens = Vec::new();
+        tokens_of(text, &mut tokens);
+        let word = |wanted: u8| {
+            tokens.iter().find_map(|spanned| match spanned.token {
+                Token::Word { letter, value, .. } if letter == wanted => Some(value),
+                _ => None,
+            })
+        };
+        let is_m = |code: f64| {
+            tokens.iter().any(|spanned| {
+                matches!(spanned.token, Token::Word { letter: b'M', value, .. } if value == code)
+            })
+        };
+        if is_m(99.0) {
+            return self.return_from_m98().map(Some);
+        }
+        if !is_m(98.0) {
+            return Ok(None);
+        }
+        let Some(number) = word(b'P').filter(|p| p.fract() == 0.0 && (0.0..1e9).contains(p)) else {
+            return Err(self.refuse(
+                "M98 calls no subprogram",
+                "write its number as P, as in M98 P1000",
+            ));
+        };
+        let (mut number, mut times) = (number as u32, word(b'L'));
+        // P00031000 is three times O1000.
+        if number > 9999 && times.is_none() {
+            (number, times) = (number % 10_000, Some(f64::from(number / 10_000)));
+        }
+        let times = times.unwrap_or(1.0);
+        if times.fract() != 0.0 || !(0.0..1e6).contains(&times) {
+            return Err(self.refuse("M98 is repeated a whole number of times (L)", "correct L"));
+        }
+        if times >= 1.0 {
+            let (file, line) = self.find_program(number)?;
+            let again = Opened::Repeated(times as u32 - 1);
+            self.open(Frame {
+                numbered: self.frame().numbered,
+                named: self.frame().named.clone(),
+                ..Frame::new(file, line, again)
+            })?;
+        }
+        Ok(Some(Next::Line))
+    }
+
+    pub fn find_program(&mut self, number: u32) -> Result<(usize, usize), ProgramError> {
+        let known = [self.frame().file, 0]
+            .into_iter()
+            .chain(0..self.sources.len());
+        let of = |file: usize| Some((file, *self.sources[file].programs.get(&number)?));
+        if let Some(found) = known.into_iter().find_map(of) {
+            return Ok(found);
+        }
+        for name in [
+            format!("{number}"),
+            format!("{number:04}"),
+            format!("O{number:04}"),
+        ] {
+            if let Some(bytes) = self.library.find(&name) {
+                let source = Source::new(name, bytes);
+                let line = source.programs.get(&number).copied().unwrap_or(0);
+                self.sources.push(source);
+                return Ok((self.sources.len() - 1, line));
+            }
+        }
+        Err(self.refuse(
+            &format!("there is no subprogram O{number}, neither in the program nor as a file '{number:04}.ngc'"),
+            "put the file into the folder of the program, or name the folder of the subprograms",
+        ))
+    }
+
+    /// M99: once more, or back behind the call. In the program itself it starts again for ever: it is run once.
+    pub fn return_from_m98(&mut self) -> Result<Next, ProgramError> {
+        let frame = self.frame();
+        match frame.opened {
+            Opened::Program => Ok(Next::End),
+            Opened::Call => Err(self.refuse(
+                "M99 ends a subprogram that an O word has called",
+                "end it with endsub",
+            )),
+            Opened::Repeated(left) => {
+                let numbered = frame.numbered;
+                let first = frame.first;
+                match left.checked_sub(1) {
+                    Some(left) => {
+                        let frame = self.frame_mut();
+                        (frame.opened, frame.next) = (Opened::Repeated(left), first);
+                        frame.loops.clear();
+                    }
+                    None => {
+                        let named = self.frames.pop().map(|frame| frame.named);
+                        let frame = self.frame_mut();
+                        frame.numbered = numbered;
+                        frame.named = named.unwrap_or_default();
+                    }
+                }
+                Ok(Next::Line)
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Runs a program line by line.
+
+use crate::error::ProgramError;
+use crate::expanding::number::number;
+use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::run::runner::{Next, Runner};
+use crate::expanding::source::statement::{Piece, Statement};
+use crate::expanding::translate::block::{MotionBlock, Polar};
+use crate::expanding::translate::cycle::{cycle, is_cycle};
+use crate::reading::options::BlockDelete;
+
+/// Lines that are run for each flat block that is allowed: loops that only count are not endless.
+const LINES_PER_BLOCK: usize = 20;
+
+impl Runner<'_> {
+    /// Runs to the end of the program.
+    pub fn run(&mut self) -> Result<(), ProgramError> {
+        loop {
+            let frame = self.frame();
+            let (file, index) = (frame.file, frame.next);
+            if index >= self.sources[file].lines.len() {
+                match self.end_of_file()? {
+                    Next::Line => continue,
+                    Next::End => return self.end(),
+                }
+            }
+            self.steps += 1;
+            if self.steps > LINES_PER_BLOCK * self.options.most_blocks {
+                return Err(self.refuse(
+                    "the program does not end: its loops run on and on",
+                    "check the conditions of its loops, or allow more blocks",
+                ));
+            }
+            self.frame_mut().next = index + 1;
+            if let Next::End = self.step(file, index)? {
+                return self.end();
+            }
+        }
+    }
+
+    fn end(&self) -> Result<(), ProgramError> {
+        let ended = self.radius.finish();
+        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
+    }
+
+    fn step(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
+        if let Some(fault) = self.sources[file]
+            .faults
+            .iter()
+            .find(|f| f.line == index + 1)
+        {
+            let (reason, at) = (fault.reason.clone(), fault.at);
+            let mut error = self.refuse(&reason, "write it as LinuxCNC or Fanuc have it");
+            error.span = at..error.span.end.max(at);
+            return Err(error);
+        }
+        let line = &self.sources[file].lines[index];
+        if line.block_delete && self.options.reading.block_delete == BlockDelete::Skip {
+            return Ok(Next::Line);
+        }
+        match line.statement.clone() {
+            Statement::Plain => self.plain(file, index),
+            Statement::Block(pieces) => self.block(&pieces, file, index),
+            control => self.control(control),
+        }
+    }
+
+    fn plain(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
+        let text = self.sources[file].text(index).to_vec();
+        self.emit(&text, Polar::default())
+    }
+
+    /// Words with values, then the assignments of the line.
+    fn block(&mut self, pieces: &[Piece], file: usize, index: usize) -> Result<Next, ProgramError> {
+        let mut text = Vec::new();
+        let mut polar = Polar::default();
+        let mut assignments = Vec::new();
+        for piece in pieces {
+            match piece {
+                Piece::Text(range) => {
+                    text.extend_from_slice(&self.sources[file].text(index)[range.clone()]);
+                }
+                Piece::Word(letter, of, _) => {
+                    let value = self.value(of)?;
+                    match letter {
+                        b'@' => polar.radius = Some(value),
+                        b'^' => polar.angle_deg = Some(value),
+                        letter => {
+                            text.push(*letter);
+                            text.extend_from_slice(number(value).as_bytes());
+                        }
+                    }
+                }
+                Piece::Assignment(to, of) => {
+                    let value = self.value(of)?;
+                    assignments.push((to, self.number_of(to)?, value));
+                }
+            }
+        }
+        let text = match assignments.is_empty() {
+            true => text.trim_ascii_end(),
+            false => text.trim_ascii(),
+        };
+        for (to, number, value) in assignments {
+            self.assign(to, number, value)?;
+        }
+        match !text.trim_ascii().is_empty() || polar.is_there() {
+            true => self.emit(text, polar),
+            false => Ok(Next::Line),
+        }
+    }
+
+    /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
+    fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
+        if let Some(next) = self.called(text)? {
+            return Ok(next);
+        }
+        let block = MotionBlock::of(text, polar);
+        let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
+        let code = match (block.motion, self.cycle) {
+            (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
+            (None, Some(cycle)) if goes_on => Some(cycle.code),
+            (None, _) => None,
+        };
+        match code {
+            Some(code) => self.cycle(code, &block)?,
+            None => {
+                if block.motion.is_some() {
+                    self.cycle = None;
+                }
+                match polar.is_there() {
+                    true => self.polar(&block)?,
+                    false => self.add(text)?,
+                }
+            }
+        }
+        self.after_block()
+    }
+
+    fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+        let origin = self.origin();
+        self.flat
+            .name_file(origin.file, &self.sources[origin.file].name);
+        let added = self.radius.block(text, origin, &mut self.flat);
+        added.map_err(|trouble| match trouble {
+            Trouble::Block(error) => error,
+            Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
+        })
+    }
+
+    /// What is no motion of a block that is translated.
+    fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
+        match words.trim_ascii() {
+            [] => Ok(()),
+            words => self.add(words),
+        }
+    }
+
+    fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
+        if let Some((reason, remedy)) = self.radius.refuses_cycles() {
+            return Err(self.refuse(&reason, remedy));
+        }
+        self.add_rest(&block.before)?;
+        let made = cycle(code, block, self.cycle, &self.flat.interpreter);
+        let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        for text in texts {
+            self.add(text.as_bytes())?;
+        }
+        self.cycle = Some(cycle);
+        self.add_rest(&block.after)
+    }
+
+    /// A straight move or an arc whose end is given by a radius and an angle.
+    fn polar(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        let remedy = "write the place with X and Y";
+        if block.value(b'X').or(block.value(b'Y')).is_some() {
+            return Err(self.refuse("X or Y beside polar words", remedy));
+        }
+        self.add_rest(&block.before)?;
+        let state = self.radius.interpreter(&self.flat);
+        let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
+            (Ok(x), Ok(y)) => (x, y),
+            (Err(reason), _) | (_, Err(reason)) => {
+                return Err(self.refuse(&reason, "state X and Y before polar words"));
+            }
+        };
+        let incremental = state.is_incremental();
+        let end = block.polar.place([x, y], incremental);
+        let end = end.map_err(|reason| self.refuse(reason, remedy))?;
+        let words = match incremental {
+            true => [end[0] - x, end[1] - y],
+            false => end,
+        };
+        let mut text = block.motion_words();
+        text.push_str(&format!("X{} Y{}", number(words[0]), number(words[1])));
+        text.push_str(&block.other_words());
+        self.add(text.as_bytes())?;
+        self.add_rest(&block.after)
+    }
+
+    fn after_block(&self) -> Result<Next, ProgramError> {
+        match self.flat.interpreter.has_ended() {
+            true => Ok(Next::End),
+            false => Ok(Next::Line),
+        }
+    }
+}

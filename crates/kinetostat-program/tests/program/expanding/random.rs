@@ -1,0 +1,160 @@
+//! Random programs with macros: whatever they are, they are expanded or refused with a line, at once; what is expanded is plain.
+
+use kinetostat_program::{ExpandOptions, NoSubprograms, expand, interpret};
+
+/// Pieces of programs: what belongs together stands in one.
+const PIECES: &[&str] = &[
+    "G21 G90\nG0 X0 Y0 Z5\n",
+    "G20\n",
+    "G91\n",
+    "G90\n",
+    "G98 ",
+    "G99 ",
+    "F100 ",
+    "M3 S1000\n",
+    "G80\n",
+    "G17\n",
+    "G18\n",
+    "G0 X#1 Y[#2+1]\n",
+    "G1 X[SIN[#1]*10] F100\n",
+    "X[#3]\n",
+    "#1=3\n",
+    "#2=[#1*2-1] ",
+    "#<a>=#1\n",
+    "#<_b>=[#<a>+1]\n",
+    "#[#1+30]=2\n",
+    "##1=5\n",
+    "O1 sub\nX#1\nO1 endsub\n",
+    "O1 call [1] [#2]\n",
+    "O1 sub\n",
+    "O1 endsub [3]\n",
+    "O1 return [#1]\n",
+    "O2 while [#1 GT 0]\n#1=[#1-1]\n",
+    "O2 endwhile\n",
+    "O3 if [#1 EQ 3]\n",
+    "O3 elseif [1]\n",
+    "O3 else\n",
+    "O3 endif\n",
+    "O4 do\n",
+    "O4 while [#1 LT 2]\n",
+    "O5 repeat [#1]\n",
+    "O5 endrepeat\n",
+    "O2 break\n",
+    "O4 continue\n",
+    "O<x> call\n",
+    "M98 P7 L2\n",
+    "O7\nX1\nM99\n",
+    "M99\n",
+    "M30\n",
+    "M2\n",
+    "%\n",
+    "N5 X2\n",
+    "GOTO 5\n",
+    "IF [#1 LT 3] GOTO 5\n",
+    "IF [1] THEN #1=2\n",
+    "WHILE [#1 GT 0] DO1\n#1=[#1-1]\n",
+    "END1\n",
+    "G81 X1 Z-3 R1\n",
+    "G83 X2 Z-3 R1 Q1\n",
+    "G73 Z-2 R1 Q0.5\n",
+    "X3 Y4\n",
+    "L3 ",
+    "G85 ",
+    "G89 P1 Z-1 R1\n",
+    "G87 I1 J0 K-1 Z-2 R1\n",
+    "@3 ^30\n",
+    "^60 ",
+    "@[#1]\n",
+    "G2 X1 Y1 I1 J0\n",
+    "(comment #1)\n",
+    "; [ #\n",
+    "/ X1\n",
+    "[",
+    "]",
+    "#",
+    "1 / 0",
+    "ATAN[1]/[0]",
+    "**",
+    "EXISTS[#<a>]",
+    "\n",
+    " ",
+    "G92 X0\n",
+    "G55\n",
+    "T1 M6\n",
+    "G4 P1\n",
+    "X-#1\n",
+    "X--#1\n",
+    "XSIN[30]\n",
+    "O",
+    "O[#1] call\n",
+    "#0=1\n",
+    "#5420=1\n",
+    "1e9",
+    ".",
+    "-",
+];
+
+/// A program of a seed.
+fn program(seed: u64) -> String {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as usize % below
+    };
+    let count = 1 + next(24);
+    let mut text = String::new();
+    if next(3) > 0 {
+        text.push_str(PIECES[0]);
+    }
+    for _ in 0..count {
+        text.push_str(PIECES[next(PIECES.len())]);
+    }
+    // A byte is lost, or comes twice.
+    if next(4) == 0 {
+        let at = next(text.len());
+        if text.is_char_boundary(at) && text.is_char_boundary(at + 1) {
+            match next(2) {
+                0 => drop(text.remove(at)),
+                _ => {
+                    let twice = text[at..=at].to_owned();
+                    text.insert_str(at, &twice);
+                }
+            }
+        }
+    }
+    text
+}
+
+/// Whether the program of a seed was expanded; an error says what was promised and is not kept.
+pub fn check(seed: u64) -> Result<bool, String> {
+    let text = program(seed);
+    let mut options = ExpandOptions::default();
+    options.most_blocks = 500;
+    let lines = text.lines().count().max(1);
+    let expanded = match expand(text.as_str(), &options, &NoSubprograms) {
+        Err(error) if error.line >= 1 && error.line <= lines && !error.reason.is_empty() => {
+            return Ok(false);
+        }
+        Err(error) => return Err(format!("seed {seed}: line {}: {error}\n{text}", error.line)),
+        Ok(expanded) => expanded,
+    };
+    let flat = expanded.program.bytes().to_vec();
+    let path = interpret(&expanded.program, &options.reading);
+    if path.as_ref() != Ok(&expanded.path) {
+        return Err(format!("seed {seed}: another path: {path:?}\n{text}"));
+    }
+    if expanded.origins.len() != expanded.program.line_count() {
+        return Err(format!("seed {seed}: lines without an origin\n{text}"));
+    }
+    let again = expand(flat.clone(), &options, &NoSubprograms);
+    match again {
+        Ok(again) if again.program.bytes() == flat => Ok(true),
+        other => Err(format!(
+            "seed {seed}: the flat program is not plain: {:?}\n{text}\n---\n{}",
+            other.map(|e| String::from_utf8_lossy(e.program.bytes()).into_owned()),
+            String::from_utf8_lossy(&flat)
+        )),
+    }
+}
