@@ -101,6 +101,44 @@ class Contours:
         if before != self.at:
             self.heading = math.atan2(self.at[1] - before[1], self.at[0] - before[0])
 
+    def polar(self):
+        """A straight move by radius and angle about the origin."""
+        r = self.r
+        radius, angle = math.hypot(*self.at), math.degrees(math.atan2(self.at[1], self.at[0]))
+        if radius < 3 * self.scale:
+            return self.straight()
+        words = "G1"
+        if r.random() < 0.7:
+            more = self.rounded(r.uniform(-10, 30) * self.scale)
+            words += f" @{self.number(more if self.incremental else self.rounded(radius + more))}"
+            radius = radius + more if self.incremental else self.rounded(radius + more)
+        if words == "G1" or r.random() < 0.5:
+            more = round(r.uniform(-60, 60), 3)
+            words += f" ^{more if self.incremental else round(angle + more, 3):.3f}"
+            angle = angle + more if self.incremental else round(angle + more, 3)
+        if radius <= 0:
+            return self.straight()
+        before = list(self.at)
+        self.at = [radius * math.cos(math.radians(angle)), radius * math.sin(math.radians(angle))]
+        self.lines.append(words + self.tail())
+        self.heading = math.atan2(self.at[1] - before[1], self.at[0] - before[0])
+
+    def loop(self):
+        """A row of equal steps in a loop, by increments."""
+        r = self.r
+        if self.incremental:
+            return self.straight()
+        way = [self.rounded(r.uniform(2, 12) * self.scale * c) for c in (math.cos(self.heading), math.sin(self.heading))]
+        other = [self.rounded(r.uniform(2, 12) * self.scale * c) for c in (math.cos(self.heading - 1), math.sin(self.heading + 1))]
+        times = r.randrange(1, 4)
+        number = len(self.lines) + 100
+        self.lines += ["G91", f"O{number} repeat [{times}]"]
+        self.lines += [f"G1 X{self.number(step[0])} Y{self.number(step[1])}" for step in (way, other)]
+        self.lines += [f"O{number} endrepeat", "G90"]
+        self.at = [self.at[axis] + times * (way[axis] + other[axis]) for axis in range(2)]
+        # The place is known but for its last digits; it is stated anew.
+        self.straight("G1")
+
     def arc(self):
         r = self.r
         sense = r.choice([1, -1])
@@ -184,10 +222,13 @@ class Contours:
             if r.random() < 0.2:
                 self.between()
             self.heading += self.turn()
-            if r.random() < 0.6:
+            kind = r.random()
+            if kind < 0.55:
                 self.straight()
-            else:
+            elif kind < 0.94:
                 self.arc()
+            else:
+                (self.polar if kind < 0.97 else self.loop)()
         if r.random() < 0.95:
             if r.random() < 0.5:
                 self.lines.append("G40")

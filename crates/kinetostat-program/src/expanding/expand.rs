@@ -20,8 +20,24 @@ use crate::expanding::run::source::Subprograms;
 /// # Ok::<(), kinetostat_program::ProgramError>(())
 /// ```
 ///
+/// Cutter radius compensation becomes the way of the tool's centre, by the rules of LinuxCNC: outside corners are rounded, inside
+/// corners end where the tool touches both sides. The tool's diameter is one of [`ExpandOptions::tool_diameters_mm`], or stands
+/// in the program (G41.1, G42.1). Neighbouring blocks are looked at, not a contour that meets itself further on.
+///
+/// ```
+/// use kinetostat_program::{ExpandOptions, NoSubprograms, expand};
+///
+/// let mut options = ExpandOptions::default();
+/// options.tool_diameters_mm.insert(3, 6.0);
+/// let text = "G21 G90 F200\nG0 X0 Y-20 Z0\nG41 D3\nG1 X0 Y0\nY40\nX30\nG40\nG0 Z5\nM2\n";
+/// let flat = expand(text, &options, &NoSubprograms)?;
+/// let blocks = "G21 G90 F200\nG0 X0 Y-20 Z0\nG1 X-3 Y0\nG1 Y40\nG2 X0 Y43 I3 J0\nG1 X30\nG0 Y40 Z5\nM2\n";
+/// assert_eq!(flat.program.bytes(), blocks.as_bytes());
+/// # Ok::<(), kinetostat_program::ProgramError>(())
+/// ```
+///
 /// # Errors
-/// The first line that is not followed, or that makes a block that [`crate::interpret`] refuses; a program that does not end.
+/// The first line that is not followed, or that makes a block that [`crate::interpret`] refuses; a program that does not end; a contour that the tool cannot follow.
 pub fn expand(
     bytes: impl Into<Vec<u8>>,
     options: &ExpandOptions,

@@ -81,6 +81,16 @@ const PIECES: &[&str] = &[
     "G92 X0\n",
     "G55\n",
     "T1 M6\n",
+    "G41\n",
+    "G42 D1 ",
+    "G41.1 D0.5\n",
+    "G42.1 D-3 ",
+    "G40\n",
+    "G40 G1 X-5 Y#2\n",
+    "G1 X10 Y5\n",
+    "G1 X20 Y5\nX20 Y12 (up)\nG3 X10 Y22 I-10 J0\n",
+    "G0 Z#1\n",
+    "M1\n",
     "G4 P1\n",
     "X-#1\n",
     "X--#1\n",
@@ -132,6 +142,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let text = program(seed);
     let mut options = ExpandOptions::default();
     options.most_blocks = 500;
+    options.tool_diameters_mm.insert(1, 1.5);
     let lines = text.lines().count().max(1);
     let expanded = match expand(text.as_str(), &options, &NoSubprograms) {
         Err(error) if error.line >= 1 && error.line <= lines && !error.reason.is_empty() => {
