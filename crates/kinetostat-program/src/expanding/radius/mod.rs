@@ -10,9 +10,11 @@
 //! - `pending`: the last motion, whose end the next corner may still move, and what came behind it;
 //! - `piece`: a motion as a block of the flat program;
 //! - `words`, `cutter`: which words a block may have, which radius they mean;
-//! - `stage`: on, off, and between G40 and the next move.
+//! - `stage`: on, off, and between G40 and the next move, by `begin` and `blocks`.
 
 mod arc;
+mod begin;
+mod blocks;
 mod contour;
 mod corner;
 mod cutter;

@@ -113,6 +113,9 @@ pub(crate) fn write(piece: &Piece, flat: &mut Flat<'_>) -> Result<(), Trouble> {
 }
 
 /// Whether something of a motion is left that ends at a place, and no more than was programmed.
+///
+/// LinuxCNC looks only where an inside corner or a straight move follows; here it is looked at before every next motion. It also
+/// wants the radius of a shortened arc to stay within 0.01: the ends come from the arc's own circle here, so that it does.
 fn check(along: Waiting, end: Point, units: Option<Units>) -> Result<(), Wrong> {
     let too_short = || {
         (

@@ -7,14 +7,12 @@
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::options::ExpandOptions;
-use crate::expanding::radius::contour::{Contour, Programmed};
-use crate::expanding::radius::cutter::{InSpindle, side_and_radius};
-use crate::expanding::radius::geometry::Point;
-use crate::expanding::radius::motion::{Motion, no_motion};
-use crate::expanding::radius::pending::write;
-use crate::expanding::radius::piece::Shape;
+use crate::expanding::radius::begin::begin;
+use crate::expanding::radius::blocks::{Block, First, Next, behind, within};
+use crate::expanding::radius::contour::Contour;
+use crate::expanding::radius::cutter::InSpindle;
 use crate::expanding::radius::trouble::Trouble;
-use crate::expanding::radius::words::{Switch, Words, words};
+use crate::expanding::radius::words::{Switch, Words, asks_behind, words};
 use crate::expanding::translate::wrong::Wrong;
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
@@ -126,37 +124,19 @@ impl<'o> Radius<'o> {
                 "write G40 and a move before it is put on again",
             )));
         }
-        let state = self.interpreter(flat);
-        if state.plane_axes() != [0, 1, 2] {
-            return Err(Trouble::Line((
-                "cutter radius compensation outside the plane XY is not followed".to_owned(),
-                "write G17, or let the CAM system write the centre line of the tool",
-            )));
-        }
-        let unit = state.units().map(Units::mm_per_unit);
-        let places = [0, 1].map(|axis| state.place_mm(axis));
-        let (Some(unit), [Some(x), Some(y)]) = (unit, places) else {
-            return Err(Trouble::Line((
-                "where the tool is before cutter radius compensation is not known".to_owned(),
-                "state units, X and Y before it",
-            )));
-        };
-        let diameters = &self.options.tool_diameters_mm;
-        let Some((side, radius)) = side_and_radius(switch, self.spindle, diameters, unit)? else {
-            return Ok(());
-        };
         let begins_beside = matches!(self.state, State::Beside);
-        if radius == 0.0 {
-            if begins_beside {
-                return Err(Trouble::Line(asks_behind()));
+        let diameters = &self.options.tool_diameters_mm;
+        let begun = begin(switch, self.spindle, diameters, self.interpreter(flat))?;
+        self.state = match begun {
+            Some(contour) => {
+                self.programmed.get_or_insert_with(|| flat.following());
+                State::On {
+                    contour,
+                    begins_beside,
+                }
             }
-            self.state = State::Without;
-            return Ok(());
-        }
-        self.programmed.get_or_insert_with(|| flat.following());
-        self.state = State::On {
-            contour: Contour::new(side, radius, Point::new(x, y)),
-            begins_beside,
+            None if begins_beside => return Err(Trouble::Line(asks_behind())),
+            None => State::Without,
         };
         Ok(())
     }
@@ -189,6 +169,11 @@ impl<'o> Radius<'o> {
         origin: Origin,
         flat: &mut Flat<'o>,
     ) -> Result<(), Trouble> {
+        let block = Block {
+            text,
+            words,
+            origin,
+        };
         match (&mut self.state, &mut self.programmed) {
             (
                 State::On {
@@ -197,32 +182,22 @@ impl<'o> Radius<'o> {
                 },
                 Some(programmed),
             ) => {
-                words.check_within()?;
-                let Some(motion) = Motion::of(text, &programmed.interpreter) else {
-                    programmed.add(text, origin)?;
-                    if words.stops() {
-                        contour.settle(flat)?;
-                    }
-                    return contour.words(text, origin, flat);
+                let first = match *begins_beside && !contour.has_begun() {
+                    true => First::Straight,
+                    false => First::Any,
                 };
-                let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
-                if !motion.before.is_empty() {
-                    contour.words(&motion.before, origin, flat)?;
+                within(block, contour, first, programmed, flat)
+            }
+            (State::Beside, programmed) => {
+                if words.changes_tool() {
+                    *programmed = None;
                 }
-                let now = Programmed::of(&made)?;
-                if *begins_beside && !contour.has_begun() {
-                    now.straight_only()?;
-                }
-                let after = motion.after.clone();
-                contour.go(now, motion.dress(&made, origin), flat)?;
-                if !after.is_empty() {
-                    contour.settle(flat)?;
-                    programmed.add(&after, origin)?;
-                    flat.add(&after, origin)?;
+                if let Next::Together = behind(block, programmed.as_mut(), flat)? {
+                    self.state = State::Off;
+                    self.programmed = None;
                 }
                 Ok(())
             }
-            (State::Beside, _) => self.come_back(text, words, origin, flat),
             (State::Without, _) => {
                 words.check_within()?;
                 flat.add(text, origin).map_err(Trouble::from)
@@ -230,52 +205,4 @@ impl<'o> Radius<'o> {
             _ => flat.add(text, origin).map_err(Trouble::from),
         }
     }
-
-    /// A block behind G40.
-    fn come_back(
-        &mut self,
-        text: &[u8],
-        words: &Words,
-        origin: Origin,
-        flat: &mut Flat<'o>,
-    ) -> Result<(), Trouble> {
-        if words.changes_tool() {
-            self.programmed = None;
-        }
-        let Some(programmed) = &mut self.programmed else {
-            if let Some(motion) = Motion::of(text, &flat.interpreter) {
-                motion.refuse_arc()?;
-                self.state = State::Off;
-            }
-            return flat.add(text, origin).map_err(Trouble::from);
-        };
-        words.check_behind()?;
-        let Some(motion) = Motion::of(text, &programmed.interpreter) else {
-            programmed.add(text, origin)?;
-            return flat.add(text, origin).map_err(Trouble::from);
-        };
-        let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
-        if !motion.before.is_empty() {
-            flat.add(&motion.before, origin)?;
-        }
-        let code = Programmed::of(&made)?.straight_only()?;
-        let after = motion.after.clone();
-        let dress = motion.dress(&made, origin);
-        write(&dress.last(Shape::Straight(code), made.end.xy()), flat)?;
-        if !after.is_empty() {
-            flat.add(&after, origin)?;
-        }
-        self.state = State::Off;
-        self.programmed = None;
-        Ok(())
-    }
-}
-
-/// What asks for the place of the tool behind G40.
-fn asks_behind() -> Wrong {
-    (
-        "behind G40 the tool is beside the place that the program counts from, until it moves"
-            .to_owned(),
-        "move with G0 or G1 and X, Y first",
-    )
 }

@@ -28,15 +28,15 @@ impl Contour {
             _ => Reversal::Outside,
         };
         let before = self.side.direction(normal);
-        let from = match corner(before, direction, self.side, reversal)? {
+        let kind = corner(before, direction, self.side, reversal)?;
+        let from = match kind {
             Corner::Inside => self.inside_straight(direction, [normal, next])?,
             Corner::Outside | Corner::Flat => self.tool_at(normal),
         };
-        let is_outside = corner(before, direction, self.side, reversal)? == Corner::Outside;
         self.pending.end_at(from, flat)?;
-        let from = match is_outside {
-            false => from,
-            true => {
+        let from = match kind {
+            Corner::Inside | Corner::Flat => from,
+            Corner::Outside => {
                 let beside = self.tool_at(next);
                 let shape = match code {
                     // No arc is rapid: the tool cuts the corner straight.

@@ -178,11 +178,17 @@ impl Words {
     pub fn check_behind(&self) -> Result<(), Wrong> {
         let asks = self.g.iter().any(|code| ASKING.contains(code)) || self.has_other_axes;
         match asks {
-            true => Err((
-                "behind G40 the tool is beside the place that the program counts from, until it moves".to_owned(),
-                "move with G0 or G1 and X, Y first",
-            )),
+            true => Err(asks_behind()),
             false => Ok(()),
         }
     }
+}
+
+/// What asks for the place of the tool behind G40.
+pub(crate) fn asks_behind() -> Wrong {
+    (
+        "behind G40 the tool is beside the place that the program counts from, until it moves"
+            .to_owned(),
+        "move with G0 or G1 and X, Y first",
+    )
 }
