@@ -16,7 +16,7 @@ const LONGER_MM: f64 = 1e-9;
 const LEAST_COSINE: f64 = 1e-4;
 
 /// Radius of an entry arc by that cosine, mm: beyond it rounding moves the centre by more than the last digits.
-const LARGEST_BY_COSINE_MM: f64 = 1e5;
+const LARGEST_BY_COSINE_MM: f64 = 1e4;
 
 impl Contour {
     pub fn enter(&mut self, programmed: Programmed, dress: Dress) -> Result<(), Wrong> {

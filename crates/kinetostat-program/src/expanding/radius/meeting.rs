@@ -7,7 +7,7 @@ use crate::expanding::radius::geometry::{Point, Sense, Side, Within, left_of};
 use crate::expanding::translate::wrong::Wrong;
 
 /// A circle that is touched rather than crossed moves its meeting point by far more than the arithmetic errs; squared sine.
-const TOUCHING: f64 = 1e-6;
+const TOUCHING: f64 = 1e-5;
 
 /// A circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
