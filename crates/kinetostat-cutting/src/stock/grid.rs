@@ -6,6 +6,8 @@ use crate::stock::settings::{BYTES_PER_CELL, StockSettings};
 
 /// Walls are known up to this many cells away: more than the diagonal of a cell.
 const KNOWN_CELLS: f64 = 1.5;
+/// Slivers up to this share of a cell count as air: the walls are not known better.
+const SLIVER_CELLS: f64 = 0.02;
 /// Coordinates beyond this are a slip of the unit, mm.
 pub(crate) const FAR_MM: f64 = 1e5;
 
@@ -18,6 +20,55 @@ pub(crate) struct Column {
     pub drop: f32,
     /// Distance of the next wall up, mm; `known` where none is near.
     pub rise: f32,
+    /// Where the next wall down looks.
+    pub drop_normal: Normal,
+    /// Where the next wall up looks.
+    pub rise_normal: Normal,
+}
+
+const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
+
+/// Where a wall looks, seen from above: out of the air, into the material; and how it bends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Normal([i16; 2]);
+
+/// How a wall bends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bend {
+    /// It was left by a tool that went along it.
+    Straight,
+    /// It was left by a tool that stood, or turned, there.
+    Round,
+}
+
+/// Numbers of a normal per unit.
+const NORMAL: f64 = i16::MAX as f64;
+
+impl Normal {
+    /// Of a vector of length one; none (of length zero) of what is not finite.
+    pub fn new(vector: [f64; 2], bend: Bend) -> Self {
+        // A cast holds at the greatest number, and makes 0 of what is no number.
+        let [x, y] = vector.map(|part| (part * NORMAL).round() as i16);
+        // The last bit of x is how the wall bends.
+        Self([
+            match bend {
+                Bend::Straight => x & !1,
+                Bend::Round => x | 1,
+            },
+            y,
+        ])
+    }
+
+    pub fn vector(self) -> [f64; 2] {
+        self.0.map(|part| f64::from(part) / NORMAL)
+    }
+
+    pub fn bend(self) -> Bend {
+        match self.0[0] & 1 == 0 {
+            true => Bend::Straight,
+            false => Bend::Round,
+        }
+    }
 }
 
 /// What is left of the material: heights at the points of a square grid parallel to x and y of the part.
@@ -110,6 +161,8 @@ impl Stock {
             top: 0.0,
             drop: known,
             rise: known,
+            drop_normal: Normal::default(),
+            rise_normal: Normal::default(),
         };
         Ok(Self {
             columns: vec![air; points[0] * points[1]],
@@ -133,13 +186,21 @@ impl Stock {
                 let [x, y] = self.place(i, j);
                 let (top, inside) = at(x, y);
                 let distance = inside.abs().min(known) as f32;
+                let normal = match inside.abs() < known {
+                    true => outline_normal(&at, [x, y], 1e-3 * self.cell),
+                    false => Normal::default(),
+                };
                 let column = &mut self.columns[j * self.points[0] + i];
                 match inside > 0.0 {
                     true => {
                         column.top = (top as f32).max(0.0);
                         column.drop = distance;
+                        column.drop_normal = normal;
                     }
-                    false => column.rise = distance,
+                    false => {
+                        column.rise = distance;
+                        column.rise_normal = normal;
+                    }
                 }
             }
         }
@@ -225,6 +286,11 @@ impl Stock {
         (1e-4 * self.cell).max(4e-7 * self.height)
     }
 
+    /// Slivers of less width across the feed are not known of: they count as air, mm.
+    pub(crate) fn sliver(&self) -> f64 {
+        SLIVER_CELLS * self.cell
+    }
+
     /// Error of a coordinate of a move that no machine has.
     pub(crate) fn checked_place(place: [f64; 3]) -> Result<[f64; 3]> {
         match place.iter().all(|value| value.abs() <= FAR_MM) {
@@ -237,4 +303,12 @@ impl Stock {
             )),
         }
     }
+}
+
+/// Where the outline of a blank looks, into it: the gradient of its distance.
+fn outline_normal(at: &impl Fn(f64, f64) -> (f64, f64), [x, y]: [f64; 2], step: f64) -> Normal {
+    let along_x = at(x + step, y).1 - at(x - step, y).1;
+    let along_y = at(x, y + step).1 - at(x, y - step).1;
+    let length = along_x.hypot(along_y);
+    Normal::new([along_x / length, along_y / length], Bend::Straight)
 }

@@ -14,6 +14,7 @@ mod blank;
 mod carve;
 mod corner;
 mod end;
+mod faces;
 mod grid;
 mod height_map;
 mod mesh;

@@ -6,6 +6,7 @@
 
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};
+use crate::stock::faces::{Faces, OnRim, Seen};
 use crate::stock::grid::{Column, Stock};
 
 /// Most bands of height at one place.
@@ -117,34 +118,42 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         }
     };
     let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
-    let wall = |k: usize| {
-        if inside[k] {
-            columns[k].drop
-        } else {
-            columns[k].rise
-        }
+    let mut faces = Faces::default();
+    let rim = OnRim {
+        centre: stand.centre,
+        radius,
+        place,
     };
+    for k in 0..4 {
+        let column = &columns[k];
+        let (wall, normal, sign) = match inside[k] {
+            true => (column.drop, column.drop_normal, 1.0),
+            false => (column.rise, column.rise_normal, -1.0),
+        };
+        if wall < known {
+            let seen = Seen {
+                point: stock.place(cell.i + (k & 1), cell.j + (k >> 1)),
+                distance: sign * f64::from(wall),
+                normal,
+                share: cell.shares[k],
+            };
+            faces.add(&rim, &seen);
+        }
+    }
     match inside {
-        [false, false, false, false] => return -stock.cell,
+        [false, false, false, false] => return faces.between().unwrap_or(-stock.cell),
         // The rim may pass between points that are all outside it: only where no wall is near is that material.
-        [true, true, true, true] if (0..4).all(|k| wall(k) >= known) => return stock.cell,
+        [true, true, true, true] if faces.is_empty() => return stock.cell,
         _ => {}
     }
-    let mut sum = 0.0;
-    if (0..4).all(|k| wall(k) >= known) {
+    faces.nearest().unwrap_or_else(|| {
         // No tool has been here: a slope.
+        let mut sum = 0.0;
         for k in 0..4 {
             sum += cell.shares[k] * (f64::from(columns[k].top) - level);
         }
-        return sum;
-    }
-    for k in 0..4 {
-        let distance = f64::from(wall(k));
-        let signed = if inside[k] { distance } else { -distance };
-        let from_rim = cell.distance(stock, k, stand.centre) - radius;
-        sum += cell.shares[k] * (signed - from_rim);
-    }
-    sum
+        sum
+    })
 }
 
 /// Buffers for the arcs of a rim.
