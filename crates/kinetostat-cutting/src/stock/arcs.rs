@@ -71,19 +71,36 @@ impl Range {
     /// Writes the arcs on which `value` is positive.
     #[inline]
     pub fn arcs(&self, value: impl Fn([f64; 2]) -> f64, arcs: &mut Vec<[f64; 2]>) {
+        self.arcs_above(0.0, value, arcs);
+    }
+
+    /// The same of those on which it exceeds a value somewhere.
+    #[inline]
+    pub fn arcs_above(
+        &self,
+        least: f64,
+        value: impl Fn([f64; 2]) -> f64,
+        arcs: &mut Vec<[f64; 2]>,
+    ) {
         arcs.clear();
         let mut last = [self.from, -1.0];
-        let mut begin = self.from;
+        let (mut begin, mut highest) = (self.from, 0.0);
         self.each(|angle, direction| {
             let now = [angle, value(direction)];
             match (last[1] > 0.0, now[1] > 0.0) {
-                (false, true) if angle > self.from => begin = root(&value, now, last),
-                (true, false) => arcs.push([begin, root(&value, last, now)]),
+                (false, true) => {
+                    highest = 0.0;
+                    if angle > self.from {
+                        begin = root(&value, now, last);
+                    }
+                }
+                (true, false) if highest > least => arcs.push([begin, root(&value, last, now)]),
                 _ => {}
             }
+            highest = if now[1] > highest { now[1] } else { highest };
             last = now;
         });
-        if last[1] > 0.0 {
+        if last[1] > 0.0 && highest > least {
             arcs.push([begin, self.to]);
         }
         self.close(arcs);

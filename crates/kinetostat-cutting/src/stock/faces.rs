@@ -105,10 +105,16 @@ impl Faces {
         }
     }
 
-    /// No point sees a wall.
+    /// All four points see a wall, as they do where one passes between them.
     #[inline]
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
+    pub fn is_whole(&self) -> bool {
+        self.points == 4
+    }
+
+    /// Some point sees a wall.
+    #[inline]
+    pub fn sees_any(&self) -> bool {
+        self.points > 0
     }
 
     /// How far the place is in the material, from the nearest wall; `None` where no point sees one.
@@ -121,7 +127,7 @@ impl Faces {
     /// The same between four points in the air: there is a rib only if all of them see walls, and not all the same one.
     #[inline]
     pub fn between(&self) -> Option<f64> {
-        match self.points == 4 && self.count > 1 {
+        match self.is_whole() && self.count > 1 {
             true => self.nearest(),
             false => None,
         }

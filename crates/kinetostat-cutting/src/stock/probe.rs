@@ -1,6 +1,6 @@
 //! A tool that goes through a stock: what it meets, and what it takes away.
 
-use crate::engagement::{Contact, Edge, Engagement};
+use crate::engagement::Engagement;
 use crate::error::{CutError, CutErrorKind, Result};
 use crate::stock::arcs::Range;
 use crate::stock::corner::Corner;
@@ -145,16 +145,7 @@ impl Probe {
             self.rim
                 .contacts(stock, &stand, profile.outer, shoulder, &range, found);
         }
-        let sliver = stock.sliver() / profile.outer;
-        self.found.contacts.retain(|c| is_more_than(c, sliver));
     }
-}
-
-/// Whether a contact of the side is wider across the feed than this share of the radius.
-fn is_more_than(contact: &Contact, sliver: f64) -> bool {
-    let arc = contact.exit - contact.entry;
-    let across = 0.5 * (contact.entry.sin().abs() + contact.exit.sin().abs());
-    contact.edge == Edge::End || arc > 0.5 || arc * across > sliver
 }
 
 pub(crate) fn norm(vector: [f64; 3]) -> f64 {

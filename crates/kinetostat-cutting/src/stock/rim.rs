@@ -124,6 +124,7 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         radius,
         place,
     };
+    let mut is_deep = false;
     for k in 0..4 {
         let column = &columns[k];
         let (wall, normal, sign) = match inside[k] {
@@ -139,11 +140,14 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
             };
             faces.add(&rim, &seen);
         }
+        is_deep |= wall >= known && !inside[k];
     }
     match inside {
         [false, false, false, false] => return faces.between().unwrap_or(-stock.cell),
         // The rim may pass between points that are all outside it: only where no wall is near is that material.
-        [true, true, true, true] if faces.is_empty() => return stock.cell,
+        [true, true, true, true] if !faces.is_whole() => return stock.cell,
+        // A cut too shallow to have a wall.
+        _ if is_deep && faces.sees_any() => return mean_depth(stock, &cell, &columns, inside, &rim),
         _ => {}
     }
     faces.nearest().unwrap_or_else(|| {
@@ -154,6 +158,26 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         }
         sum
     })
+}
+
+/// The distances of the points' walls, less those of the rim, weighted by the points' shares.
+fn mean_depth(
+    stock: &Stock,
+    cell: &Cell,
+    columns: &[Column; 4],
+    inside: [bool; 4],
+    rim: &OnRim,
+) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..4 {
+        let signed = match inside[k] {
+            true => f64::from(columns[k].drop),
+            false => -f64::from(columns[k].rise),
+        };
+        let from_rim = cell.distance(stock, k, rim.centre) - rim.radius;
+        sum += cell.shares[k] * (signed - from_rim);
+    }
+    sum
 }
 
 /// Buffers for the arcs of a rim.
@@ -176,6 +200,7 @@ impl Rim {
         found: &mut Engagement,
     ) {
         let tolerance = stock.tolerance();
+        let sliver = stock.sliver();
         let base = (stand.tip + from).max(0.0);
         self.find_levels(stock, stand, radius, base, range);
         let first = found.contacts.len();
@@ -188,7 +213,7 @@ impl Rim {
                 let place = stand.place(radius, direction);
                 depth_in(stock, place, level, stand, radius) - tolerance
             };
-            range.arcs(value, &mut self.arcs);
+            range.arcs_above(sliver, value, &mut self.arcs);
             if self.arcs.is_empty() {
                 break;
             }
