@@ -58,7 +58,6 @@ struct Face {
 pub(crate) struct Faces {
     faces: [Face; 4],
     count: usize,
-    points: usize,
 }
 
 impl Faces {
@@ -84,7 +83,6 @@ impl Faces {
         let value =
             seen.distance - (length - rim.radius) + 0.5 * (own[0] * way[0] + own[1] * way[1]);
         let weight = seen.share + LEAST_SHARE;
-        self.points += 1;
         let same = |face: &Face| {
             !known || face.normal[0] * normal[0] + face.normal[1] * normal[1] > SAME_WALL
         };
@@ -105,32 +103,21 @@ impl Faces {
         }
     }
 
-    /// All four points see a wall, as they do where one passes between them.
+    /// All points see the same wall.
     #[inline]
-    pub fn is_whole(&self) -> bool {
-        self.points == 4
+    pub fn is_one(&self) -> bool {
+        self.count <= 1
     }
 
-    /// Some point sees a wall.
+    /// How far the place is in the material, from the nearest wall; infinite where no point sees one.
     #[inline]
-    pub fn sees_any(&self) -> bool {
-        self.points > 0
-    }
-
-    /// How far the place is in the material, from the nearest wall; `None` where no point sees one.
-    #[inline]
-    pub fn nearest(&self) -> Option<f64> {
-        let values = self.faces[..self.count].iter().map(Face::value);
-        values.reduce(|a, b| if b < a { b } else { a })
-    }
-
-    /// The same between four points in the air: there is a rib only if all of them see walls, and not all the same one.
-    #[inline]
-    pub fn between(&self) -> Option<f64> {
-        match self.is_whole() && self.count > 1 {
-            true => self.nearest(),
-            false => None,
+    pub fn nearest(&self) -> f64 {
+        let mut nearest = f64::INFINITY;
+        for face in &self.faces[..self.count] {
+            let value = face.value();
+            nearest = if value < nearest { value } else { nearest };
         }
+        nearest
     }
 }
 

@@ -1,13 +1,14 @@
 //! The grid of heights with the distances of its walls.
 
 use crate::error::{CutError, CutErrorKind, Result, within};
+use crate::stock::arcs::Sliver;
 use crate::stock::profile::Profile;
 use crate::stock::settings::{BYTES_PER_CELL, StockSettings};
 
 /// Walls are known up to this many cells away: more than the diagonal of a cell.
 const KNOWN_CELLS: f64 = 1.5;
-/// Slivers up to this share of a cell count as air: the walls are not known better.
-const SLIVER_CELLS: f64 = 0.02;
+/// Longest arc of a sliver, cells.
+const SLIVER_CELLS: f64 = 1.2;
 /// Coordinates beyond this are a slip of the unit, mm.
 pub(crate) const FAR_MM: f64 = 1e5;
 
@@ -286,9 +287,12 @@ impl Stock {
         (1e-4 * self.cell).max(4e-7 * self.height)
     }
 
-    /// Slivers of less width across the feed are not known of: they count as air, mm.
-    pub(crate) fn sliver(&self) -> f64 {
-        SLIVER_CELLS * self.cell
+    /// What the walls do not show of a rim of this radius.
+    pub(crate) fn sliver(&self, radius: f64) -> Sliver {
+        Sliver {
+            arc: SLIVER_CELLS * self.cell / radius,
+            depth: 0.5 * self.cell * self.cell / radius,
+        }
     }
 
     /// Error of a coordinate of a move that no machine has.

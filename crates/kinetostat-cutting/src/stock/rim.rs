@@ -118,46 +118,51 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         }
     };
     let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
-    let mut faces = Faces::default();
+    let walls: [f32; 4] = std::array::from_fn(|k| match inside[k] {
+        true => columns[k].drop,
+        false => columns[k].rise,
+    });
+    let seen = walls.map(|wall| wall < known);
+    match inside {
+        // Where a wall passes between points, all of them see it: a rib, or a rim outside of all of them.
+        [false, false, false, false] if seen != [true; 4] => return -stock.cell,
+        [true, true, true, true] if seen != [true; 4] => return stock.cell,
+        _ => {}
+    }
+    if seen == [false; 4] {
+        // No tool has been here: a slope.
+        let tops = (0..4).map(|k| cell.shares[k] * (f64::from(columns[k].top) - level));
+        return tops.sum();
+    }
     let rim = OnRim {
         centre: stand.centre,
         radius,
         place,
     };
-    let mut is_deep = false;
+    // A cut too shallow to have a wall.
+    if (0..4).any(|k| !inside[k] && !seen[k]) {
+        return mean_depth(stock, &cell, &columns, inside, &rim);
+    }
+    let mut faces = Faces::default();
     for k in 0..4 {
-        let column = &columns[k];
-        let (wall, normal, sign) = match inside[k] {
-            true => (column.drop, column.drop_normal, 1.0),
-            false => (column.rise, column.rise_normal, -1.0),
-        };
-        if wall < known {
+        if seen[k] {
+            let (normal, sign) = match inside[k] {
+                true => (columns[k].drop_normal, 1.0),
+                false => (columns[k].rise_normal, -1.0),
+            };
             let seen = Seen {
                 point: stock.place(cell.i + (k & 1), cell.j + (k >> 1)),
-                distance: sign * f64::from(wall),
+                distance: sign * f64::from(walls[k]),
                 normal,
                 share: cell.shares[k],
             };
             faces.add(&rim, &seen);
         }
-        is_deep |= wall >= known && !inside[k];
     }
     match inside {
-        [false, false, false, false] => return faces.between().unwrap_or(-stock.cell),
-        // The rim may pass between points that are all outside it: only where no wall is near is that material.
-        [true, true, true, true] if !faces.is_whole() => return stock.cell,
-        // A cut too shallow to have a wall.
-        _ if is_deep && faces.sees_any() => return mean_depth(stock, &cell, &columns, inside, &rim),
-        _ => {}
+        [false, false, false, false] if faces.is_one() => -stock.cell,
+        _ => faces.nearest(),
     }
-    faces.nearest().unwrap_or_else(|| {
-        // No tool has been here: a slope.
-        let mut sum = 0.0;
-        for k in 0..4 {
-            sum += cell.shares[k] * (f64::from(columns[k].top) - level);
-        }
-        sum
-    })
 }
 
 /// The distances of the points' walls, less those of the rim, weighted by the points' shares.
@@ -200,7 +205,7 @@ impl Rim {
         found: &mut Engagement,
     ) {
         let tolerance = stock.tolerance();
-        let sliver = stock.sliver();
+        let sliver = stock.sliver(radius);
         let base = (stand.tip + from).max(0.0);
         self.find_levels(stock, stand, radius, base, range);
         let first = found.contacts.len();
@@ -213,7 +218,7 @@ impl Rim {
                 let place = stand.place(radius, direction);
                 depth_in(stock, place, level, stand, radius) - tolerance
             };
-            range.arcs_above(sliver, value, &mut self.arcs);
+            range.arcs_but(sliver, value, &mut self.arcs);
             if self.arcs.is_empty() {
                 break;
             }
