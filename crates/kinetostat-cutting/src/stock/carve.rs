@@ -61,10 +61,15 @@ impl Stock {
         let tolerance = self.tolerance();
         let mut touched = false;
         // Slivers are no contact.
-        self.along(sweep, reach - self.sliver(profile.outer).depth, 0.0, |index, seen| {
-            let top = f64::from(self.columns[index].top);
-            touched |= top > 0.0 && top > sweep.height(profile, &seen, reach) + tolerance;
-        });
+        self.along(
+            sweep,
+            reach - self.sliver(profile.outer).depth,
+            0.0,
+            |index, seen| {
+                let top = f64::from(self.columns[index].top);
+                touched |= top > 0.0 && top > sweep.height(profile, &seen, reach) + tolerance;
+            },
+        );
         touched
     }
 

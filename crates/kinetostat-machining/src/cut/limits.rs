@@ -52,11 +52,11 @@ impl CutQuestion {
             }
         }
         if let Some(length) = tool.flute_length_mm
-            && station.depth_mm > length
+            && engagement.reach_mm() > length
         {
-            let depth = station.depth_mm;
-            findings.add(CutFindingKind::ShortEdges, line, depth, || {
-                format!("{depth:.2} mm deep; edges or tool are {length} mm long there")
+            let reach = engagement.reach_mm();
+            findings.add(CutFindingKind::ShortEdges, line, reach, || {
+                format!("material up to {reach:.2} mm above the tip; edges or tool are {length} mm long there")
             });
         }
         if let Some(curve) = &self.spindle
