@@ -2,6 +2,7 @@
 
 use crate::error::{CutError, CutErrorKind, Result, within};
 use crate::stock::arcs::Sliver;
+use crate::stock::normal::{Normal, outline_normal};
 use crate::stock::profile::Profile;
 use crate::stock::settings::{BYTES_PER_CELL, StockSettings};
 
@@ -29,56 +30,21 @@ pub(crate) struct Column {
 
 const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 
-/// Where a wall looks, seen from above: out of the air, into the material; and how it bends.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Normal([i16; 2]);
-
-/// How a wall bends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bend {
-    /// It was left by a tool that went along it.
-    Straight,
-    /// It was left by a tool that stood, or turned, there.
-    Round,
-}
-
-/// Numbers of a normal per unit.
-const NORMAL: f64 = i16::MAX as f64;
-
-impl Normal {
-    /// Of a vector of length one; none (of length zero) of what is not finite.
-    pub fn new(vector: [f64; 2], bend: Bend) -> Self {
-        // A cast holds at the greatest number, and makes 0 of what is no number.
-        let [x, y] = vector.map(|part| (part * NORMAL).round() as i16);
-        // The last bit of x is how the wall bends.
-        Self([
-            match bend {
-                Bend::Straight => x & !1,
-                Bend::Round => x | 1,
-            },
-            y,
-        ])
-    }
-
-    pub fn vector(self) -> [f64; 2] {
-        self.0.map(|part| f64::from(part) / NORMAL)
-    }
-
-    pub fn bend(self) -> Bend {
-        match self.0[0] & 1 == 0 {
-            true => Bend::Straight,
-            false => Bend::Round,
-        }
-    }
-}
-
 /// What is left of the material: heights at the points of a square grid parallel to x and y of the part.
 ///
-/// Every point holds the top of the material (below it all is material down to the bottom) and the distances of the next
-/// wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the points.
-/// With a cell of a twentieth of the tool's diameter the ends of arcs were found to 0.003 rad on straight cuts (and to a
-/// quarter of that with half the cell), and mostly to 0.02 rad, in the worst case to a cell on the rim (0.1 rad), on curves
-/// of moves shorter than a cell: there the wall before the pass and that of the moves just made lie in the same cells.
+/// Every point holds the top of the material (below it all is material down to the bottom) and distance and direction of
+/// the next wall down and the next wall up as the tools have left them. So the place of a vertical wall is known between the
+/// points, and where two walls meet in a cell both are.
+/// With a cell of a twentieth of the tool's diameter the ends of arcs were found to 0.0005 rad on straight cuts and to 0.008 rad
+/// on circles of short chords, and to a quarter of that or less with half the cell. Along `tball-pocket` (40 000 moves of
+/// 0.2 mm) 98 % of all arcs are within 0.017 rad of those of the swept area itself, the worst is 0.27 rad off: where more than two
+/// walls meet in a cell, a place of the rim may be off by as much as that cell, and where ways crossed at sharp angles up to two
+/// cells on the rim (0.2 rad) seem to be in contact once more.
+///
+/// **Slivers are air**: an arc of at most 1.2 cells that is nowhere deeper than `cell^2 / (2 radius)` in the material (0.015 mm at
+/// D/20). By so much a circle leaves its tangent within a cell. Its force is below 1 % of that of a slot with a law without edge
+/// force; a tool that goes along its own wall again has none.
+///
 /// Likewise up to a cell where walls at two heights lie less than one and a half cells apart, and at the steep walls of a mesh
 /// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell on the rim at each side; on
 /// steep ones by more.
@@ -221,7 +187,7 @@ impl Stock {
     /// let settings = StockSettings::with_cell_mm(0.1)?.with_memory_bytes(1_000_000).coarser_if_needed();
     /// let stock = Stock::block([0.0; 3], [100.0, 100.0, 20.0], &settings)?;
     /// assert_eq!(stock.coarsened_from_mm(), Some(0.1));
-    /// assert!(stock.cell_mm() < 0.36 && stock.memory_bytes() <= 1_000_000);
+    /// assert!(stock.cell_mm() < 0.46 && stock.memory_bytes() <= 1_000_000);
     /// # Ok::<(), kinetostat_cutting::CutError>(())
     /// ```
     #[must_use]
@@ -307,12 +273,4 @@ impl Stock {
             )),
         }
     }
-}
-
-/// Where the outline of a blank looks, into it: the gradient of its distance.
-fn outline_normal(at: &impl Fn(f64, f64) -> (f64, f64), [x, y]: [f64; 2], step: f64) -> Normal {
-    let along_x = at(x + step, y).1 - at(x - step, y).1;
-    let along_y = at(x, y + step).1 - at(x, y - step).1;
-    let length = along_x.hypot(along_y);
-    Normal::new([along_x / length, along_y / length], Bend::Straight)
 }

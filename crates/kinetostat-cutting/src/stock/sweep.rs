@@ -1,6 +1,6 @@
 //! Which points of a grid the sweep of a tool along a straight move covers, and how.
 
-use crate::stock::grid::{Bend, Normal};
+use crate::stock::normal::{Bend, Normal};
 use crate::stock::profile::Profile;
 
 /// A straight move seen from above, with its heights above the stock's bottom.
