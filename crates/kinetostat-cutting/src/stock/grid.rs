@@ -38,12 +38,12 @@ const _: () = assert!(size_of::<Column>() as u64 == BYTES_PER_CELL);
 /// With a cell of a twentieth of the tool's diameter the ends of arcs were found to 0.0005 rad on straight cuts and to 0.008 rad
 /// on circles of short chords, and to a quarter of that or less with half the cell. Along `tball-pocket` (40 000 moves of
 /// 0.2 mm) 98 % of all arcs are within 0.017 rad of those of the swept area itself, the worst is 0.27 rad off: where more than two
-/// walls meet in a cell, a place of the rim may be off by as much as that cell, and where ways crossed at sharp angles up to two
-/// cells on the rim (0.2 rad) seem to be in contact once more.
+/// walls meet in a cell, a place of the rim may be off by as much as that cell.
 ///
 /// **Slivers are air**: an arc of at most 1.2 cells that is nowhere deeper than `cell^2 / (2 radius)` in the material (0.015 mm at
 /// D/20). By so much a circle leaves its tangent within a cell. Its force is below 1 % of that of a slot with a law without edge
-/// force; a tool that goes along its own wall again has none.
+/// force; a tool that goes along its own wall again has none. An arc of at most twice that length is air as well where the
+/// distances of the walls, interpolated in the cell, do not show it: ways that crossed at sharp angles leave none.
 ///
 /// Likewise up to a cell where walls at two heights lie less than one and a half cells apart, and at the steep walls of a mesh
 /// or a map of heights. On ramps, what was cut already may seem to be in contact by up to a cell on the rim at each side; on

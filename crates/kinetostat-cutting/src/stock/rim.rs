@@ -11,6 +11,8 @@ use crate::stock::grid::{Column, Stock};
 
 /// Most bands of height at one place.
 const BANDS: usize = 16;
+/// Where a short arc is looked at again, as shares of it.
+const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Tops that differ by less than this share of a cell are in one band.
 const BAND: f64 = 0.1;
 
@@ -101,6 +103,27 @@ impl Cell {
     }
 }
 
+/// Which points of a cell are in the material at a height above the bottom.
+#[inline]
+fn inside(
+    stock: &Stock,
+    (cell, columns): (&Cell, &[Column; 4]),
+    level: f64,
+    stand: &Stand,
+    radius: f64,
+) -> [bool; 4] {
+    std::array::from_fn(|k| {
+        let floor = match stand.slope == 0.0 {
+            true => level,
+            false => {
+                let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
+                level + stand.floor_above(at, radius)
+            }
+        };
+        f64::from(columns[k].top) > floor
+    })
+}
+
 /// Positive in the material, at a place of a rim of this radius about a stand and at a height above the bottom; about the
 /// distance of the next wall.
 #[inline]
@@ -110,14 +133,7 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
     };
     let columns = cell.columns(stock);
     let known = stock.known() as f32;
-    let level_at = |k: usize| match stand.slope == 0.0 {
-        true => level,
-        false => {
-            let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
-            level + stand.floor_above(at, radius)
-        }
-    };
-    let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
+    let inside = inside(stock, (&cell, &columns), level, stand, radius);
     let walls: [f32; 4] = std::array::from_fn(|k| match inside[k] {
         true => columns[k].drop,
         false => columns[k].rise,
@@ -163,6 +179,21 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
         [false, false, false, false] if faces.is_one() => -stock.cell,
         _ => faces.nearest(),
     }
+}
+
+/// Positive where the interpolated distances of a cell say that a place of a rim is in the material.
+fn interpolated(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f64) -> f64 {
+    let Some(cell) = Cell::at(stock, place) else {
+        return -stock.cell;
+    };
+    let columns = cell.columns(stock);
+    let inside = inside(stock, (&cell, &columns), level, stand, radius);
+    let rim = OnRim {
+        centre: stand.centre,
+        radius,
+        place,
+    };
+    mean_depth(stock, &cell, &columns, inside, &rim)
 }
 
 /// The distances of the points' walls, less those of the rim, weighted by the points' shares.
@@ -219,6 +250,16 @@ impl Rim {
                 depth_in(stock, place, level, stand, radius) - tolerance
             };
             range.arcs_but(sliver, value, &mut self.arcs);
+            // A short arc may be the corner of two walls of which a cell knows one: what made both walls vanishes from the
+            // interpolated distances.
+            self.arcs.retain(|[from, to]| {
+                to - from > 2.0 * sliver.arc
+                    || SHARES.iter().any(|share| {
+                        let (sin, cos) = (from + share * (to - from)).sin_cos();
+                        let place = stand.place(radius, [sin, cos]);
+                        interpolated(stock, place, level, stand, radius) > tolerance
+                    })
+            });
             if self.arcs.is_empty() {
                 break;
             }

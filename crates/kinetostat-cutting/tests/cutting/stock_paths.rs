@@ -58,8 +58,7 @@ proptest! {
         let tool = Tool::new(SHAPES[which], 4.0, 2).unwrap();
         let places: Vec<[f64; 3]> = ways.iter().map(|(x, y)| [*x, *y, -depth]).collect();
         for extent in extents_of_the_second_time(&tool, &places) {
-            // Where ways cross at a sharp angle, up to two cells on the rim (of 0.1 rad).
-            prop_assert!(extent <= 2.0 * 0.1 * depth, "{}", extent);
+            prop_assert_eq!(extent, 0.0);
         }
     }
 
