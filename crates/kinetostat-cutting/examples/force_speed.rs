@@ -1,5 +1,7 @@
 //! Time of one mean force, by kind of cut, as `cargo xtask figures` reads it: `cargo run --release -p kinetostat-cutting --example force_speed`.
 
+#![allow(clippy::print_stdout, reason = "a tool for developers")]
+
 use std::hint::black_box;
 use std::time::Instant;
 
