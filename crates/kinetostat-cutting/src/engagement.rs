@@ -158,9 +158,35 @@ impl Engagement {
         self.contacts.is_empty()
     }
 
-    /// Greatest height above the tip in contact, mm; 0 in air.
+    /// Length along the axis in contact, mm; 0 in air. What the tip leaves below the material does not count, nor do gaps
+    /// between contacts.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Contact, Engagement};
+    ///
+    /// // A plate of 3 mm, the tip 5 mm below it.
+    /// let through = Engagement { contacts: vec![Contact::side(5.0, 8.0, 0.0, 1.0)] };
+    /// assert_eq!((through.depth_mm(), through.reach_mm()), (3.0, 8.0));
+    /// ```
     #[must_use]
     pub fn depth_mm(&self) -> f64 {
+        let side = self.contacts.iter().filter(|c| c.edge == Edge::Side);
+        let mut extents: Vec<[f64; 2]> = side.map(|c| [c.from_mm, c.to_mm]).collect();
+        extents.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let (mut depth, mut counted) = (0.0, f64::NEG_INFINITY);
+        for [from, to] in extents {
+            let from = larger(from, counted);
+            if to > from {
+                depth += to - from;
+                counted = to;
+            }
+        }
+        depth
+    }
+
+    /// Greatest height above the tip in contact, mm: how long the edges must be; 0 in air.
+    #[must_use]
+    pub fn reach_mm(&self) -> f64 {
         self.contacts
             .iter()
             .filter(|contact| contact.edge == Edge::Side)

@@ -417,3 +417,30 @@ fn what_a_table_of_tools_lacks_or_contradicts_is_said() {
     );
     assert!(!other.contains("is not in the table"), "{other}");
 }
+
+/// A machine that bends under its own weight begins where nobody corrected it: the step is said to be that.
+#[test]
+fn the_first_block_takes_the_correction_up() {
+    let job = JOB
+        .replace("\"orthoglide\"", "\"heavy_6r\"")
+        .replace(
+            "part_origin_mm = [0, 0, 100]",
+            "part_origin_mm = [1050, 0, 1000]\ntool_orientation = { a_b_c_kuka_deg = [0, 180, 0] }",
+        )
+        .replace("length_mm = 0", "length_mm = 150")
+        .replace(
+            "[material]",
+            "[reading]\nstart_position_mm = [0, 0, 50]\n[material]",
+        );
+    let program = PASS.replace("G0 X-30 Y0 Z5", "G1 X-30 Y0 Z5 F900");
+    let here = place(&job, &program);
+    let said = run(here.path(), &["compensate", "job.toml"]);
+    assert_eq!(said.code, 3, "{said:?}");
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("the program begins where the tool stands without a correction"),
+        "{flat}"
+    );
+    let here = place(&job, PASS);
+    run(here.path(), &["compensate", "job.toml"]).answered();
+}

@@ -9,6 +9,16 @@ const SAME: f64 = 1e-6;
 /// Circles are sampled at least and at most this often.
 const SAMPLES: [f64; 2] = [8.0, 4096.0];
 
+/// Arcs that are not longer than one of these and nowhere deeper in the material say nothing: a circle leaves its tangent by
+/// about as much within a cell, and no wall is placed better where it begins to bend.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Sliver {
+    /// Length of the arc, rad.
+    pub arc: f64,
+    /// Depth, mm.
+    pub depth: f64,
+}
+
 /// Which part of a circle is looked at, and how densely.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
@@ -71,20 +81,42 @@ impl Range {
     /// Writes the arcs on which `value` is positive.
     #[inline]
     pub fn arcs(&self, value: impl Fn([f64; 2]) -> f64, arcs: &mut Vec<[f64; 2]>) {
+        self.arcs_but(Sliver::default(), value, arcs);
+    }
+
+    /// The same but for slivers.
+    #[inline]
+    pub fn arcs_but(
+        &self,
+        sliver: Sliver,
+        value: impl Fn([f64; 2]) -> f64,
+        arcs: &mut Vec<[f64; 2]>,
+    ) {
         arcs.clear();
         let mut last = [self.from, -1.0];
-        let mut begin = self.from;
+        let (mut begin, mut deepest) = (self.from, 0.0);
+        let mut push = |begin: f64, end: f64, deepest: f64| {
+            if deepest > sliver.depth || end - begin > sliver.arc {
+                arcs.push([begin, end]);
+            }
+        };
         self.each(|angle, direction| {
             let now = [angle, value(direction)];
             match (last[1] > 0.0, now[1] > 0.0) {
-                (false, true) if angle > self.from => begin = root(&value, now, last),
-                (true, false) => arcs.push([begin, root(&value, last, now)]),
+                (false, true) => {
+                    deepest = 0.0;
+                    if angle > self.from {
+                        begin = root(&value, now, last);
+                    }
+                }
+                (true, false) => push(begin, root(&value, last, now), deepest),
                 _ => {}
             }
+            deepest = if now[1] > deepest { now[1] } else { deepest };
             last = now;
         });
         if last[1] > 0.0 {
-            arcs.push([begin, self.to]);
+            push(begin, self.to, deepest);
         }
         self.close(arcs);
     }

@@ -60,10 +60,16 @@ impl Stock {
         let reach = profile.reach(self.height - sweep.lowest());
         let tolerance = self.tolerance();
         let mut touched = false;
-        self.along(sweep, reach, 0.0, |index, seen| {
-            let top = f64::from(self.columns[index].top);
-            touched |= top > 0.0 && top > sweep.height(profile, &seen, reach) + tolerance;
-        });
+        // Slivers are no contact.
+        self.along(
+            sweep,
+            reach - self.sliver(profile.outer).depth,
+            0.0,
+            |index, seen| {
+                let top = f64::from(self.columns[index].top);
+                touched |= top > 0.0 && top > sweep.height(profile, &seen, reach) + tolerance;
+            },
+        );
         touched
     }
 
@@ -124,6 +130,7 @@ impl Stock {
                     && f64::from(column.top) > sweep.height(profile, &seen, wall + known)
                 {
                     column.drop = distance;
+                    column.drop_normal = sweep.outward(&seen);
                 }
                 return;
             }
@@ -141,6 +148,9 @@ impl Stock {
             let beside = column.top <= 0.0 && height > skin;
             if !beside && (lowered > skin || depth > column.rise) {
                 column.rise = depth;
+                if f64::from(depth) < known {
+                    column.rise_normal = sweep.outward(&seen);
+                }
             }
             if lowered <= 0.0 {
                 return;

@@ -4,8 +4,9 @@
 //! (z along the tool axis towards the spindle); gives the arcs of the tool in contact at stations along each move.
 //!
 //! The height of the material stands at the points of a grid. Two more numbers at each point say how far away, seen from
-//! above, the next wall down and the next wall up are, up to one and a half cells: the walls that a tool leaves are placed
-//! between the points as exactly as its circle is (see [`Stock`]). Source: own work; the distances are those of level
+//! above, the next wall down and the next wall up are, up to one and a half cells, and two more where these walls look: the
+//! walls that a tool leaves are placed between the points to the second order of the cell, also where two of them lie in one
+//! cell (see [`Stock`]). Source: own work; the distances are those of level
 //! sets (Osher and Fedkiw, "Level set methods and dynamic implicit surfaces", 2003, chapter 2: the union of two shapes has
 //! the smaller of their distances).
 
@@ -14,9 +15,11 @@ mod blank;
 mod carve;
 mod corner;
 mod end;
+mod faces;
 mod grid;
 mod height_map;
 mod mesh;
+mod normal;
 mod probe;
 mod profile;
 mod rim;

@@ -6,10 +6,13 @@
 
 use crate::engagement::{Contact, Engagement};
 use crate::stock::arcs::{Range, same};
+use crate::stock::faces::{Faces, OnRim, Seen};
 use crate::stock::grid::{Column, Stock};
 
 /// Most bands of height at one place.
 const BANDS: usize = 16;
+/// Where a short arc is looked at again, as shares of it.
+const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Tops that differ by less than this share of a cell are in one band.
 const BAND: f64 = 0.1;
 
@@ -100,6 +103,27 @@ impl Cell {
     }
 }
 
+/// Which points of a cell are in the material at a height above the bottom.
+#[inline]
+fn inside(
+    stock: &Stock,
+    (cell, columns): (&Cell, &[Column; 4]),
+    level: f64,
+    stand: &Stand,
+    radius: f64,
+) -> [bool; 4] {
+    std::array::from_fn(|k| {
+        let floor = match stand.slope == 0.0 {
+            true => level,
+            false => {
+                let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
+                level + stand.floor_above(at, radius)
+            }
+        };
+        f64::from(columns[k].top) > floor
+    })
+}
+
 /// Positive in the material, at a place of a rim of this radius about a stand and at a height above the bottom; about the
 /// distance of the next wall.
 #[inline]
@@ -109,39 +133,84 @@ fn depth_in(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f
     };
     let columns = cell.columns(stock);
     let known = stock.known() as f32;
-    let level_at = |k: usize| match stand.slope == 0.0 {
-        true => level,
-        false => {
-            let at = stock.place(cell.i + (k & 1), cell.j + (k >> 1));
-            level + stand.floor_above(at, radius)
-        }
-    };
-    let inside: [bool; 4] = std::array::from_fn(|k| f64::from(columns[k].top) > level_at(k));
-    let wall = |k: usize| {
-        if inside[k] {
-            columns[k].drop
-        } else {
-            columns[k].rise
-        }
-    };
+    let inside = inside(stock, (&cell, &columns), level, stand, radius);
+    let walls: [f32; 4] = std::array::from_fn(|k| match inside[k] {
+        true => columns[k].drop,
+        false => columns[k].rise,
+    });
+    let seen = walls.map(|wall| wall < known);
     match inside {
-        [false, false, false, false] => return -stock.cell,
-        // The rim may pass between points that are all outside it: only where no wall is near is that material.
-        [true, true, true, true] if (0..4).all(|k| wall(k) >= known) => return stock.cell,
+        // Where a wall passes between points, all of them see it: a rib, or a rim outside of all of them.
+        [false, false, false, false] if seen != [true; 4] => return -stock.cell,
+        [true, true, true, true] if seen != [true; 4] => return stock.cell,
         _ => {}
     }
-    let mut sum = 0.0;
-    if (0..4).all(|k| wall(k) >= known) {
+    if seen == [false; 4] {
         // No tool has been here: a slope.
-        for k in 0..4 {
-            sum += cell.shares[k] * (f64::from(columns[k].top) - level);
-        }
-        return sum;
+        let tops = (0..4).map(|k| cell.shares[k] * (f64::from(columns[k].top) - level));
+        return tops.sum();
     }
+    let rim = OnRim {
+        centre: stand.centre,
+        radius,
+        place,
+    };
+    // A cut too shallow to have a wall.
+    if (0..4).any(|k| !inside[k] && !seen[k]) {
+        return mean_depth(stock, &cell, &columns, inside, &rim);
+    }
+    let mut faces = Faces::default();
     for k in 0..4 {
-        let distance = f64::from(wall(k));
-        let signed = if inside[k] { distance } else { -distance };
-        let from_rim = cell.distance(stock, k, stand.centre) - radius;
+        if seen[k] {
+            let (normal, sign) = match inside[k] {
+                true => (columns[k].drop_normal, 1.0),
+                false => (columns[k].rise_normal, -1.0),
+            };
+            let seen = Seen {
+                point: stock.place(cell.i + (k & 1), cell.j + (k >> 1)),
+                distance: sign * f64::from(walls[k]),
+                normal,
+                share: cell.shares[k],
+            };
+            faces.add(&rim, &seen);
+        }
+    }
+    match inside {
+        [false, false, false, false] if faces.is_one() => -stock.cell,
+        _ => faces.nearest(),
+    }
+}
+
+/// Positive where the interpolated distances of a cell say that a place of a rim is in the material.
+fn interpolated(stock: &Stock, place: [f64; 2], level: f64, stand: &Stand, radius: f64) -> f64 {
+    let Some(cell) = Cell::at(stock, place) else {
+        return -stock.cell;
+    };
+    let columns = cell.columns(stock);
+    let inside = inside(stock, (&cell, &columns), level, stand, radius);
+    let rim = OnRim {
+        centre: stand.centre,
+        radius,
+        place,
+    };
+    mean_depth(stock, &cell, &columns, inside, &rim)
+}
+
+/// The distances of the points' walls, less those of the rim, weighted by the points' shares.
+fn mean_depth(
+    stock: &Stock,
+    cell: &Cell,
+    columns: &[Column; 4],
+    inside: [bool; 4],
+    rim: &OnRim,
+) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..4 {
+        let signed = match inside[k] {
+            true => f64::from(columns[k].drop),
+            false => -f64::from(columns[k].rise),
+        };
+        let from_rim = cell.distance(stock, k, rim.centre) - rim.radius;
         sum += cell.shares[k] * (signed - from_rim);
     }
     sum
@@ -167,6 +236,7 @@ impl Rim {
         found: &mut Engagement,
     ) {
         let tolerance = stock.tolerance();
+        let sliver = stock.sliver(radius);
         let base = (stand.tip + from).max(0.0);
         self.find_levels(stock, stand, radius, base, range);
         let first = found.contacts.len();
@@ -179,7 +249,17 @@ impl Rim {
                 let place = stand.place(radius, direction);
                 depth_in(stock, place, level, stand, radius) - tolerance
             };
-            range.arcs(value, &mut self.arcs);
+            range.arcs_but(sliver, value, &mut self.arcs);
+            // A short arc may be the corner of two walls of which a cell knows one: what made both walls vanishes from the
+            // interpolated distances.
+            self.arcs.retain(|[from, to]| {
+                to - from > 2.0 * sliver.arc
+                    || SHARES.iter().any(|share| {
+                        let (sin, cos) = (from + share * (to - from)).sin_cos();
+                        let place = stand.place(radius, [sin, cos]);
+                        interpolated(stock, place, level, stand, radius) > tolerance
+                    })
+            });
             if self.arcs.is_empty() {
                 break;
             }

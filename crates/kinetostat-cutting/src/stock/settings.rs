@@ -6,7 +6,7 @@ use crate::tool::Tool;
 /// Memory a stock may take unless told otherwise, bytes: 500 MB.
 const MEMORY: u64 = 500_000_000;
 /// Bytes of one point of the grid.
-pub(crate) const BYTES_PER_CELL: u64 = 12;
+pub(crate) const BYTES_PER_CELL: u64 = 20;
 
 /// What happens where the cells that were asked for need more memory than is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,12 +1,13 @@
 //! Which points of a grid the sweep of a tool along a straight move covers, and how.
 
+use crate::stock::normal::{Bend, Normal};
 use crate::stock::profile::Profile;
 
 /// A straight move seen from above, with its heights above the stock's bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sweep {
     from: [f64; 2],
-    /// Unit vector along it; nothing where it is vertical.
+    /// Unit vector along it; x where it is vertical.
     along: [f64; 2],
     length: f64,
     tip: f64,
@@ -14,6 +15,8 @@ pub(crate) struct Sweep {
     lowest: f64,
     /// Rise per length.
     slope: f64,
+    /// It goes down, if only straight down.
+    down: bool,
 }
 
 /// A point of the plane as the sweep sees it.
@@ -36,13 +39,14 @@ impl Sweep {
             along: if level {
                 [dx / length, dy / length]
             } else {
-                [0.0; 2]
+                [1.0, 0.0]
             },
             length: if level { length } else { 0.0 },
             // Straight down or up: all of it is done at its lower end.
             tip: if level || dz > 0.0 { from[2] } else { to[2] } - bottom,
             lowest: if dz < 0.0 { to[2] } else { from[2] } - bottom,
             slope: if level { dz / length } else { 0.0 },
+            down: dz < 0.0,
         }
     }
 
@@ -53,7 +57,7 @@ impl Sweep {
 
     /// It does not go down.
     pub fn never_down(&self) -> bool {
-        self.slope >= 0.0
+        !self.down
     }
 
     /// Least and greatest y within a distance of the move.
@@ -124,6 +128,23 @@ impl Sweep {
             across: dy * self.along[0] - dx * self.along[1],
             square: ex * ex + ey * ey,
         }
+    }
+
+    /// From the nearest place of the axis to a point, seen from above: where a wall of the move looks.
+    #[inline]
+    pub fn outward(&self, seen: &Seen) -> Normal {
+        let (rest, bend) = match seen.along {
+            a if a <= 0.0 => (a, Bend::Round),
+            a if a >= self.length => (a - self.length, Bend::Round),
+            _ => (0.0, Bend::Straight),
+        };
+        let [ux, uy] = self.along;
+        let per_distance = 1.0 / seen.square.sqrt();
+        let outward = [
+            (rest * ux - seen.across * uy) * per_distance,
+            (rest * uy + seen.across * ux) * per_distance,
+        ];
+        Normal::new(outward, bend)
     }
 
     /// The point lies beyond the end of the move: what follows will say what becomes of it.

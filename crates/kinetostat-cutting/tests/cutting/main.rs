@@ -19,6 +19,8 @@ mod stock_inputs;
 mod stock_paths;
 mod stock_round;
 mod stock_support;
+mod stock_swept;
+mod stock_through;
 mod stock_volume;
 mod thickness;
 mod tool_tables;

@@ -57,13 +57,13 @@ impl CutQuestion {
             }
         }
         if let Some(length) = tool.flute_length_mm
-            && station.depth_mm > length
+            && engagement.reach_mm() > length
         {
-            let depth = station.depth_mm;
-            findings.add(CutFindingKind::ShortEdges, line, depth, || {
+            let reach = engagement.reach_mm();
+            findings.add(CutFindingKind::ShortEdges, line, reach, || {
                 format!(
-                    "{} mm deep; edges or tool are {length} mm long there",
-                    short(depth)
+                    "material up to {} mm above the tip; edges or tool are {length} mm long there",
+                    short(reach)
                 )
             });
         }

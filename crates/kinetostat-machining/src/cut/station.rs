@@ -27,7 +27,7 @@ pub struct CutStation {
     pub wrench: Wrench,
     /// Mean torque of the spindle, N m.
     pub torque_n_m: f64,
-    /// Depth in contact, mm; 0 in air.
+    /// Length of the edges in contact along the axis, mm, without what the tip leaves below the stock; 0 in air.
     pub depth_mm: f64,
     /// Sum of the arcs in contact at the lowest height, rad: pi in a slot, 0 in air.
     pub arc: f64,

@@ -170,6 +170,8 @@ pub(crate) fn of_written<'a>(
     let starts = starts(path);
     let programmed = Programmed::new(path, spacing_mm);
     let pieces = written.pieces.iter().enumerate();
+    // Before it the tool stands where nobody corrected it.
+    let first = written.pieces.iter().position(|piece| piece.corrected);
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
@@ -190,6 +192,7 @@ pub(crate) fn of_written<'a>(
                 output_line: piece.output_line,
                 kind: match piece.corner_step {
                     true if piece.turn.is_some_and(|turn| turn.is_entry(path)) => PointKind::Entry,
+                    true if Some(index) == first => PointKind::Entry,
                     true => PointKind::Corner,
                     false => kind(motion),
                 },

@@ -29,6 +29,8 @@ pub(crate) fn tolerance(
             left_out(a)
         } else if p.kind == PointKind::Corner {
             "the tool is at rest at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
+        } else if p.kind == PointKind::Entry && points.first().is_some_and(|first| first.line == p.line) {
+            "the program begins where the tool stands without a correction, and its first block takes the correction up in a step; begin it with a rapid".to_owned()
         } else if p.kind == PointKind::Entry {
             "the load is there at once where a rapid ends, and the correction is written for the ends of the step there; begin the cut in the air".to_owned()
         } else if size(&p.correction_mm) == 0.0 {

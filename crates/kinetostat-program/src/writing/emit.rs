@@ -464,7 +464,11 @@ impl<'a> Emitter<'a> {
                 accounting.largest_correction_line = Some(motion.line);
             }
         }
-        let entry = step.turn.is_some_and(|turn| turn.is_entry(self.path));
+        let entry = match &step.turn {
+            Some(turn) => turn.is_entry(self.path),
+            // The tool stands where nobody corrected it.
+            None => !self.pieces.iter().any(|piece| piece.corrected),
+        };
         if step.corner_step && entry {
             accounting.entry_steps += 1;
             if written_mm > accounting.largest_entry_step_mm {
