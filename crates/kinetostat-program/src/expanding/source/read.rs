@@ -225,6 +225,9 @@ fn block(text: &[u8]) -> Result<Option<Statement>, Malformed> {
                 pieces.push(Piece::Assignment(parameter, cursor.value()?));
                 kept = cursor.at();
             }
+            b'O' if !pieces.is_empty() => {
+                return Err(cursor.malformed("an O word stands behind other words"));
+            }
             letter if letter.is_ascii_alphabetic() => {
                 cursor.next();
                 if is_expression(&mut cursor) {

@@ -185,6 +185,7 @@ fn what_has_no_end_or_no_beginning_is_refused() {
         ("M98\n", 1, "calls no subprogram"),
         ("M98 P5\n", 1, "no subprogram O5"),
         ("#5 3\n", 1, "needs ="),
+        ("#5 = 3 O1 sub\n", 1, "behind other words"),
         ("#5221 = 3\n", 1, "kept by the controller"),
     ] {
         let error = refused(text);
