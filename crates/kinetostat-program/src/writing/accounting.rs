@@ -46,7 +46,8 @@ pub struct Accounting {
     pub corner_steps: usize,
     /// Longest of these steps.
     pub largest_corner_step_mm: f64,
-    /// Steps of the tool where a rapid ends and the load is there at once ([`Turn::is_entry`](crate::Turn::is_entry)).
+    /// Steps of the tool where a rapid ends and the load is there at once ([`Turn::is_entry`](crate::Turn::is_entry)), and where the
+    /// program begins, without a correction until there.
     pub entry_steps: usize,
     /// Longest of these steps.
     pub largest_entry_step_mm: f64,

@@ -71,8 +71,11 @@ fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
         output,
         "G21 G90\nG1 X-0.0200 F600\nX9.9800\nX19.9800\nY-0.0200 X20.0000 (turn)\nY9.9800\nG0 Z4.9800 Y10.0000\n",
     );
-    assert_eq!(result.accounting.corner_steps, 2);
-    assert!((result.accounting.largest_corner_step_mm - 0.02 * 2.0_f64.sqrt()).abs() < 1e-9);
+    // The first is where the program begins, without a correction.
+    let accounting = &result.accounting;
+    assert_eq!((accounting.entry_steps, accounting.corner_steps), (1, 1));
+    assert!((accounting.largest_entry_step_mm - 0.02).abs() < 1e-9);
+    assert!((accounting.largest_corner_step_mm - 0.02 * 2.0_f64.sqrt()).abs() < 1e-9);
     assert!(result.pieces[0].corner_step && !result.pieces[1].corner_step);
 }
 

@@ -91,7 +91,11 @@ fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
     };
     let (output, result) = written_with(&text, &field, &at_origin(), &bare());
     assert_eq!(
-        result.accounting.corner_steps, 1,
+        (
+            result.accounting.entry_steps,
+            result.accounting.corner_steps
+        ),
+        (1, 0),
         "only the first: {output}"
     );
     assert!(output.ends_with("G90\nX1\n"), "{output}");
