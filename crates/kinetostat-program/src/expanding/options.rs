@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
-
 use crate::reading::options::ReadOptions;
 
 /// Most blocks of a flat program, if nothing else is said.
@@ -19,10 +17,6 @@ pub struct ExpandOptions {
     pub most_blocks: usize,
     /// Values of numbered parameters before the program, as a controller keeps them.
     pub parameters: BTreeMap<u32, f64>,
-    /// The machine's zero in the part frame, mm: where G53 counts from. `None`: not known.
-    pub machine_zero_mm: Option<Vector3<f64>>,
-    /// Reference points of G28 and G30, mm, machine coordinates. `None`: not known.
-    pub reference_points_mm: [Option<Vector3<f64>>; 2],
 }
 
 impl Default for ExpandOptions {
@@ -31,8 +25,6 @@ impl Default for ExpandOptions {
             reading: ReadOptions::default(),
             most_blocks: MOST_BLOCKS,
             parameters: BTreeMap::new(),
-            machine_zero_mm: None,
-            reference_points_mm: [None; 2],
         }
     }
 }

@@ -17,7 +17,11 @@ pub(crate) struct Codes {
     pub feed_mode: Option<u32>,
     pub work_offset: Option<u32>,
     pub tool_length: Option<u32>,
+    /// Axes that G43.1 and G43.2 name: their words are lengths.
+    pub length_axes: [bool; 3],
     pub position_offset: Option<u32>,
+    /// G28, G30, G53.
+    pub machine: Option<u32>,
     pub extruder: Option<u32>,
     pub path_mode: Option<u32>,
     pub speed_mode: Option<u32>,
@@ -157,8 +161,9 @@ impl<'p> Block<'p> {
             ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
             ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
             ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
-            ('G', 430 | 490) => codes.tool_length.replace(tenths).is_some(),
+            ('G', 430..=432 | 490) => codes.tool_length.replace(tenths).is_some(),
             ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
+            ('G', 280 | 300 | 530) => codes.machine.replace(tenths).is_some(),
             ('M', 820 | 830) => codes.extruder.replace(tenths).is_some(),
             ('G', 40) => std::mem::replace(&mut codes.dwell, true),
             ('G', 610 | 611 | 640) => codes.path_mode.replace(tenths).is_some(),
@@ -191,6 +196,13 @@ impl<'p> Block<'p> {
         Ok(())
     }
 
+    /// `G4 P1 G0 X5`: the time is P, so the axis words are those of the straight move that follows in the
+    /// same block (LinuxCNC 2.9 dwells, then moves).
+    pub fn dwells_before_motion(&self) -> bool {
+        let straight = matches!(self.codes.motion, Some(Motion::Rapid | Motion::Feed));
+        self.codes.dwell && straight && self.words.iter().any(|word| word.letter == b'P')
+    }
+
     /// Letters that are parameters of another code of the block are no coordinates.
     fn drop_parameters(&mut self) {
         let takes = |letter: u8, among: fn(u32) -> bool| {
@@ -199,8 +211,15 @@ impl<'p> Block<'p> {
             tenths.any(|tenths| tenths.is_multiple_of(10) && among(tenths / 10))
         };
         let mut dropped: Vec<u8> = Vec::new();
-        if self.codes.dwell {
-            dropped.extend(b"XUPSFABCEVWYZQR");
+        match (self.codes.dwell, self.dwells_before_motion()) {
+            (true, true) => dropped.push(b'P'),
+            (true, false) => dropped.extend(b"XUPSFABCEVWYZQR"),
+            (false, _) => {}
+        }
+        if matches!(self.codes.tool_length, Some(431 | 432)) {
+            let named = b"XYZ".map(|letter| self.value(letter).is_some());
+            self.codes.length_axes = named;
+            dropped.extend(b"XYZIJK");
         }
         if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");

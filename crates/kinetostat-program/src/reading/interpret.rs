@@ -12,11 +12,14 @@ use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::reading::arc::{self, ArcFrame};
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
+use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
 use crate::reading::moment::{Placed, moment_of};
-use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions};
+use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions, Units};
 use crate::reading::pause::pause;
+use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
+use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
 use crate::text::line::LineKind;
@@ -60,6 +63,7 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
     for index in 0..program.lines().len() {
         if let Err(fault) = interpreter.run_line(&program, index) {
             interpreter.modes.go_on_after_fault();
+            interpreter.places.take_as_known();
             found.push(fault);
         }
     }
@@ -72,70 +76,22 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
     found
 }
 
-/// Of which axes the coordinates are shifted by an amount that is not in the program.
-///
-/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
-/// is taken away they count from the machine's work offset again, and how far apart the two are only the
-/// machine knows. So it is with an offset from before the program that G92.3 brings back.
-#[derive(Default)]
-struct Shifts {
-    now: [bool; 3],
-    /// Without G92.
-    bare: [bool; 3],
-    /// After G92.3; `None` while that brings back an offset from before the program.
-    saved: Option<[bool; 3]>,
-    /// Line of the last change.
-    line: usize,
-}
-
-impl Shifts {
-    fn apply(&mut self, change: &OffsetChange, known: &[bool; 3], line: usize) {
-        self.line = line;
-        match change {
-            OffsetChange::Here {
-                coordinates_mm,
-                establishes,
-                ..
-            } => {
-                for axis in 0..3 {
-                    self.bare[axis] |= establishes[axis];
-                    self.now[axis] &= coordinates_mm[axis].is_none();
-                }
-                self.saved = Some(self.now);
-            }
-            OffsetChange::Clear => {
-                self.now = self.bare;
-                self.saved = Some(self.bare);
-            }
-            OffsetChange::Suspend => self.now = self.bare,
-            OffsetChange::Resume => {
-                self.now = self.saved.unwrap_or_else(|| {
-                    for axis in 0..3 {
-                        self.bare[axis] |= !known[axis];
-                    }
-                    *known
-                });
-            }
-        }
-    }
-}
-
 /// What is known while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
     options: &'o ReadOptions,
     pub(super) modes: Modes,
     pub(super) offset: PositionOffset,
     shifts: Shifts,
-    pub(super) position: Vector3<f64>,
-    pub(super) known: [bool; 3],
+    pub(super) places: Places,
     pub(super) ended: Option<usize>,
     no_feed_warned: bool,
     repeated: Repeated,
     /// Work coordinate system of the first motion.
     first_system: Option<usize>,
     moves: Vec<Move>,
-    /// For each move: which axes are known before and after it.
-    knowledge: Vec<([bool; 3], [bool; 3])>,
+    /// For each move: which axes are known before and after it, and whether one was known before and is so no
+    /// more.
+    knowledge: Vec<([bool; 3], [bool; 3], bool)>,
     events: Vec<Event>,
     pauses: Vec<Pause>,
     tools: ToolWords,
@@ -150,8 +106,7 @@ impl<'o> Interpreter<'o> {
             modes: Modes::new(options.units),
             offset: PositionOffset::default(),
             shifts: Shifts::default(),
-            position: options.start_position_mm.unwrap_or_default(),
-            known: [options.start_position_mm.is_some(); 3],
+            places: Places::new(options.start_position_mm),
             ended: None,
             no_feed_warned: false,
             repeated: Repeated::default(),
@@ -235,11 +190,20 @@ impl<'o> Interpreter<'o> {
             ));
         }
         self.refuse_other_axes(block)?;
+        if self.modes.overrides_options(block) {
+            self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
+        }
         self.modes.set(block)?;
+        self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
         self.pauses.extend(pause(block));
-        if block.codes.position_offset.is_some() {
+        if block.codes.machine.is_some() {
+            match machine_place(block, &self.modes, self.options)? {
+                Some(place) => self.go_to_machine_place(block, &place),
+                None => self.note_no_motion(block),
+            }
+        } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
             self.refuse_parameters_of_calls(block)?;
@@ -323,8 +287,9 @@ impl<'o> Interpreter<'o> {
             Some(922) => OffsetChange::Suspend,
             _ => OffsetChange::Resume,
         };
-        self.offset.apply(&change, &self.position);
-        self.shifts.apply(&change, &self.known, block.line_number);
+        self.offset.apply(&change, &self.places.position);
+        self.shifts
+            .apply(&change, &self.places.stated, block.line_number);
         self.note_no_motion(block);
         self.events.push(Event {
             line: block.line_number,
@@ -342,12 +307,24 @@ impl<'o> Interpreter<'o> {
                 continue;
             };
             let value_mm = value * self.modes.mm_per_unit(block)?;
+            self.modes.use_units();
             coordinates_mm[axis] = Some(value_mm);
-            if !self.known[axis] {
+            if let Some(why) = self.places.why_lost(axis) {
+                return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous,
+                    block.word(COORDINATES[axis]),
+                    &format!(
+                        "{why}, so by how much G92 shifts the {} coordinates is not in the program",
+                        char::from(COORDINATES[axis])
+                    ),
+                    "state the axis with a rapid (G0) and an absolute word before G92",
+                ));
+            }
+            if !self.places.known[axis] {
                 // The user tells where the tool stands: the coordinate is its place in the part.
                 establishes[axis] = true;
-                self.known[axis] = true;
-                self.position[axis] = value_mm + work_offset_mm[axis];
+                self.places.state(axis);
+                self.places.position[axis] = value_mm + work_offset_mm[axis];
             }
         }
         self.modes.extra.set_here(block);
@@ -473,15 +450,18 @@ impl<'o> Interpreter<'o> {
             self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
         }
 
-        let start = self.position;
-        let known_before = self.known;
+        if kind == MoveKind::Feed {
+            self.refuse_cut_from_lost_place(block)?;
+        }
+        self.modes.use_units();
+        let start = self.places.position;
+        let known_before = self.places.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        self.modes.check_tool_length(block, motion)?;
         let curve = match motion {
             Motion::Clockwise | Motion::CounterClockwise => {
                 if let Some(axis) = (0..3).find(|axis| {
                     !known_before[*axis]
-                        && (self.known[*axis] || self.modes.plane[..2].contains(axis))
+                        && (self.places.known[*axis] || self.modes.plane[..2].contains(axis))
                 }) {
                     return Err(block.refuse(
                         ProgramErrorKind::Ambiguous, None,
@@ -508,9 +488,17 @@ impl<'o> Interpreter<'o> {
             }
             _ => Curve::Line,
         };
-        self.position = end;
+        self.places.position = end;
         let extra = self.modes.extra.read(block, self.modes.incremental);
-        self.knowledge.push((known_before, self.known));
+        let lost = self.places.first_lost();
+        if let Some((axis, ..)) = lost {
+            self.repeated.note(block.line_number, &format!(
+                "where the tool is along {} is not known here (a tool length, G28, G30 or G53 changed it): the block is carried without a correction, as all are until the program states the axis again",
+                char::from(COORDINATES[axis])
+            ));
+        }
+        self.knowledge
+            .push((known_before, self.places.known, lost.is_some()));
         self.moves.push(Move {
             line: block.line_number,
             kind,
@@ -524,9 +512,81 @@ impl<'o> Interpreter<'o> {
                 mm_per_unit,
                 incremental: self.modes.incremental,
                 work_offset_mm: self.work_offset_mm(),
+                to_machine: [false; 3],
             },
         });
         Ok(())
+    }
+
+    /// G43, G49 and their like: the tool stays, and its point is at a coordinate that is not in the program.
+    fn change_tool_length(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let by_words = matches!(block.codes.tool_length, Some(431 | 432));
+        if by_words && (block.codes.motion.is_some() || block.codes.position_offset.is_some()) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "axis words beside G43.1 or G43.2 are lengths to some controllers and a motion to others",
+                "write the motion as a block of its own",
+            ));
+        }
+        let axes = self.modes.set_tool_length(block);
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            self.places.lose(axis, Cause::ToolLength, block.line_number);
+        }
+        Ok(())
+    }
+
+    /// G28, G30, G53: one move, to where the axes end; the point on the way there is not looked at.
+    fn go_to_machine_place(&mut self, block: &Block<'_>, place: &MachinePlace) {
+        let start = self.places.position;
+        let known_before = self.places.known;
+        for axis in (0..3).filter(|axis| place.axes[*axis]) {
+            self.places.position[axis] = place.places_mm[axis].unwrap_or(0.0);
+            match place.places_mm[axis] {
+                Some(_) => self.places.state(axis),
+                None => self.places.lose(axis, Cause::Machine, block.line_number),
+            }
+        }
+        self.modes.extra.forget(block, place.all);
+        self.knowledge
+            .push((known_before, self.places.known, false));
+        self.moves.push(Move {
+            line: block.line_number,
+            kind: MoveKind::Rapid,
+            curve: Curve::Line,
+            start,
+            end: self.places.position,
+            extra: Vec::new(),
+            feed: self.modes.feed,
+            known: Knowledge::Nothing,
+            words: CoordinateWords {
+                mm_per_unit: self.modes.units().map_or(1.0, Units::mm_per_unit),
+                incremental: self.modes.incremental,
+                work_offset_mm: self.work_offset_mm(),
+                to_machine: place.axes,
+            },
+        });
+    }
+
+    /// What is cut from an unknown place is cut somewhere else than the program says.
+    fn refuse_cut_from_lost_place(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let Some((axis, cause, _)) = self.places.first_lost() else {
+            return Ok(());
+        };
+        let letter = char::from(COORDINATES[axis]);
+        let why = self.places.why_lost(axis).unwrap_or_default();
+        let also = match cause {
+            Cause::ToolLength => "",
+            Cause::Machine => {
+                ", or give the machine's zero and its reference points (machine_zero_mm, reference_points_mm)"
+            }
+        };
+        Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            &format!("{why}, so where the tool is along {letter} is not known here, and this block cuts"),
+            &format!("state the axis before it, with a rapid (G0) and an absolute {letter} word{also}"),
+        ))
     }
 
     fn end_of_move(
@@ -535,7 +595,7 @@ impl<'o> Interpreter<'o> {
         kind: MoveKind,
         mm_per_unit: f64,
     ) -> Result<Vector3<f64>, ProgramError> {
-        let mut end = self.position;
+        let mut end = self.places.position;
         let offset = self.work_offset_mm() + self.offset.active_mm;
         for axis in 0..3 {
             let letter = COORDINATES[axis];
@@ -544,7 +604,7 @@ impl<'o> Interpreter<'o> {
             };
             let value_mm = value * mm_per_unit;
             if self.modes.incremental {
-                if !self.known[axis] && kind == MoveKind::Feed {
+                if !self.places.known[axis] && kind == MoveKind::Feed {
                     return Err(block.refuse(
                         ProgramErrorKind::Ambiguous, block.word(letter),
                         &format!(
@@ -557,7 +617,7 @@ impl<'o> Interpreter<'o> {
                 end[axis] += value_mm;
             } else {
                 end[axis] = value_mm + offset[axis];
-                self.known[axis] = true;
+                self.places.state(axis);
             }
             if end[axis].abs() > LARGEST_COORDINATE_MM {
                 return Err(block.refuse(
@@ -621,9 +681,12 @@ impl<'o> Interpreter<'o> {
     }
 
     pub(crate) fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
-        let stated = self.known;
+        let stated = self.places.stated;
         let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
-        for (motion, (before, after)) in self.moves.iter_mut().zip(&self.knowledge) {
+        for (motion, (before, after, _)) in self.moves.iter_mut().zip(&self.knowledge) {
+            if motion.words.is_to_machine() {
+                continue;
+            }
             motion.known = match (covers(before), covers(after)) {
                 (true, _) => Knowledge::Whole,
                 (false, true) => Knowledge::End,
@@ -638,17 +701,11 @@ impl<'o> Interpreter<'o> {
                 ));
             }
         }
-        let unknown = self
-            .moves
-            .iter()
-            .filter(|motion| motion.known == Knowledge::Nothing)
-            .count();
-        if let Some(first) = self
-            .moves
-            .first()
-            .filter(|_| unknown > 0)
-            .map(|motion| motion.line)
-        {
+        let mut before_the_first = self.moves.iter().zip(&self.knowledge).filter(|(motion, (.., lost))| {
+            motion.known == Knowledge::Nothing && !motion.words.is_to_machine() && !lost
+        });
+        if let Some(first) = before_the_first.next().map(|(motion, _)| motion.line) {
+            let unknown = 1 + before_the_first.count();
             let (blocks, carried) = match unknown {
                 1 => ("1 block moves".to_owned(), "it is"),
                 _ => (format!("{unknown} blocks move"), "they are"),
@@ -674,6 +731,9 @@ impl<'o> Interpreter<'o> {
 
 /// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
 fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
+    if block.dwells_before_motion() {
+        return Ok(());
+    }
     let axis = |word: &&crate::text::line::Word| {
         COORDINATES.contains(&word.letter) || ExtraAxes::LETTERS.contains(&word.letter)
     };
