@@ -47,6 +47,29 @@ pub(crate) struct Block<'p> {
 
 impl<'p> Block<'p> {
     pub fn of(program: &'p Program, index: usize) -> Result<Self, ProgramError> {
+        match Self::read(program, index) {
+            (block, None) => Ok(block),
+            (_, Some(fault)) => Err(fault),
+        }
+    }
+
+    /// What is understood of a block: words that are refused are left out.
+    pub fn understood(program: &'p Program, index: usize) -> Self {
+        Self::read(program, index).0
+    }
+
+    /// G codes of the block that are refused, in tenths.
+    pub fn refused_codes(&self) -> Vec<u32> {
+        let codes = self.words.iter().filter(|word| word.letter == b'G');
+        let refused = codes.map(Word::tenths).filter(|tenths| {
+            let code = lookup('G', *tenths);
+            code.is_none_or(|code| matches!(code.treatment, Treatment::Refused { .. }))
+        });
+        refused.collect()
+    }
+
+    fn read(program: &'p Program, index: usize) -> (Self, Option<ProgramError>) {
+        let mut fault = None;
         let line = &program.lines()[index];
         let mut block = Self {
             program,
@@ -59,12 +82,15 @@ impl<'p> Block<'p> {
         for index in 0..block.words.len() {
             let word = block.words[index];
             match word.letter {
-                b'G' | b'M' => block.note_code(&word)?,
+                b'G' | b'M' => {
+                    let refused = block.note_code(&word).err();
+                    fault = fault.or(refused);
+                }
                 b'N' | b'O' => {}
                 letter => {
                     let slot = &mut block.values[usize::from(letter - b'A')];
                     if slot.is_some() {
-                        return Err(block.refuse(
+                        let twice = block.refuse(
                             ProgramErrorKind::Malformed,
                             Some(&word),
                             &format!(
@@ -72,14 +98,16 @@ impl<'p> Block<'p> {
                                 char::from(letter)
                             ),
                             "keep one of the two words",
-                        ));
+                        );
+                        fault = fault.or(Some(twice));
+                        continue;
                     }
                     *slot = Some((word.value, index));
                 }
             }
         }
         block.drop_parameters();
-        Ok(block)
+        (block, fault)
     }
 
     pub fn is_vendor(&self) -> bool {

@@ -52,30 +52,6 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
     interpreter.finish(program)
 }
 
-/// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
-/// where [`Program::read`] and [`interpret`] take it.
-///
-/// A line that is refused is left out of what follows, so a later fault may be there only because of an
-/// earlier one.
-pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramError> {
-    let (program, mut found) = Program::read_with_faults(bytes.into());
-    let mut interpreter = Interpreter::new(options);
-    for index in 0..program.lines().len() {
-        if let Err(fault) = interpreter.run_line(&program, index) {
-            interpreter.modes.go_on_after_fault();
-            interpreter.places.take_as_known();
-            found.push(fault);
-        }
-    }
-    if found.is_empty() {
-        found.extend(interpreter.finish(&program).err());
-    }
-    // Of two faults of a line the first found is that of its reading.
-    found.sort_by_key(|fault| fault.line);
-    found.dedup_by_key(|fault| fault.line);
-    found
-}
-
 /// What is known while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
     options: &'o ReadOptions,
@@ -584,8 +560,12 @@ impl<'o> Interpreter<'o> {
         Err(block.refuse(
             ProgramErrorKind::Ambiguous,
             None,
-            &format!("{why}, so where the tool is along {letter} is not known here, and this block cuts"),
-            &format!("state the axis before it, with a rapid (G0) and an absolute {letter} word{also}"),
+            &format!(
+                "{why}, so where the tool is along {letter} is not known here, and this block cuts"
+            ),
+            &format!(
+                "state the axis before it, with a rapid (G0) and an absolute {letter} word{also}"
+            ),
         ))
     }
 
@@ -701,9 +681,13 @@ impl<'o> Interpreter<'o> {
                 ));
             }
         }
-        let mut before_the_first = self.moves.iter().zip(&self.knowledge).filter(|(motion, (.., lost))| {
-            motion.known == Knowledge::Nothing && !motion.words.is_to_machine() && !lost
-        });
+        let mut before_the_first =
+            self.moves
+                .iter()
+                .zip(&self.knowledge)
+                .filter(|(motion, (.., lost))| {
+                    motion.known == Knowledge::Nothing && !motion.words.is_to_machine() && !lost
+                });
         if let Some(first) = before_the_first.next().map(|(motion, _)| motion.line) {
             let unknown = 1 + before_the_first.count();
             let (blocks, carried) = match unknown {

@@ -48,7 +48,8 @@ pub(crate) fn machine_place(
     let reference = match block.codes.machine {
         Some(280) => options.reference_points_mm[0],
         // P3 and P4 are further points (Fanuc).
-        _ => options.reference_points_mm[1].filter(|_| matches!(number_of(block, b'P'), None | Some(2.0))),
+        _ => options.reference_points_mm[1]
+            .filter(|_| matches!(number_of(block, b'P'), None | Some(2.0))),
     };
     let bare = has_bare_letters(block);
     let all = !is_g53 && (!any || bare);
@@ -66,9 +67,15 @@ pub(crate) fn machine_place(
             // Which axes a printer homes by `G28 X` is its own matter.
             false => reference.filter(|_| !bare).map(|point| point[axis]),
         };
-        places_mm[axis] = zero.zip(at).map(|(zero, at): (Vector3<f64>, f64)| zero[axis] + at);
+        places_mm[axis] = zero
+            .zip(at)
+            .map(|(zero, at): (Vector3<f64>, f64)| zero[axis] + at);
     }
-    Ok(Some(MachinePlace { axes, places_mm, all }))
+    Ok(Some(MachinePlace {
+        axes,
+        places_mm,
+        all,
+    }))
 }
 
 /// What must not stand beside these codes.
@@ -79,7 +86,9 @@ fn check(block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
         Some(300) => (false, "G30"),
         _ => (false, "G28"),
     };
-    let other = codes.dwell || codes.position_offset.is_some() || matches!(codes.tool_length, Some(431 | 432));
+    let other = codes.dwell
+        || codes.position_offset.is_some()
+        || matches!(codes.tool_length, Some(431 | 432));
     // `G0 G28 Z0` is common; the axis words are those of G28.
     let motion = !is_g53 && !matches!(codes.motion, None | Some(Motion::Rapid | Motion::Off));
     match other || motion {
@@ -89,7 +98,13 @@ fn check(block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
             &format!("{name} and another code that may take the axis words are in one block"),
             "write them in two blocks",
         )),
-        false if !is_g53 && modes.units().is_none() && COORDINATES.iter().any(|letter| block.value(*letter).is_some_and(|value| value != 0.0)) => {
+        false
+            if !is_g53
+                && modes.units().is_none()
+                && COORDINATES
+                    .iter()
+                    .any(|letter| block.value(*letter).is_some_and(|value| value != 0.0)) =>
+        {
             modes.mm_per_unit(block).map(|_| ())
         }
         false => Ok(()),
@@ -117,12 +132,19 @@ fn check_machine_coordinates(block: &Block<'_>, modes: &Modes) -> Result<(), Pro
 
 fn number_of(block: &Block<'_>, letter: u8) -> Option<f64> {
     let mut words = block.words.iter();
-    words.find(|word| word.letter == letter).map(|word| word.value)
+    words
+        .find(|word| word.letter == letter)
+        .map(|word| word.value)
 }
 
 /// `G28 X` names an axis without a number (printers).
 fn has_bare_letters(block: &Block<'_>) -> bool {
     let mut tokens: Vec<Spanned> = Vec::new();
-    tokens_of(&block.program.bytes()[block.program.content(block.line)], &mut tokens);
-    tokens.iter().any(|spanned| matches!(spanned.token, Token::Letter(_)))
+    tokens_of(
+        &block.program.bytes()[block.program.content(block.line)],
+        &mut tokens,
+    );
+    tokens
+        .iter()
+        .any(|spanned| matches!(spanned.token, Token::Letter(_)))
 }

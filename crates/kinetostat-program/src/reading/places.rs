@@ -26,6 +26,8 @@ pub(crate) struct Places {
     pub stated: [bool; 3],
     /// What made a known axis unknown, and on which line.
     lost: [Option<(Cause, usize)>; 3],
+    /// Behind a line that could not be read: it may have moved the axis.
+    pub unsure: [bool; 3],
 }
 
 impl Places {
@@ -35,6 +37,7 @@ impl Places {
             known: [start.is_some(); 3],
             stated: [start.is_some(); 3],
             lost: [None; 3],
+            unsure: [false; 3],
         }
     }
 
@@ -43,6 +46,7 @@ impl Places {
         self.known[axis] = true;
         self.stated[axis] = true;
         self.lost[axis] = None;
+        self.unsure[axis] = false;
     }
 
     /// An axis is unknown from here on.
@@ -65,6 +69,13 @@ impl Places {
             Cause::ToolLength => format!("line {line} changed the tool length"),
             Cause::Machine => format!("line {line} sent the tool to a place of the machine"),
         })
+    }
+
+    /// A line could not be read: no place is sure, and none is asked for.
+    pub fn doubt(&mut self) {
+        self.unsure = [true; 3];
+        self.stated = [true; 3];
+        self.take_as_known();
     }
 
     /// What was lost counts as known again: for going on behind a fault.

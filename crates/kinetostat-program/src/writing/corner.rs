@@ -48,7 +48,10 @@ pub(crate) fn follow_turns(
                 continue;
             };
             let between = &queries.path.moves[last.move_index + 1..node.move_index];
-            if between.iter().any(|motion| motion.known == Knowledge::Nothing) {
+            if between
+                .iter()
+                .any(|motion| motion.known == Knowledge::Nothing)
+            {
                 // Behind a move without a correction the load comes from nowhere.
                 continue;
             }

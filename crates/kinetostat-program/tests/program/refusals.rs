@@ -207,7 +207,12 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         "a feed in machine coordinates",
         "part coordinates",
     ),
-    ("G21 G91\nG53 G0 Z0", 2, "G53 stands beside increments", "G90"),
+    (
+        "G21 G91\nG53 G0 Z0",
+        2,
+        "G53 stands beside increments",
+        "G90",
+    ),
     ("G21\nG53 Z0", 2, "G53 without a motion word", "G53 G0"),
     (
         "G21\nG0 X0\nG43.1 Z5 G0",
