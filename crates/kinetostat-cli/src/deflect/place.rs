@@ -85,6 +85,9 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--block-delete", p.block_delete.is_some()),
         ("--axes-stand-still", p.axes_stand_still),
         ("--start-position-mm", p.start_position_mm.is_some()),
+        ("--machine-zero-mm", p.machine_zero_mm.is_some()),
+        ("--g28-mm", p.g28_mm.is_some()),
+        ("--g30-mm", p.g30_mm.is_some()),
         ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
         ("--limit", !p.limits.is_empty()),
     ];

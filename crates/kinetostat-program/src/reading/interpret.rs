@@ -554,7 +554,7 @@ impl<'o> Interpreter<'o> {
         let also = match cause {
             Cause::ToolLength => "",
             Cause::Machine => {
-                ", or give the machine's zero and its reference points (machine_zero_mm, reference_points_mm)"
+                ", or give the machine's zero and its reference points (--machine-zero-mm, --g28-mm, --g30-mm, or machine_zero_mm, g28_mm, g30_mm under [reading] in the job file)"
             }
         };
         Err(block.refuse(
