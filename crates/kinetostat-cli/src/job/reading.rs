@@ -51,7 +51,9 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<Read
         place("--g28-mm", (&flags.g28_mm, table.g28_mm))?,
         place("--g30-mm", (&flags.g30_mm, table.g30_mm))?,
     ];
-    if reading.machine_zero_mm.is_none() && reading.reference_points_mm != [None; 2] {
+    let left_out = job.is_some_and(|j| j.lacks("machine_zero_mm"));
+    let no_zero = reading.machine_zero_mm.is_none() && !left_out;
+    if no_zero && reading.reference_points_mm != [None; 2] {
         return Err(Failure::input(
             "a reference point (g28_mm, g30_mm) counts from the machine's zero, and where that lies in the part is not stated: give it as machine_zero_mm under [reading] in the job file, or --machine-zero-mm".to_owned(),
         ));
