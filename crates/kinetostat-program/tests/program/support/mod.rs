@@ -331,7 +331,7 @@ impl Generator<'_> {
     }
 
     /// A block to places of the machine, which the text does not say.
-    fn to_machine(&mut self, words: &[String], places: [Option<f64>; 3]) {
+    fn go_to_machine(&mut self, words: &[String], places: [Option<f64>; 3]) {
         let (start, before) = (self.place, self.known);
         for axis in 0..3 {
             if let Some(place) = places[axis] {
@@ -362,7 +362,7 @@ impl Generator<'_> {
                 let point = REFERENCES[usize::from(second)];
                 let places =
                     [0, 1, 2].map(|axis| (all || by[axis].is_some()).then_some(point[axis]));
-                self.to_machine(&words, places);
+                self.go_to_machine(&words, places);
             }
             Op::Machine(to) => {
                 if self.incremental || to.iter().all(Option::is_none) {
@@ -378,7 +378,7 @@ impl Generator<'_> {
                         places[axis] = Some(value * self.scale());
                     }
                 }
-                self.to_machine(&words, places);
+                self.go_to_machine(&words, places);
             }
             Op::Length { tool, height } => {
                 let mut words = vec![match tool {
