@@ -10,12 +10,15 @@ use crate::path::moves::{
 use crate::path::pause::Pause;
 use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::reading::arc::{self, ArcFrame};
+use crate::reading::beside::{
+    OTHER_AXES, check_codes_beside_motion, refuse_dwell_with_motion, refuse_other_axes,
+    refuse_parameters_of_calls,
+};
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
 use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
-use crate::reading::moment::{Placed, moment_of};
-use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions, Units};
+use crate::reading::options::{BlockDelete, ReadOptions, Units};
 use crate::reading::pause::pause;
 use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
@@ -29,9 +32,6 @@ use crate::text::program::Program;
 const LARGEST_COORDINATE_MM: f64 = 1e6;
 
 const COORDINATES: [u8; 3] = *b"XYZ";
-
-/// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
-const OTHER_AXES: &[u8; 6] = b"ABCUVW";
 
 /// Interprets the motions of a program.
 ///
@@ -165,7 +165,7 @@ impl<'o> Interpreter<'o> {
                 "remove the blocks after M2 or M30, or the M2 or M30 before them",
             ));
         }
-        self.refuse_other_axes(block)?;
+        refuse_other_axes(block, self.options)?;
         if self.modes.overrides_options(block) {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
@@ -182,7 +182,7 @@ impl<'o> Interpreter<'o> {
         } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
-            self.refuse_parameters_of_calls(block)?;
+            refuse_parameters_of_calls(block, self.modes.motion)?;
             self.read_move(block)?;
         } else {
             self.note_no_motion(block);
@@ -311,85 +311,6 @@ impl<'o> Interpreter<'o> {
         })
     }
 
-    /// Words that mean a corner rounding or a call on some controllers.
-    fn refuse_parameters_of_calls(&self, block: &Block<'_>) -> Result<(), ProgramError> {
-        if block
-            .words
-            .iter()
-            .any(|word| word.letter == b'M' && word.value >= 100.0)
-            && block.codes.motion.is_none()
-        {
-            return Err(block.refuse(
-                ProgramErrorKind::Ambiguous, None,
-                "an axis word beside this M code is its parameter to printers and a motion to mills",
-                "write the motion as a block of its own, with G0 or G1",
-            ));
-        }
-        if matches!(self.modes.motion, Some(Motion::Rapid | Motion::Feed)) {
-            for letter in *b"IJKRP" {
-                if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
-                    return Err(block.refuse(
-                        ProgramErrorKind::Ambiguous, Some(word),
-                        &format!(
-                            "{} appears in a straight move: some controllers stop, some round a corner",
-                            char::from(letter)
-                        ),
-                        "remove the word, or write the arc with G2 or G3",
-                    ));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A block with motion may be divided: each of its codes must have a piece to stand in.
-    fn check_codes_beside_motion(
-        &mut self,
-        block: &Block<'_>,
-        kind: MoveKind,
-    ) -> Result<(), ProgramError> {
-        for word in block.words.iter().filter(|word| word.letter == b'M') {
-            let tenths = word.tenths();
-            let Some(moment) = moment_of(tenths) else {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "M{} appears beside a motion, and whether it acts before or after it is not known here",
-                        word.value
-                    ),
-                    "write it in a block of its own, before or after the motion",
-                ));
-            };
-            if moment.code == 6 && self.options.tools.is_some() {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
-                    "write M6 in a block of its own, before or after the motion",
-                ));
-            }
-            if kind != MoveKind::Feed {
-                continue;
-            }
-            if moment.placed == Placed::Refused {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it",
-                        moment.code, moment.meaning
-                    ),
-                    "write it in a block of its own, before or after the motion",
-                ));
-            }
-            if moment.is_disputed() {
-                self.repeated.note(block.line_number, &format!(
-                    "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
-                    moment.code, moment.meaning
-                ));
-            }
-        }
-        Ok(())
-    }
-
     fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         let motion = match self.modes.motion {
             Some(Motion::Off) | None => {
@@ -419,7 +340,7 @@ impl<'o> Interpreter<'o> {
         } else {
             MoveKind::Feed
         };
-        self.check_codes_beside_motion(block, kind)?;
+        check_codes_beside_motion(block, kind, self.options, &mut self.repeated)?;
         self.modes.check_feed(block, kind)?;
         if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
             self.no_feed_warned = true;
@@ -514,6 +435,12 @@ impl<'o> Interpreter<'o> {
 
     /// G28, G30, G53: one move, to where the axes end; the point on the way there is not looked at.
     fn go_to_machine_place(&mut self, block: &Block<'_>, place: &MachinePlace) {
+        if COORDINATES
+            .iter()
+            .any(|letter| block.value(*letter).is_some_and(|value| value != 0.0))
+        {
+            self.modes.use_units();
+        }
         let start = self.places.position;
         let known_before = self.places.known;
         for axis in (0..3).filter(|axis| place.axes[*axis]) {
@@ -611,26 +538,6 @@ impl<'o> Interpreter<'o> {
         Ok(end)
     }
 
-    /// Words of axes that turn or shift the part or the head, of which there is no model here.
-    fn refuse_other_axes(&self, block: &Block<'_>) -> Result<(), ProgramError> {
-        if self.options.other_axes == OtherAxes::StandStill {
-            return Ok(());
-        }
-        for letter in *OTHER_AXES {
-            if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "axis {} changes where the tool is in the part and in the machine, and there is no model of it",
-                        char::from(letter)
-                    ),
-                    "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
-                ));
-            }
-        }
-        Ok(())
-    }
-
     /// The user said that these axes stand still; the program may say otherwise.
     fn warn_of_moved_axes(&mut self) {
         for letter in OTHER_AXES.map(char::from) {
@@ -711,28 +618,4 @@ impl<'o> Interpreter<'o> {
         path.warnings.sort_by_key(|warning| warning.line);
         Ok(path)
     }
-}
-
-/// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
-fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
-    if block.dwells_before_motion() {
-        return Ok(());
-    }
-    let axis = |word: &&crate::text::line::Word| {
-        COORDINATES.contains(&word.letter) || ExtraAxes::LETTERS.contains(&word.letter)
-    };
-    let time_elsewhere = block
-        .words
-        .iter()
-        .any(|word| matches!(word.letter, b'P' | b'S'));
-    let axes = block.words.iter().filter(axis).count();
-    if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
-        return Err(block.refuse(
-            ProgramErrorKind::Ambiguous,
-            None,
-            "a dwell and a motion are in one block: the axis words may belong to either",
-            "write them in two blocks",
-        ));
-    }
-    Ok(())
 }

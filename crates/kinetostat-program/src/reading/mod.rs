@@ -4,6 +4,7 @@
 //! what to do.
 
 pub(crate) mod arc;
+pub(crate) mod beside;
 pub(crate) mod block;
 pub(crate) mod dialect;
 pub(crate) mod extra;

@@ -28,6 +28,8 @@ pub(crate) struct Modes {
     feed_is_stale: bool,
     /// Axes along which a tool offset is in force.
     tool_length_on: [bool; 3],
+    /// H of the G43 in force, where it names one.
+    length_number: Option<f64>,
 }
 
 impl Modes {
@@ -46,6 +48,7 @@ impl Modes {
             feed_mode: FeedMode::PerMinute,
             feed_is_stale: false,
             tool_length_on: [false; 3],
+            length_number: None,
         }
     }
 
@@ -165,11 +168,17 @@ impl Modes {
     /// coordinate than before, and at which is not in the program.
     pub fn set_tool_length(&mut self, block: &Block<'_>) -> [bool; 3] {
         const Z: [bool; 3] = [false, false, true];
-        match block.codes.tool_length {
-            None => [false; 3],
+        let Some(code) = block.codes.tool_length else {
+            return [false; 3];
+        };
+        let number = block.value(b'H').filter(|_| code == 430);
+        let before = std::mem::replace(&mut self.length_number, number);
+        match code {
+            // The same length once more.
+            430 if number.is_some() && number == before => [false; 3],
             // Cancelling what was never set is a habit of the first block and changes nothing.
-            Some(490) => std::mem::take(&mut self.tool_length_on),
-            Some(code) => {
+            490 => std::mem::take(&mut self.tool_length_on),
+            code => {
                 let named = block.codes.length_axes;
                 let axes = match code != 430 && named != [false; 3] {
                     true => named,

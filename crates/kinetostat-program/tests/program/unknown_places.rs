@@ -46,6 +46,23 @@ fn a_tool_length_before_the_first_move_changes_nothing() {
     );
 }
 
+/// Of a length that is named again nothing changes; of another, or one that a change of tools may have changed, it does.
+#[test]
+fn the_same_length_once_more_changes_nothing() {
+    for (again, same) in [
+        ("G43 H1", true),
+        ("T2 M6\nG43 H1", true),
+        ("G43", false),
+        ("G43 H2", false),
+        ("G49\nG43 H1", false),
+        ("G43.1 Z5\nG43 H1", false),
+    ] {
+        let text = format!("G21 G90\nG43 H1\nG0 X0 Y0 Z5\n{again}\nG1 Z-1 F100\n");
+        let path = read(&text, &ReadOptions::default());
+        assert_eq!(path.is_ok(), same, "{text}");
+    }
+}
+
 #[test]
 fn reference_points_at_the_end_and_between_tools_are_carried() {
     let text = "G21 G90\nT1 M6\nG43 H1\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX10\nG91 G28 Z0 M5\nT2 M6\nG90 G0 X20 Y5\nX30\nG43 H2 Z5\nG1 Z-1 F50\nG0 Z5\nG53 G0 Z0\nG0 G53 X-5 Y-5\nG28\nM30\n";

@@ -385,8 +385,8 @@ impl Generator<'_> {
                     0 => "G49".to_owned(),
                     tool => format!("G43 H{tool}"),
                 }];
-                // G49 where none is in force changes nothing.
-                self.known[2] &= tool == 0 && self.tool == 0;
+                // G49 where none is in force, and the same length once more, change nothing.
+                self.known[2] &= tool == self.tool;
                 self.place[2] += LENGTHS[self.tool] - LENGTHS[tool];
                 self.tool = tool;
                 if let Some(height) = height.filter(|_| !self.incremental) {
