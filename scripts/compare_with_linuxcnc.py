@@ -329,7 +329,10 @@ class Writer:
         if feed and self.inch != before and self.feed_mode != 93:
             # F beside a change of units is read differently: the units go into a block before.
             modes = self.alone(modes, ("G20", "G21"))
-        self.block(modes + self.motion_words(0 if rapid else 1) + words + feed + self.beside_words())
+        motion = self.motion_words(0 if rapid else 1)
+        if motion and r.random() < 0.03:
+            motion += ["G4", "P0.1"]
+        self.block(modes + motion + words + feed + self.beside_words())
         self.at = to
 
     def alone(self, modes, codes):
@@ -522,6 +525,7 @@ def mutant(text, seed):
     at = r.randrange(2, len(lines))
     line = lines[at]
     words = ["G0", "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G20", "G21", "G53", "G54", "G59.3", "G61", "G80", "G81"]
+    words += ["G28", "G30 Z5", "G53 G0 Z1", "G53 G1 X1", "G43.1 Z3", "G49"]
     words += ["G90", "G91", "G90.1", "G91.1", "G92", "G92.1", "G92.3", "G93", "G94", "G95", "G9", "G98", "G40", "G41", "G43", "G49"]
     words += ["G2.1", "G20.1", "G61.2", "G90.2", "M5", "M9", "M48", "M3.5", "T2"]
     words += ["X1", "Y-2.5", "Z0", "I3", "J-4", "K0", "I0", "R12", "R-30", "R0", "F0", "F50", "F-5", "P2", "P1", "Q1", "S5", "T1", "M2", "M3"]
