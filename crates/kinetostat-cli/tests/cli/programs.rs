@@ -511,7 +511,10 @@ fn places_of_the_machine_are_carried_and_may_be_stated() {
         assert!(output.lines().any(|l| l == line), "{line}: {output}");
     }
     // Above the path in every cut, and with no correction at the reference points.
-    assert!(output.contains("\nG0 Z5 X30.0000 Y0.0000\nG91 G28 Z0\n"), "{output}");
+    assert!(
+        output.contains("\nG0 Z5 X30.0000 Y0.0000\nG91 G28 Z0\n"),
+        "{output}"
+    );
 
     // A cut from there needs to know where that is.
     write(
