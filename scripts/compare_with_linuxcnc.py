@@ -32,6 +32,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MM = 25.4
 PLACE_MM = 1e-6
+# Of G28 and G30, as `moves --machine` has them.
+REFERENCES_MM = [(-12.5, 60.25, 110.0), (33.0, -8.75, 95.5)]
 
 
 # --- the side of LinuxCNC: a process of its own ---------------------------------------------------
@@ -109,7 +111,8 @@ def worker(parameter_file):
         shutil.copyfile(parameter_file, parameter_file + ".run")
         canon = Canon(parameter_file + ".run")
         try:
-            result, line = gcode.parse(name, canon, "G21", "")
+            # The length of the tool would go on from the program before.
+            result, line = gcode.parse(name, canon, "G21", "G49")
             error = gcode.strerror(result) if result > gcode.MIN_ERROR else None
         except Exception as problem:  # the interpreter raises all kinds
             error, line = str(problem), canon.line
@@ -121,6 +124,8 @@ def write_parameters(path, offsets):
     """A complete parameter file; the origins are those of `moves --offsets`."""
     values = {number: 0.0 for number in [*range(5161, 5170), *range(5181, 5190), *range(5210, 5220)]}
     values[5220] = 1.0
+    for first, point in zip((5161, 5181), REFERENCES_MM):
+        values.update({first + axis: point[axis] for axis in range(3)})
     for system in range(9):
         origin = (12.7 * system, -2.54 * (system + 1), 0.254 * system * system) if offsets else (0.0,) * 3
         for index in range(10):
@@ -155,7 +160,7 @@ def ask_linuxcnc(python, names, parameters):
 
 
 def ask_kinetostat(moves, names, *options):
-    done = subprocess.run([moves, *options, "-"], input="\n".join(names), capture_output=True, text=True, check=True)
+    done = subprocess.run([moves, "--machine", *options, "-"], input="\n".join(names), capture_output=True, text=True, check=True)
     answers, current = {}, None
     for line in done.stdout.splitlines():
         if not line:
@@ -203,6 +208,9 @@ class Writer:
         self.motion = None
         self.has_feed = False
         self.origins = [(0.0,) * 3] * 9
+        self.length = 0.0
+        self.in_force = False
+        self.height_unknown = False  # to a reader that does not know the tool's length
 
     def number(self, value, decimals=None):
         """A number and the value it has."""
@@ -309,8 +317,10 @@ class Writer:
         r = self.r
         before = self.inch
         modes = self.mode_words()
-        rapid = r.random() < 0.25
+        rapid = r.random() < 0.25 or self.height_unknown
         axes = r.sample(range(3), r.choice([1, 2, 2, 3]))
+        if 2 in axes and not self.incremental:
+            self.height_unknown = False
         words, to = [], list(self.at)
         for axis in axes:
             word, to[axis] = self.coordinate(axis, self.somewhere(axis))
@@ -319,7 +329,10 @@ class Writer:
         if feed and self.inch != before and self.feed_mode != 93:
             # F beside a change of units is read differently: the units go into a block before.
             modes = self.alone(modes, ("G20", "G21"))
-        self.block(modes + self.motion_words(0 if rapid else 1) + words + feed + self.beside_words())
+        motion = self.motion_words(0 if rapid else 1)
+        if motion and r.random() < 0.03:
+            motion += ["G4", "P0.1"]
+        self.block(modes + motion + words + feed + self.beside_words())
         self.at = to
 
     def alone(self, modes, codes):
@@ -329,6 +342,8 @@ class Writer:
         return [word for word in modes if word not in codes]
 
     def arc(self):
+        if self.height_unknown:
+            return
         r = self.r
         before = self.inch
         modes = self.mode_words()
@@ -379,7 +394,7 @@ class Writer:
 
     def circle_by_end(self):
         """A full circle whose end is written out; possible where the words meet the place exactly."""
-        if self.incremental or self.absolute_centre or self.feed_mode == 93:
+        if self.incremental or self.absolute_centre or self.feed_mode == 93 or self.height_unknown:
             return
         first, second, _ = {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}[self.plane]
         words = []
@@ -395,7 +410,7 @@ class Writer:
         kind = r.random()
         if kind < 0.5:
             words = []
-            for axis in r.sample(range(3), r.choice([1, 2, 3])):
+            for axis in r.sample(range(2), r.choice([1, 2])) if self.height_unknown else r.sample(range(3), r.choice([1, 2, 3])):
                 text, value = self.number(r.uniform(-50, 50) / self.unit())
                 words.append("XYZ"[axis] + text)
                 self.offset[axis] = self.at[axis] - self.origins[self.system][axis] - value * self.unit()
@@ -411,6 +426,48 @@ class Writer:
             self.block(["G92.3"])
             self.offset = list(self.saved)
 
+    def machine_block(self):
+        """To a place of the machine, or another length of the tool."""
+        r = self.r
+        kind = r.random()
+        axes = r.sample(range(3), r.choice([0, 1, 1, 2, 3]))
+        words = []
+        if kind < 0.4:
+            code = r.randrange(2)
+            for axis in axes:
+                words.append(self.coordinate(axis, self.somewhere(axis))[0])
+            self.block([["G28", "G30"][code]] + words)
+            self.go_to_machine({axis: REFERENCES_MM[code][axis] for axis in axes or range(3)})
+        elif kind < 0.7:
+            if self.incremental or not axes:
+                return
+            places = {}
+            for axis in axes:
+                text, value = self.number(r.uniform(-120, 120) / self.unit())
+                words.append("XYZ"[axis] + text)
+                places[axis] = value * self.unit()
+            self.block(["G53"] + self.motion_words(0) + words)
+            self.go_to_machine(places)
+        else:
+            before = self.length
+            if kind < 0.9:
+                text, value = self.number(r.uniform(-60, 60) / self.unit())
+                self.length = value * self.unit()
+                self.block(["G43.1", "Z" + text])
+                self.in_force = True
+            else:
+                self.length = 0.0
+                self.block(["G49"])
+            self.height_unknown = self.height_unknown or kind < 0.9 or self.in_force
+            self.in_force = kind < 0.9
+            self.at[2] += before - self.length
+
+    def go_to_machine(self, places):
+        for axis, place in places.items():
+            self.at[axis] = place - (self.length if axis == 2 else 0.0)
+        if 2 in places:
+            self.height_unknown = self.in_force
+
     def feed_mode_block(self):
         self.feed_mode = self.r.choice([93, 94, 94, 95])
         self.block([f"G{self.feed_mode}"] + (["M3", "S1000"] if self.feed_mode == 95 else []))
@@ -421,7 +478,7 @@ class Writer:
         if r.random() < 0.2:
             self.block(self.feed_words(1.0, own=True) + r.choice([[], ["M8"], ["G17"]] if self.plane == 17 else [[], ["M9"]]))
             return
-        self.block([r.choice(["M3 S1000", "M5", "M8", "M9", "G4 P0.1", "G61", "G64 P0.01", "G64", "M0", "M1", "G40", "G49"])], comment=False)
+        self.block([r.choice(["M3 S1000", "M5", "M8", "M9", "G4 P0.1", "G61", "G64 P0.01", "G64", "M0", "M1", "G40"])], comment=False)
 
     def program(self):
         r = self.r
@@ -450,6 +507,8 @@ class Writer:
                 self.feed_mode_block()
             elif kind < 0.97:
                 self.other_block()
+            elif kind < 0.985:
+                self.machine_block()
             else:
                 modes = self.mode_words()
                 if modes:
@@ -466,6 +525,7 @@ def mutant(text, seed):
     at = r.randrange(2, len(lines))
     line = lines[at]
     words = ["G0", "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G20", "G21", "G53", "G54", "G59.3", "G61", "G80", "G81"]
+    words += ["G28", "G30 Z5", "G53 G0 Z1", "G53 G1 X1", "G43.1 Z3", "G49"]
     words += ["G90", "G91", "G90.1", "G91.1", "G92", "G92.1", "G92.3", "G93", "G94", "G95", "G9", "G98", "G40", "G41", "G43", "G49"]
     words += ["G2.1", "G20.1", "G61.2", "G90.2", "M5", "M9", "M48", "M3.5", "T2"]
     words += ["X1", "Y-2.5", "Z0", "I3", "J-4", "K0", "I0", "R12", "R-30", "R0", "F0", "F50", "F-5", "P2", "P1", "Q1", "S5", "T1", "M2", "M3"]
@@ -547,7 +607,10 @@ def compare_moves(found, moves, events, name, source):
         if event[0] in lines or math.dist(event[2], here) > PLACE_MM:
             kept.append(event)
         here = event[2]
-    events = kept
+    # G28 and G30 are two moves to LinuxCNC; the first goes to a point on the way.
+    machine = {move["line"] for move in moves if move["machine"]}
+    pairs = zip(kept, kept[1:] + [[None]])
+    events = [event for event, after in pairs if event[0] not in machine or after[0] != event[0]]
     if len(moves) != len(events):
         found.differ("the number of moves", f"{name}: {len(moves)} and {len(events)}")
         return
@@ -562,7 +625,13 @@ def compare_moves(found, moves, events, name, source):
         known, shift = shift, stated_places(shift, move["end"], end, source[: line - 1])
         here = here and tuple(here[axis] + shift[axis] - known[axis] for axis in range(3))
         end = tuple(end[axis] + shift[axis] for axis in range(3))
-        found.note("end point, mm", math.dist(move["end"], end), PLACE_MM, example)
+        axes = 3
+        if move["knowledge"] == "nothing" and (not move["machine"] or has_tool_length(source[:line])):
+            found.counts["moves without a known height compared in X and Y"] += 1
+            axes = 2
+        elif move["machine"]:
+            found.counts["moves to places of the machine compared"] += 1
+        found.note("end point, mm", math.dist(move["end"][:axes], end[:axes]), PLACE_MM, example)
         if (move["arc"] is None) != (arc is None):
             found.differ("arc or straight", example)
             return
@@ -602,6 +671,12 @@ def compare_moves(found, moves, events, name, source):
         if "part" in move and kind == "feed" and move["programmed"] and move["known"]:
             check_speed(found, move, feed, example)
         here = end
+
+
+def has_tool_length(lines):
+    """Whether a tool's length is in force after these lines."""
+    codes = [code for line in lines for code in re.findall(r"G(43\.1|49)(?![.0-9])", re.sub(r"\([^)]*\)|;.*", "", line).upper())]
+    return codes[-1:] == ["43.1"]
 
 
 def stated_places(shift, mine, theirs, before):

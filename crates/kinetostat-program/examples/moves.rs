@@ -1,8 +1,9 @@
 //! Prints what programs mean, one line of JSON for each motion, so that another interpreter can be
 //! compared with this crate (`scripts/compare_with_linuxcnc.py` does).
 //!
-//! `moves [--offsets] [--correct none|smooth|jumps FOLDER] PROGRAM...`: with `-` the names are read
-//! from the standard input. `--offsets` gives each work coordinate system an origin of its own,
+//! `moves [--offsets] [--machine] [--correct none|smooth|jumps FOLDER] PROGRAM...`: with `-` the names are read
+//! from the standard input. `--offsets` gives each work coordinate system an origin of its own, `--machine` says that the
+//! machine's zero is the part's, and where its reference points are,
 //! `--correct` writes each program with a made-up field of corrections into the folder and prints the
 //! pieces written. Lengths in mm, angles in radians, feeds in mm/min, 1/min or mm per revolution.
 
@@ -25,6 +26,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                     let k = index as f64;
                     *origin = Some(Vector3::new(12.7 * k, -2.54 * (k + 1.0), 0.254 * k * k));
                 }
+            }
+            "--machine" => {
+                reading.machine_zero_mm = Some(Vector3::zeros());
+                reading.reference_points_mm = [
+                    Some(Vector3::new(-12.5, 60.25, 110.0)),
+                    Some(Vector3::new(33.0, -8.75, 95.5)),
+                ];
             }
             "--correct" => {
                 let field = arguments.next().ok_or("--correct FIELD FOLDER")?;
@@ -98,6 +106,16 @@ fn kind(kind: MoveKind) -> &'static str {
     }
 }
 
+fn knowledge(motion: &Move) -> String {
+    let known = match motion.known {
+        Knowledge::Whole => "whole",
+        Knowledge::End => "end",
+        Knowledge::Nothing => "nothing",
+    };
+    let machine = motion.words.is_to_machine();
+    format!("\"knowledge\":\"{known}\",\"machine\":{machine}")
+}
+
 fn arc(curve: &Curve) -> String {
     match curve {
         Curve::Line => "null".to_owned(),
@@ -115,13 +133,14 @@ fn of_path(path: &Path) -> String {
     let line = |motion: &Move| {
         let arc = arc(&motion.curve);
         format!(
-            "{{\"line\":{},\"kind\":\"{}\",\"start\":{},\"end\":{},\"feed\":{},\"length\":{:?},\"arc\":{arc}}}\n",
+            "{{\"line\":{},\"kind\":\"{}\",\"start\":{},\"end\":{},\"feed\":{},\"length\":{:?},{},\"arc\":{arc}}}\n",
             motion.line,
             kind(motion.kind),
             point(&motion.start),
             point(&motion.end),
             feed(motion.feed),
-            motion.length_mm()
+            motion.length_mm(),
+            knowledge(motion)
         )
     };
     path.moves.iter().map(line).collect()
@@ -168,7 +187,7 @@ fn corrected(
         let share = (piece.share_from, piece.share_to);
         format!(
             "{{\"line\":{},\"of\":{},\"kind\":\"{}\",\"start\":{},\"end\":{},\"feed\":{},\"length\":{:?},\
-             \"programmed\":{},\"part\":{:?},\"whole\":{:?},\"step\":{},\"known\":{},\"limited\":{},\"arc\":{}}}\n",
+             \"programmed\":{},\"part\":{:?},\"whole\":{:?},\"step\":{},\"known\":{},\"limited\":{},{},\"arc\":{}}}\n",
             piece.output_line,
             motion.line,
             kind(motion.kind),
@@ -187,6 +206,7 @@ fn corrected(
             piece.corner_step,
             motion.known == Knowledge::Whole,
             piece.feed_limited,
+            knowledge(motion),
             arc(if piece.kept_arc {
                 &read.curve
             } else {

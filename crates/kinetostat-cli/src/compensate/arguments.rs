@@ -109,6 +109,7 @@ A job file:
   # units = "mm", arc_tolerance_mm = 0.005, block_delete = "run"
   # axes_stand_still = true   (a program with words of A B C U V W)
   # start_position_mm = [0, 0, 50]
+  # machine_zero_mm = [0, 0, 300], g28_mm = [0, 0, 0], g30_mm = [0, 0, 0]
   # work_offset_mm = { G54 = [0, 0, 0] }
 
   [tolerances]

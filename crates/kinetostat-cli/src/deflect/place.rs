@@ -85,6 +85,9 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--block-delete", p.reading.block_delete.is_some()),
         ("--axes-stand-still", p.reading.axes_stand_still),
         ("--start-position-mm", p.reading.start_position_mm.is_some()),
+        ("--machine-zero-mm", p.reading.machine_zero_mm.is_some()),
+        ("--g28-mm", p.reading.g28_mm.is_some()),
+        ("--g30-mm", p.reading.g30_mm.is_some()),
         ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
         ("--limit", !p.limits.is_empty()),
     ];

@@ -115,6 +115,16 @@ pub(crate) struct ReadingArgs {
     /// Where the tool stands before the first block, mm
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) start_position_mm: Option<Vec<f64>>,
+    /// Where the tool's point is in the part when the machine stands at its zero and no tool length is in force, mm:
+    /// where G53, G28 and G30 count from
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
+    pub(crate) machine_zero_mm: Option<Vec<f64>>,
+    /// Reference point of G28 in machine coordinates, mm (with --machine-zero-mm)
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
+    pub(crate) g28_mm: Option<Vec<f64>>,
+    /// Reference point of G30 in machine coordinates, mm (with --machine-zero-mm)
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
+    pub(crate) g30_mm: Option<Vec<f64>>,
 }
 
 /// Options that only the writing needs.

@@ -184,6 +184,11 @@ pub(crate) struct ReadingTable {
     /// A B C U V W stand still while the tool cuts.
     pub axes_stand_still: Option<bool>,
     pub start_position_mm: Option<[f64; 3]>,
+    /// Where the tool's point is in the part when the machine stands at its zero.
+    pub machine_zero_mm: Option<[f64; 3]>,
+    /// Reference points, machine coordinates.
+    pub g28_mm: Option<[f64; 3]>,
+    pub g30_mm: Option<[f64; 3]>,
     pub work_offset_mm: Option<Spanned<BTreeMap<String, [f64; 3]>>>,
 }
 

@@ -43,11 +43,21 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
         reading.tools = Some(numbers.collect());
         reading.tool_before_first = j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some();
     }
-    reading.start_position_mm = match (&flags.start_position_mm, table.start_position_mm) {
-        (Some(v), _) => Some(vector("--start-position-mm", v)?),
-        (None, Some(v)) => Some(v.into()),
-        _ => None,
-    };
+    let start = (&flags.start_position_mm, table.start_position_mm);
+    reading.start_position_mm = place("--start-position-mm", start)?;
+    let zero = (&flags.machine_zero_mm, table.machine_zero_mm);
+    reading.machine_zero_mm = place("--machine-zero-mm", zero)?;
+    reading.reference_points_mm = [
+        place("--g28-mm", (&flags.g28_mm, table.g28_mm))?,
+        place("--g30-mm", (&flags.g30_mm, table.g30_mm))?,
+    ];
+    let left_out = job.is_some_and(|j| j.lacks("machine_zero_mm"));
+    let no_zero = reading.machine_zero_mm.is_none() && !left_out;
+    if no_zero && reading.reference_points_mm != [None; 2] {
+        return Err(Failure::input(
+            "a reference point (g28_mm, g30_mm) counts from the machine's zero, and where that lies in the part is not stated: give it as machine_zero_mm under [reading] in the job file, or --machine-zero-mm".to_owned(),
+        ));
+    }
     if let (Some(j), Some(offsets)) = (job, &table.work_offset_mm) {
         let mut given: Vec<usize> = Vec::new();
         for (name, value) in offsets.get_ref() {
@@ -93,6 +103,17 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
         reading.work_offsets_mm[index] = Some(Vector3::new(x, y, z));
     }
     Ok(reading)
+}
+
+/// A place by an option, which goes before the job file's.
+fn place(
+    option: &str,
+    (flag, table): (&Option<Vec<f64>>, Option<[f64; 3]>),
+) -> Answer<Option<Vector3<f64>>> {
+    match (flag, table) {
+        (Some(values), _) => vector(option, values).map(Some),
+        (None, table) => Ok(table.map(Vector3::from)),
+    }
 }
 
 const WORK_OFFSETS: [&str; 9] = [

@@ -491,3 +491,60 @@ fn the_pocket_is_compensated_within_a_micrometre() {
     );
     assert_eq!(s["stable"], true);
 }
+
+/// G43 before the first move, G28 between the tools and at the end: carried, and with the machine's places a cut
+/// may follow at once.
+#[test]
+fn places_of_the_machine_are_carried_and_may_be_stated() {
+    let here = workplace();
+    let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    let program = "G21 G90\nT1 M6\nG43 H1\nG0 X0 Y0\nZ5\nG1 Z-1 F300\nX30\nG0 Z5\nG91 G28 Z0\nG90\nX10 Y10\nG0 Z5\nG1 Z-1\nG0 Z5\nG53 G0 Z0\nG49\nG28\nM30\n";
+    write("places.ngc", program);
+    write("places.toml", &JOB.replace("part.ngc", "places.ngc"));
+    let run_job = |more: &[&str]| {
+        let start = ["compensate", "places.toml", "--force-overwrite"];
+        run(here.path(), &[&start[..], more].concat())
+    };
+    run_job(&[]).answered();
+    let output = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    for line in ["G91 G28 Z0", "X10 Y10", "G53 G0 Z0", "G28", "G43 H1", "G49"] {
+        assert!(output.lines().any(|l| l == line), "{line}: {output}");
+    }
+    // Above the path in every cut, and with no correction at the reference points.
+    assert!(
+        output.contains("\nG0 Z5 X30.0000 Y0.0000\nG91 G28 Z0\n"),
+        "{output}"
+    );
+
+    // A cut from there needs to know where that is.
+    write(
+        "places.ngc",
+        "G21 G90\nG0 X0 Y0 Z5\nG28 Z5\nG1 X30 Z0 F300\nG0 Z5\nM30\n",
+    );
+    let said = run_job(&[]);
+    assert_eq!(said.code, 1, "{said:?}");
+    for part in [
+        "line 4",
+        "line 3 sent the tool to a place of the machine",
+        "--machine-zero-mm",
+    ] {
+        assert!(said.err.contains(part), "{}", said.err);
+    }
+    let said = run_job(&["--g28-mm", "0", "0", "-90"]);
+    assert!(
+        said.code == 1 && said.err.contains("machine_zero_mm"),
+        "{}",
+        said.err
+    );
+    let zero = ["--machine-zero-mm", "0", "0", "100"];
+    run_job(&[&zero[..], &["--g28-mm", "0", "0", "-90"]].concat()).answered();
+    let table = "[reading]\nmachine_zero_mm = [0, 0, 100]\ng28_mm = [0, 0, -90]\n";
+    let job = JOB.replace("part.ngc", "places.ngc");
+    let by_options = std::fs::read(here.path().join("out.ngc")).unwrap();
+    write("places.toml", &format!("{job}\n{table}"));
+    run_job(&[]).answered();
+    assert_eq!(
+        std::fs::read(here.path().join("out.ngc")).unwrap(),
+        by_options
+    );
+}

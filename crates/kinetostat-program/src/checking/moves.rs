@@ -64,6 +64,7 @@ impl Verifier<'_> {
                     start.max(end)
                 ));
             }
+            self.check_uncorrected(motion, piece, read)?;
             self.check_distance(motion, piece, read)?;
             self.check_speed(motion, piece, read)?;
             check_extra_axes(motion, piece, read)?;
@@ -74,6 +75,49 @@ impl Verifier<'_> {
                 0,
                 "the last moves of the input are missing".to_owned(),
             ));
+        }
+        Ok(())
+    }
+
+    /// Where the place is not known, the axes that a block names go where the input has them: no correction
+    /// is left in them. The others are off by what an earlier block left, which is at most the largest correction.
+    fn check_uncorrected(
+        &self,
+        motion: &Move,
+        piece: &Piece,
+        read: &Move,
+    ) -> Result<(), WriteError> {
+        if motion.known != Knowledge::Nothing {
+            return Ok(());
+        }
+        let words = match self.input.lines().get(motion.line - 1) {
+            Some(line) => self.input.words(line),
+            None => &[],
+        };
+        // An axis that is not named was perhaps rounded in coarser units.
+        let rounding = [1.0, 25.4, motion.words.mm_per_unit]
+            .map(|unit| unit * 10_f64.powi(-(self.writing.decimals_for(unit) as i32)))
+            .into_iter()
+            .fold(0.0, larger);
+        for (axis, letter) in b"XYZ".iter().enumerate() {
+            let named = words.iter().any(|word| word.letter == *letter);
+            let allowed = match (motion.words.is_to_machine(), named) {
+                (true, _) if motion.words.to_machine[axis] => SAME_PLACE_MM,
+                (false, true) => rounding + SAME_PLACE_MM,
+                _ => self.accounting.largest_correction_mm + rounding + SAME_PLACE_MM,
+            };
+            let off = (read.end[axis] - motion.end[axis]).abs();
+            if off.is_nan() || off > allowed {
+                return Err(fail(
+                    motion.line,
+                    piece.output_line,
+                    format!(
+                        "{} ends {off:.5} mm from where the input has it, {allowed:.5} mm are allowed where the \
+                         place is not known",
+                        char::from(*letter)
+                    ),
+                ));
+            }
         }
         Ok(())
     }

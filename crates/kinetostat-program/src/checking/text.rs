@@ -146,7 +146,8 @@ impl Verifier<'_> {
         }
         let written = self.output.content(first);
         let original = self.input.content(line);
-        let Some((motion, kept_arc)) = motion else {
+        let corrected = motion.filter(|(motion, _)| !motion.words.is_to_machine());
+        let Some((motion, kept_arc)) = corrected else {
             if self.output.bytes()[written] != self.input.bytes()[original] {
                 return broken("a line without a coordinate has changed");
             }

@@ -18,6 +18,8 @@ use crate::checking::verifier::{Verification, Verifier};
 ///   arcs), but for arcs that are kept as they were;
 /// - no point is farther from the input's path than the largest correction (and the tolerances of
 ///   chords and rounding), looked at in places that follow no pattern;
+/// - where the place is not known, and at places of the machine, the axes that a block names go where the input has
+///   them: no correction is left in them, and G28, G30 and G53 are there byte for byte;
 /// - the speed along the part is the programmed one within 0.1 %, or slower where the feed was held to
 ///   its largest, and the other axes reach what the input wanted;
 /// - what is not a coordinate is there byte for byte, numbers are fixed-point with the decimals requested

@@ -5,6 +5,7 @@ use crate::expanding::expanded::Expanded;
 use crate::expanding::options::ExpandOptions;
 use crate::expanding::run::runner::Runner;
 use crate::expanding::run::source::Subprograms;
+use crate::text::library::only_definitions;
 
 /// Runs a program once and writes it flat: subprograms, loops and branches as the blocks that they run, expressions as
 /// numbers.
@@ -43,7 +44,11 @@ pub fn expand(
     options: &ExpandOptions,
     subprograms: &dyn Subprograms,
 ) -> Result<Expanded, ProgramError> {
-    let mut runner = Runner::new(bytes.into(), options, subprograms);
+    let bytes = bytes.into();
+    if let Some(library) = only_definitions(&bytes) {
+        return Err(library);
+    }
+    let mut runner = Runner::new(bytes, options, subprograms);
     runner.run()?;
     let files = runner.sources.iter().map(|s| s.name.clone()).collect();
     let (program, path, origins) = runner.flat.finish()?;

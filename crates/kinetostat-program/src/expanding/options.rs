@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
-
 use crate::reading::options::ReadOptions;
 
 /// Most blocks of a flat program, if nothing else is said.
@@ -34,10 +32,6 @@ pub struct ExpandOptions {
     /// Diameters of tools by their numbers, mm: the radius of G41 and G42. A tool that is not named here is refused there. A
     /// negative diameter puts the tool on the other side.
     pub tool_diameters_mm: BTreeMap<u32, f64>,
-    /// The machine's zero in the part frame, mm: where G53 counts from. `None`: not known.
-    pub machine_zero_mm: Option<Vector3<f64>>,
-    /// Reference points of G28 and G30, mm, machine coordinates. `None`: not known.
-    pub reference_points_mm: [Option<Vector3<f64>>; 2],
 }
 
 impl Default for ExpandOptions {
@@ -48,8 +42,6 @@ impl Default for ExpandOptions {
             origin_comments: OriginComments::default(),
             parameters: BTreeMap::new(),
             tool_diameters_mm: BTreeMap::new(),
-            machine_zero_mm: None,
-            reference_points_mm: [None; 2],
         }
     }
 }

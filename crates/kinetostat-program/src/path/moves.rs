@@ -48,7 +48,7 @@ pub enum Knowledge {
     Whole,
     /// Only its end (an axis was first stated by this very block): only the end is corrected.
     End,
-    /// Not even its end: it is carried unchanged.
+    /// Not even its end, or it goes to a place of the machine (G28, G30, G53): it is carried without a correction.
     Nothing,
 }
 
@@ -111,6 +111,26 @@ pub struct CoordinateWords {
     pub incremental: bool,
     /// Origin of the work coordinate system in the part frame, in mm.
     pub work_offset_mm: Vector3<f64>,
+    /// X, Y, Z where the block sends them to a place of the machine (G28, G30, G53). Such a block is
+    /// carried byte for byte: the place has no correction.
+    pub to_machine: [bool; 3],
+}
+
+impl CoordinateWords {
+    /// Whether the block goes to a place of the machine.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG53 G0 Z0\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let machine: Vec<bool> = path.moves.iter().map(|m| m.words.is_to_machine()).collect();
+    /// assert_eq!(machine, [false, true]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_to_machine(&self) -> bool {
+        self.to_machine != [false; 3]
+    }
 }
 
 impl Move {

@@ -17,7 +17,11 @@ pub(crate) struct Codes {
     pub feed_mode: Option<u32>,
     pub work_offset: Option<u32>,
     pub tool_length: Option<u32>,
+    /// Axes that G43.1 and G43.2 name: their words are lengths.
+    pub length_axes: [bool; 3],
     pub position_offset: Option<u32>,
+    /// G28, G30, G53.
+    pub machine: Option<u32>,
     pub extruder: Option<u32>,
     pub path_mode: Option<u32>,
     pub speed_mode: Option<u32>,
@@ -43,6 +47,29 @@ pub(crate) struct Block<'p> {
 
 impl<'p> Block<'p> {
     pub fn of(program: &'p Program, index: usize) -> Result<Self, ProgramError> {
+        match Self::read(program, index) {
+            (block, None) => Ok(block),
+            (_, Some(fault)) => Err(fault),
+        }
+    }
+
+    /// What is understood of a block: words that are refused are left out.
+    pub fn understood(program: &'p Program, index: usize) -> Self {
+        Self::read(program, index).0
+    }
+
+    /// G codes of the block that are refused, in tenths.
+    pub fn refused_codes(&self) -> Vec<u32> {
+        let codes = self.words.iter().filter(|word| word.letter == b'G');
+        let refused = codes.map(Word::tenths).filter(|tenths| {
+            let code = lookup('G', *tenths);
+            code.is_none_or(|code| matches!(code.treatment, Treatment::Refused { .. }))
+        });
+        refused.collect()
+    }
+
+    fn read(program: &'p Program, index: usize) -> (Self, Option<ProgramError>) {
+        let mut fault = None;
         let line = &program.lines()[index];
         let mut block = Self {
             program,
@@ -55,12 +82,15 @@ impl<'p> Block<'p> {
         for index in 0..block.words.len() {
             let word = block.words[index];
             match word.letter {
-                b'G' | b'M' => block.note_code(&word)?,
+                b'G' | b'M' => {
+                    let refused = block.note_code(&word).err();
+                    fault = fault.or(refused);
+                }
                 b'N' | b'O' => {}
                 letter => {
                     let slot = &mut block.values[usize::from(letter - b'A')];
                     if slot.is_some() {
-                        return Err(block.refuse(
+                        let twice = block.refuse(
                             ProgramErrorKind::Malformed,
                             Some(&word),
                             &format!(
@@ -68,14 +98,16 @@ impl<'p> Block<'p> {
                                 char::from(letter)
                             ),
                             "keep one of the two words",
-                        ));
+                        );
+                        fault = fault.or(Some(twice));
+                        continue;
                     }
                     *slot = Some((word.value, index));
                 }
             }
         }
         block.drop_parameters();
-        Ok(block)
+        (block, fault)
     }
 
     pub fn is_vendor(&self) -> bool {
@@ -157,8 +189,9 @@ impl<'p> Block<'p> {
             ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
             ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
             ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
-            ('G', 430 | 490) => codes.tool_length.replace(tenths).is_some(),
+            ('G', 430..=432 | 490) => codes.tool_length.replace(tenths).is_some(),
             ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
+            ('G', 280 | 300 | 530) => codes.machine.replace(tenths).is_some(),
             ('M', 820 | 830) => codes.extruder.replace(tenths).is_some(),
             ('G', 40) => std::mem::replace(&mut codes.dwell, true),
             ('G', 610 | 611 | 640) => codes.path_mode.replace(tenths).is_some(),
@@ -191,6 +224,13 @@ impl<'p> Block<'p> {
         Ok(())
     }
 
+    /// `G4 P1 G0 X5`: the time is P, so the axis words are those of the straight move that follows in the
+    /// same block (LinuxCNC 2.9 dwells, then moves).
+    pub fn dwells_before_motion(&self) -> bool {
+        let straight = matches!(self.codes.motion, Some(Motion::Rapid | Motion::Feed));
+        self.codes.dwell && straight && self.words.iter().any(|word| word.letter == b'P')
+    }
+
     /// Letters that are parameters of another code of the block are no coordinates.
     fn drop_parameters(&mut self) {
         let takes = |letter: u8, among: fn(u32) -> bool| {
@@ -199,8 +239,15 @@ impl<'p> Block<'p> {
             tenths.any(|tenths| tenths.is_multiple_of(10) && among(tenths / 10))
         };
         let mut dropped: Vec<u8> = Vec::new();
-        if self.codes.dwell {
-            dropped.extend(b"XUPSFABCEVWYZQR");
+        match (self.codes.dwell, self.dwells_before_motion()) {
+            (true, true) => dropped.push(b'P'),
+            (true, false) => dropped.extend(b"XUPSFABCEVWYZQR"),
+            (false, _) => {}
+        }
+        if matches!(self.codes.tool_length, Some(431 | 432)) {
+            let named = b"XYZ".map(|letter| self.value(letter).is_some());
+            self.codes.length_axes = named;
+            dropped.extend(b"XYZIJK");
         }
         if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");

@@ -108,10 +108,11 @@ pub const CODES: &[Code] = &[
         refused("arcs of the axes U V W are not followed", WRITE_MOVES),
     ),
     g(&[200, 210], "inches, millimetres", Understood),
+    g(&[280, 300], "to a reference point", Understood),
     g(
-        &[280, 281, 282, 300, 301],
-        "homing, reference points",
-        refused("where the axes go is not in the program", OWN_PROGRAM),
+        &[281, 282, 301],
+        "homing, setting of reference points",
+        refused("some controllers move, some store the place", OWN_PROGRAM),
     ),
     g(
         &[290],
@@ -146,9 +147,10 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(&[430], "tool length offset on", Understood),
+    g(&[431, 432], "tool length offset by words", Understood),
     g(
-        &[431, 432, 433, 434, 435, 437, 440],
-        "tool length offset by words or with tool point control",
+        &[433, 434, 435, 437, 440],
+        "tool length offset with tool point control",
         refused(
             "it changes where the tool point goes",
             "use G43 H with a Z word, or set the length at the machine",
@@ -171,14 +173,7 @@ pub const CODES: &[Code] = &[
             "use G54 to G59 and give their offsets (--work-offset, or work_offset_mm under [reading] in the job file)",
         ),
     ),
-    g(
-        &[530],
-        "machine coordinates",
-        refused(
-            "where the machine's zero lies in the part frame is not in the program",
-            "move in part coordinates, or retract from another program",
-        ),
-    ),
+    g(&[530], "machine coordinates in this block", Understood),
     g(
         &[540, 541, 550, 560, 570, 580, 590, 591, 592, 593],
         "work coordinate systems",

@@ -48,6 +48,16 @@ impl ExtraAxes {
         }
     }
 
+    /// G28, G30 and G53 leave the axes that they name, and all but the extruder where they name none, at
+    /// places of the machine.
+    pub fn forget(&mut self, block: &Block<'_>, all: bool) {
+        for (index, letter) in Self::LETTERS.iter().enumerate() {
+            if block.value(*letter).is_some() || all && index != Self::EXTRUDER {
+                self.places[index] = None;
+            }
+        }
+    }
+
     fn mode(&self, index: usize) -> ExtraMode {
         let relative = match self.extruder_relative {
             Some(relative) if index == Self::EXTRUDER => {

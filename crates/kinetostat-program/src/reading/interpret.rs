@@ -10,13 +10,19 @@ use crate::path::moves::{
 use crate::path::pause::Pause;
 use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::reading::arc::{self, ArcFrame};
+use crate::reading::beside::{
+    OTHER_AXES, check_codes_beside_motion, refuse_dwell_with_motion, refuse_other_axes,
+    refuse_parameters_of_calls,
+};
 use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
+use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
-use crate::reading::moment::{Placed, moment_of};
-use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions};
+use crate::reading::options::{BlockDelete, ReadOptions, Units};
 use crate::reading::pause::pause;
+use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
+use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
 use crate::text::line::LineKind;
@@ -26,9 +32,6 @@ use crate::text::program::Program;
 const LARGEST_COORDINATE_MM: f64 = 1e6;
 
 const COORDINATES: [u8; 3] = *b"XYZ";
-
-/// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
-const OTHER_AXES: &[u8; 6] = b"ABCUVW";
 
 /// Interprets the motions of a program.
 ///
@@ -49,93 +52,22 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
     interpreter.finish(program)
 }
 
-/// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
-/// where [`Program::read`] and [`interpret`] take it.
-///
-/// A line that is refused is left out of what follows, so a later fault may be there only because of an
-/// earlier one.
-pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramError> {
-    let (program, mut found) = Program::read_with_faults(bytes.into());
-    let mut interpreter = Interpreter::new(options);
-    for index in 0..program.lines().len() {
-        if let Err(fault) = interpreter.run_line(&program, index) {
-            interpreter.modes.go_on_after_fault();
-            found.push(fault);
-        }
-    }
-    if found.is_empty() {
-        found.extend(interpreter.finish(&program).err());
-    }
-    // Of two faults of a line the first found is that of its reading.
-    found.sort_by_key(|fault| fault.line);
-    found.dedup_by_key(|fault| fault.line);
-    found
-}
-
-/// Of which axes the coordinates are shifted by an amount that is not in the program.
-///
-/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
-/// is taken away they count from the machine's work offset again, and how far apart the two are only the
-/// machine knows. So it is with an offset from before the program that G92.3 brings back.
-#[derive(Clone, Copy, Default)]
-struct Shifts {
-    now: [bool; 3],
-    /// Without G92.
-    bare: [bool; 3],
-    /// After G92.3; `None` while that brings back an offset from before the program.
-    saved: Option<[bool; 3]>,
-    /// Line of the last change.
-    line: usize,
-}
-
-impl Shifts {
-    fn apply(&mut self, change: &OffsetChange, known: &[bool; 3], line: usize) {
-        self.line = line;
-        match change {
-            OffsetChange::Here {
-                coordinates_mm,
-                establishes,
-                ..
-            } => {
-                for axis in 0..3 {
-                    self.bare[axis] |= establishes[axis];
-                    self.now[axis] &= coordinates_mm[axis].is_none();
-                }
-                self.saved = Some(self.now);
-            }
-            OffsetChange::Clear => {
-                self.now = self.bare;
-                self.saved = Some(self.bare);
-            }
-            OffsetChange::Suspend => self.now = self.bare,
-            OffsetChange::Resume => {
-                self.now = self.saved.unwrap_or_else(|| {
-                    for axis in 0..3 {
-                        self.bare[axis] |= !known[axis];
-                    }
-                    *known
-                });
-            }
-        }
-    }
-}
-
 /// What is known while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
     options: &'o ReadOptions,
     pub(super) modes: Modes,
     pub(super) offset: PositionOffset,
     shifts: Shifts,
-    pub(super) position: Vector3<f64>,
-    pub(super) known: [bool; 3],
+    pub(super) places: Places,
     pub(super) ended: Option<usize>,
     no_feed_warned: bool,
     repeated: Repeated,
     /// Work coordinate system of the first motion.
     first_system: Option<usize>,
     moves: Vec<Move>,
-    /// For each move: which axes are known before and after it.
-    knowledge: Vec<([bool; 3], [bool; 3])>,
+    /// For each move: which axes are known before and after it, and whether one was known before and is so no
+    /// more.
+    knowledge: Vec<([bool; 3], [bool; 3], bool)>,
     events: Vec<Event>,
     pauses: Vec<Pause>,
     tools: ToolWords,
@@ -150,8 +82,7 @@ impl<'o> Interpreter<'o> {
             modes: Modes::new(options.units),
             offset: PositionOffset::default(),
             shifts: Shifts::default(),
-            position: options.start_position_mm.unwrap_or_default(),
-            known: [options.start_position_mm.is_some(); 3],
+            places: Places::new(options.start_position_mm),
             ended: None,
             no_feed_warned: false,
             repeated: Repeated::default(),
@@ -172,8 +103,7 @@ impl<'o> Interpreter<'o> {
             modes: self.modes.clone(),
             offset: self.offset,
             shifts: self.shifts,
-            position: self.position,
-            known: self.known,
+            places: self.places.clone(),
             ended: self.ended,
             first_system: self.first_system,
             spindle: self.spindle.following(),
@@ -254,15 +184,24 @@ impl<'o> Interpreter<'o> {
                 "remove the blocks after M2 or M30, or the M2 or M30 before them",
             ));
         }
-        self.refuse_other_axes(block)?;
+        refuse_other_axes(block, self.options)?;
+        if self.modes.overrides_options(block) {
+            self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
+        }
         self.modes.set(block)?;
+        self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
         self.pauses.extend(pause(block));
-        if block.codes.position_offset.is_some() {
+        if block.codes.machine.is_some() {
+            match machine_place(block, &self.modes, self.options)? {
+                Some(place) => self.go_to_machine_place(block, &place),
+                None => self.note_no_motion(block),
+            }
+        } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
-            self.refuse_parameters_of_calls(block)?;
+            refuse_parameters_of_calls(block, self.modes.motion)?;
             self.read_move(block)?;
         } else {
             self.note_no_motion(block);
@@ -343,8 +282,9 @@ impl<'o> Interpreter<'o> {
             Some(922) => OffsetChange::Suspend,
             _ => OffsetChange::Resume,
         };
-        self.offset.apply(&change, &self.position);
-        self.shifts.apply(&change, &self.known, block.line_number);
+        self.offset.apply(&change, &self.places.position);
+        self.shifts
+            .apply(&change, &self.places.stated, block.line_number);
         self.note_no_motion(block);
         self.events.push(Event {
             line: block.line_number,
@@ -362,12 +302,24 @@ impl<'o> Interpreter<'o> {
                 continue;
             };
             let value_mm = value * self.modes.mm_per_unit(block)?;
+            self.modes.use_units();
             coordinates_mm[axis] = Some(value_mm);
-            if !self.known[axis] {
+            if let Some(why) = self.places.why_lost(axis) {
+                return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous,
+                    block.word(COORDINATES[axis]),
+                    &format!(
+                        "{why}, so by how much G92 shifts the {} coordinates is not in the program",
+                        char::from(COORDINATES[axis])
+                    ),
+                    "state the axis with a rapid (G0) and an absolute word before G92",
+                ));
+            }
+            if !self.places.known[axis] {
                 // The user tells where the tool stands: the coordinate is its place in the part.
                 establishes[axis] = true;
-                self.known[axis] = true;
-                self.position[axis] = value_mm + work_offset_mm[axis];
+                self.places.state(axis);
+                self.places.position[axis] = value_mm + work_offset_mm[axis];
             }
         }
         self.modes.extra.set_here(block);
@@ -376,85 +328,6 @@ impl<'o> Interpreter<'o> {
             work_offset_mm,
             establishes,
         })
-    }
-
-    /// Words that mean a corner rounding or a call on some controllers.
-    fn refuse_parameters_of_calls(&self, block: &Block<'_>) -> Result<(), ProgramError> {
-        if block
-            .words
-            .iter()
-            .any(|word| word.letter == b'M' && word.value >= 100.0)
-            && block.codes.motion.is_none()
-        {
-            return Err(block.refuse(
-                ProgramErrorKind::Ambiguous, None,
-                "an axis word beside this M code is its parameter to printers and a motion to mills",
-                "write the motion as a block of its own, with G0 or G1",
-            ));
-        }
-        if matches!(self.modes.motion, Some(Motion::Rapid | Motion::Feed)) {
-            for letter in *b"IJKRP" {
-                if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
-                    return Err(block.refuse(
-                        ProgramErrorKind::Ambiguous, Some(word),
-                        &format!(
-                            "{} appears in a straight move: some controllers stop, some round a corner",
-                            char::from(letter)
-                        ),
-                        "remove the word, or write the arc with G2 or G3",
-                    ));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A block with motion may be divided: each of its codes must have a piece to stand in.
-    fn check_codes_beside_motion(
-        &mut self,
-        block: &Block<'_>,
-        kind: MoveKind,
-    ) -> Result<(), ProgramError> {
-        for word in block.words.iter().filter(|word| word.letter == b'M') {
-            let tenths = word.tenths();
-            let Some(moment) = moment_of(tenths) else {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "M{} appears beside a motion, and whether it acts before or after it is not known here",
-                        word.value
-                    ),
-                    "write it in a block of its own, before or after the motion",
-                ));
-            };
-            if moment.code == 6 && self.options.tools.is_some() {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
-                    "write M6 in a block of its own, before or after the motion",
-                ));
-            }
-            if kind != MoveKind::Feed {
-                continue;
-            }
-            if moment.placed == Placed::Refused {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it",
-                        moment.code, moment.meaning
-                    ),
-                    "write it in a block of its own, before or after the motion",
-                ));
-            }
-            if moment.is_disputed() {
-                self.repeated.note(block.line_number, &format!(
-                    "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
-                    moment.code, moment.meaning
-                ));
-            }
-        }
-        Ok(())
     }
 
     fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
@@ -486,22 +359,25 @@ impl<'o> Interpreter<'o> {
         } else {
             MoveKind::Feed
         };
-        self.check_codes_beside_motion(block, kind)?;
+        check_codes_beside_motion(block, kind, self.options, &mut self.repeated)?;
         self.modes.check_feed(block, kind)?;
         if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
             self.no_feed_warned = true;
             self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
         }
 
-        let start = self.position;
-        let known_before = self.known;
+        if kind == MoveKind::Feed {
+            self.refuse_cut_from_lost_place(block)?;
+        }
+        self.modes.use_units();
+        let start = self.places.position;
+        let known_before = self.places.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        self.modes.check_tool_length(block, motion)?;
         let curve = match motion {
             Motion::Clockwise | Motion::CounterClockwise => {
                 if let Some(axis) = (0..3).find(|axis| {
                     !known_before[*axis]
-                        && (self.known[*axis] || self.modes.plane[..2].contains(axis))
+                        && (self.places.known[*axis] || self.modes.plane[..2].contains(axis))
                 }) {
                     return Err(block.refuse(
                         ProgramErrorKind::Ambiguous, None,
@@ -528,9 +404,17 @@ impl<'o> Interpreter<'o> {
             }
             _ => Curve::Line,
         };
-        self.position = end;
+        self.places.position = end;
         let extra = self.modes.extra.read(block, self.modes.incremental);
-        self.knowledge.push((known_before, self.known));
+        let lost = self.places.first_lost();
+        if let Some((axis, ..)) = lost {
+            self.repeated.note(block.line_number, &format!(
+                "where the tool is along {} is not known here (a tool length, G28, G30 or G53 changed it): the block is carried without a correction, as all are until the program states the axis again",
+                char::from(COORDINATES[axis])
+            ));
+        }
+        self.knowledge
+            .push((known_before, self.places.known, lost.is_some()));
         self.moves.push(Move {
             line: block.line_number,
             kind,
@@ -544,9 +428,91 @@ impl<'o> Interpreter<'o> {
                 mm_per_unit,
                 incremental: self.modes.incremental,
                 work_offset_mm: self.work_offset_mm(),
+                to_machine: [false; 3],
             },
         });
         Ok(())
+    }
+
+    /// G43, G49 and their like: the tool stays, and its point is at a coordinate that is not in the program.
+    fn change_tool_length(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let by_words = matches!(block.codes.tool_length, Some(431 | 432));
+        if by_words && (block.codes.motion.is_some() || block.codes.position_offset.is_some()) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "axis words beside G43.1 or G43.2 are lengths to some controllers and a motion to others",
+                "write the motion as a block of its own",
+            ));
+        }
+        let axes = self.modes.set_tool_length(block);
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            self.places.lose(axis, Cause::ToolLength, block.line_number);
+        }
+        Ok(())
+    }
+
+    /// G28, G30, G53: one move, to where the axes end; the point on the way there is not looked at.
+    fn go_to_machine_place(&mut self, block: &Block<'_>, place: &MachinePlace) {
+        if COORDINATES
+            .iter()
+            .any(|letter| block.value(*letter).is_some_and(|value| value != 0.0))
+        {
+            self.modes.use_units();
+        }
+        let start = self.places.position;
+        let known_before = self.places.known;
+        for axis in (0..3).filter(|axis| place.axes[*axis]) {
+            self.places.position[axis] = place.places_mm[axis].unwrap_or(0.0);
+            match place.places_mm[axis] {
+                Some(_) => self.places.state(axis),
+                None => self.places.lose(axis, Cause::Machine, block.line_number),
+            }
+        }
+        self.modes.extra.forget(block, place.all);
+        self.knowledge
+            .push((known_before, self.places.known, false));
+        self.moves.push(Move {
+            line: block.line_number,
+            kind: MoveKind::Rapid,
+            curve: Curve::Line,
+            start,
+            end: self.places.position,
+            extra: Vec::new(),
+            feed: self.modes.feed,
+            known: Knowledge::Nothing,
+            words: CoordinateWords {
+                mm_per_unit: self.modes.units().map_or(1.0, Units::mm_per_unit),
+                incremental: self.modes.incremental,
+                work_offset_mm: self.work_offset_mm(),
+                to_machine: place.axes,
+            },
+        });
+    }
+
+    /// What is cut from an unknown place is cut somewhere else than the program says.
+    fn refuse_cut_from_lost_place(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let Some((axis, cause, _)) = self.places.first_lost() else {
+            return Ok(());
+        };
+        let letter = char::from(COORDINATES[axis]);
+        let why = self.places.why_lost(axis).unwrap_or_default();
+        let also = match cause {
+            Cause::ToolLength => "",
+            Cause::Machine => {
+                ", or give the machine's zero and its reference points (--machine-zero-mm, --g28-mm, --g30-mm, or machine_zero_mm, g28_mm, g30_mm under [reading] in the job file)"
+            }
+        };
+        Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            &format!(
+                "{why}, so where the tool is along {letter} is not known here, and this block cuts"
+            ),
+            &format!(
+                "state the axis before it, with a rapid (G0) and an absolute {letter} word{also}"
+            ),
+        ))
     }
 
     fn end_of_move(
@@ -555,7 +521,7 @@ impl<'o> Interpreter<'o> {
         kind: MoveKind,
         mm_per_unit: f64,
     ) -> Result<Vector3<f64>, ProgramError> {
-        let mut end = self.position;
+        let mut end = self.places.position;
         let offset = self.work_offset_mm() + self.offset.active_mm;
         for axis in 0..3 {
             let letter = COORDINATES[axis];
@@ -564,7 +530,7 @@ impl<'o> Interpreter<'o> {
             };
             let value_mm = value * mm_per_unit;
             if self.modes.incremental {
-                if !self.known[axis] && kind == MoveKind::Feed {
+                if !self.places.known[axis] && kind == MoveKind::Feed {
                     return Err(block.refuse(
                         ProgramErrorKind::Ambiguous, block.word(letter),
                         &format!(
@@ -577,7 +543,7 @@ impl<'o> Interpreter<'o> {
                 end[axis] += value_mm;
             } else {
                 end[axis] = value_mm + offset[axis];
-                self.known[axis] = true;
+                self.places.state(axis);
             }
             if end[axis].abs() > LARGEST_COORDINATE_MM {
                 return Err(block.refuse(
@@ -589,26 +555,6 @@ impl<'o> Interpreter<'o> {
             }
         }
         Ok(end)
-    }
-
-    /// Words of axes that turn or shift the part or the head, of which there is no model here.
-    fn refuse_other_axes(&self, block: &Block<'_>) -> Result<(), ProgramError> {
-        if self.options.other_axes == OtherAxes::StandStill {
-            return Ok(());
-        }
-        for letter in *OTHER_AXES {
-            if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
-                return Err(block.refuse(
-                    ProgramErrorKind::Ambiguous, Some(word),
-                    &format!(
-                        "axis {} changes where the tool is in the part and in the machine, and there is no model of it",
-                        char::from(letter)
-                    ),
-                    "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
-                ));
-            }
-        }
-        Ok(())
     }
 
     /// The user said that these axes stand still; the program may say otherwise.
@@ -641,9 +587,12 @@ impl<'o> Interpreter<'o> {
     }
 
     pub(crate) fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
-        let stated = self.known;
+        let stated = self.places.stated;
         let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
-        for (motion, (before, after)) in self.moves.iter_mut().zip(&self.knowledge) {
+        for (motion, (before, after, _)) in self.moves.iter_mut().zip(&self.knowledge) {
+            if motion.words.is_to_machine() {
+                continue;
+            }
             motion.known = match (covers(before), covers(after)) {
                 (true, _) => Knowledge::Whole,
                 (false, true) => Knowledge::End,
@@ -658,17 +607,15 @@ impl<'o> Interpreter<'o> {
                 ));
             }
         }
-        let unknown = self
-            .moves
-            .iter()
-            .filter(|motion| motion.known == Knowledge::Nothing)
-            .count();
-        if let Some(first) = self
-            .moves
-            .first()
-            .filter(|_| unknown > 0)
-            .map(|motion| motion.line)
-        {
+        let mut before_the_first =
+            self.moves
+                .iter()
+                .zip(&self.knowledge)
+                .filter(|(motion, (.., lost))| {
+                    motion.known == Knowledge::Nothing && !motion.words.is_to_machine() && !lost
+                });
+        if let Some(first) = before_the_first.next().map(|(motion, _)| motion.line) {
+            let unknown = 1 + before_the_first.count();
             let (blocks, carried) = match unknown {
                 1 => ("1 block moves".to_owned(), "it is"),
                 _ => (format!("{unknown} blocks move"), "they are"),
@@ -690,25 +637,4 @@ impl<'o> Interpreter<'o> {
         path.warnings.sort_by_key(|warning| warning.line);
         Ok(path)
     }
-}
-
-/// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
-fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
-    let axis = |word: &&crate::text::line::Word| {
-        COORDINATES.contains(&word.letter) || ExtraAxes::LETTERS.contains(&word.letter)
-    };
-    let time_elsewhere = block
-        .words
-        .iter()
-        .any(|word| matches!(word.letter, b'P' | b'S'));
-    let axes = block.words.iter().filter(axis).count();
-    if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
-        return Err(block.refuse(
-            ProgramErrorKind::Ambiguous,
-            None,
-            "a dwell and a motion are in one block: the axis words may belong to either",
-            "write them in two blocks",
-        ));
-    }
-    Ok(())
 }

@@ -4,15 +4,20 @@
 //! what to do.
 
 pub(crate) mod arc;
+pub(crate) mod beside;
 pub(crate) mod block;
 pub(crate) mod dialect;
 pub(crate) mod extra;
+pub(crate) mod faults;
 pub(crate) mod interpret;
+pub(crate) mod machine;
 pub(crate) mod modes;
 pub(crate) mod moment;
 pub(crate) mod options;
 pub(crate) mod pause;
+pub(crate) mod places;
 pub(crate) mod repeated;
+pub(crate) mod shifts;
 pub(crate) mod spindle;
 pub(crate) mod state;
 pub(crate) mod tools;

@@ -22,12 +22,15 @@ pub(crate) struct Modes {
     /// G98 or G99, in tenths; none before the program says it.
     pub retract_mode: Option<u32>,
     units: Option<Units>,
+    /// The units are those of the options: the program has named none and nothing has moved.
+    units_are_assumed: bool,
     feed_mode: FeedMode,
     /// The units changed after the F in force was given, or in its block.
     feed_is_stale: bool,
-    tool_length_on: bool,
-    /// Line of a change of the tool length that no Z word has followed yet.
-    length_change: Option<usize>,
+    /// Axes along which a tool offset is in force.
+    tool_length_on: [bool; 3],
+    /// H of the G43 in force, where it names one.
+    length_number: Option<f64>,
 }
 
 impl Modes {
@@ -42,14 +45,15 @@ impl Modes {
             extra: ExtraAxes::default(),
             retract_mode: None,
             units,
+            units_are_assumed: units.is_some(),
             feed_mode: FeedMode::PerMinute,
             feed_is_stale: false,
-            tool_length_on: false,
-            length_change: None,
+            tool_length_on: [false; 3],
+            length_number: None,
         }
     }
 
-    /// Takes over the modal words of a block, in the order in which controllers do.
+    /// Takes over the modal words of a block, in the order in which controllers do, but for the tool length.
     pub fn set(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         let codes = &block.codes;
         if let Some(code) = codes.feed_mode {
@@ -77,9 +81,6 @@ impl Modes {
         if let Some(code) = codes.work_offset {
             self.set_work_offset(block, code)?;
         }
-        if let Some(code) = codes.tool_length {
-            self.set_tool_length(block.line_number, code);
-        }
         if let Some(motion) = codes.motion {
             self.motion = Some(motion);
         }
@@ -105,7 +106,10 @@ impl Modes {
             200 => Units::Inches,
             _ => Units::Millimetres,
         };
-        let before = self.units.replace(units).filter(|before| *before != units);
+        // Options say what holds where the program says nothing.
+        let assumed = std::mem::take(&mut self.units_are_assumed) && self.feed.is_none();
+        let before = self.units.replace(units);
+        let before = before.filter(|before| *before != units && !assumed);
         if let Some(before) = before {
             self.feed_is_stale = self.feed.is_some();
             self.extra
@@ -161,13 +165,37 @@ impl Modes {
         Ok(())
     }
 
-    fn set_tool_length(&mut self, line: usize, code: u32) {
-        let on = code == 430;
-        // Cancelling what was never set is a habit of the first block and changes nothing.
-        if on || self.tool_length_on {
-            self.length_change = Some(line);
+    /// Axes along which the block changes the length of the tool: the tool's point is at another
+    /// coordinate than before, and at which is not in the program.
+    pub fn set_tool_length(&mut self, block: &Block<'_>) -> [bool; 3] {
+        const Z: [bool; 3] = [false, false, true];
+        let Some(code) = block.codes.tool_length else {
+            return [false; 3];
+        };
+        let number = block.value(b'H').filter(|_| code == 430);
+        let before = std::mem::replace(&mut self.length_number, number);
+        match code {
+            // The same length once more.
+            430 if number.is_some() && number == before => [false; 3],
+            // Cancelling what was never set is a habit of the first block and changes nothing.
+            490 => std::mem::take(&mut self.tool_length_on),
+            code => {
+                let named = block.codes.length_axes;
+                let axes = match code != 430 && named != [false; 3] {
+                    true => named,
+                    false => Z,
+                };
+                for axis in (0..3).filter(|axis| axes[*axis]) {
+                    self.tool_length_on[axis] = true;
+                }
+                axes
+            }
         }
-        self.tool_length_on = on;
+    }
+
+    /// Whether a tool offset is in force along an axis.
+    pub fn has_tool_length(&self, axis: usize) -> bool {
+        self.tool_length_on[axis]
     }
 
     /// Faults that would be found again in every block that follows are reported once.
@@ -175,7 +203,21 @@ impl Modes {
         self.units.get_or_insert(Units::Millimetres);
         self.motion.get_or_insert(Motion::Feed);
         self.feed_is_stale = false;
-        self.length_change = None;
+    }
+
+    /// Something moved, or was placed: the units in force were used.
+    pub fn use_units(&mut self) {
+        self.units_are_assumed = false;
+    }
+
+    /// Whether the units of the options are in force and the block names others.
+    pub fn overrides_options(&self, block: &Block<'_>) -> bool {
+        let named = match block.codes.units {
+            Some(200) => Some(Units::Inches),
+            Some(_) => Some(Units::Millimetres),
+            None => None,
+        };
+        self.units_are_assumed && named.is_some_and(|named| self.units != Some(named))
     }
 
     /// Units in force, where they are named.
@@ -215,25 +257,5 @@ impl Modes {
             ));
         }
         Ok(())
-    }
-
-    /// After G43 and G49 the tool point is at another Z than before, unknown until a Z word.
-    pub fn check_tool_length(
-        &mut self,
-        block: &Block<'_>,
-        motion: Motion,
-    ) -> Result<(), ProgramError> {
-        let Some(line) = self.length_change else {
-            return Ok(());
-        };
-        if motion == Motion::Rapid && !self.incremental && block.value(b'Z').is_some() {
-            self.length_change = None;
-            return Ok(());
-        }
-        Err(block.refuse(
-            ProgramErrorKind::Ambiguous, None,
-            &format!("line {line} changed the tool length, so the height of the tool point is unknown here"),
-            "follow G43 and G49 by a rapid (G0) with an absolute Z word, in the same or the next motion block",
-        ))
     }
 }

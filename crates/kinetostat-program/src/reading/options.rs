@@ -54,7 +54,7 @@ pub enum OtherAxes {
 #[non_exhaustive]
 pub struct ReadOptions {
     /// Units in force before the first G20 or G21. `None` (the default) refuses a program that
-    /// moves before it has named its units.
+    /// moves before it has named its units. A program that names its units before anything moves is read in its own.
     pub units: Option<Units>,
     /// Origins of G54, G55, G56, G57, G58, G59, G59.1, G59.2, G59.3 in the part frame, in mm; those that
     /// are not stated are zero: the program's coordinates are the part's. A program that uses one of them beside stated
@@ -68,6 +68,12 @@ pub struct ReadOptions {
     /// tool across the machine to an X and Y that nobody asked for. An axis that the program never
     /// states is taken as zero and never written.
     pub start_position_mm: Option<Vector3<f64>>,
+    /// Where the tool's point is in the part frame, in mm, when the machine stands at its zero and no tool
+    /// length is in force: G53 and the reference points count from there. `None` (the default): not known, and
+    /// where the axes are after G28, G30 and G53 is not known until the program states them.
+    pub machine_zero_mm: Option<Vector3<f64>>,
+    /// Reference points of G28 and G30, in mm, machine coordinates. `None` (the default): not known.
+    pub reference_points_mm: [Option<Vector3<f64>>; 2],
     /// Largest difference of an arc's radii at start and end, in mm; 0.005 by default, as common
     /// controllers have it. Within it the radius changes evenly from one to the other.
     pub arc_tolerance_mm: f64,
@@ -90,6 +96,8 @@ impl Default for ReadOptions {
             units: None,
             work_offsets_mm: [None; 9],
             start_position_mm: None,
+            machine_zero_mm: None,
+            reference_points_mm: [None; 2],
             arc_tolerance_mm: 0.005,
             block_delete: BlockDelete::Run,
             other_axes: OtherAxes::Refused,

@@ -47,7 +47,7 @@ impl Interpreter<'_> {
 
     /// Where the tool is in the part frame, mm; none where that is not known.
     pub(crate) fn place_mm(&self, axis: usize) -> Option<f64> {
-        self.known[axis].then_some(self.position[axis])
+        self.places.known[axis].then_some(self.places.position[axis])
     }
 
     /// A place in the part frame (mm) in program coordinates and units; mm where no units are named.
@@ -77,10 +77,10 @@ impl Interpreter<'_> {
     /// Where the tool is in program coordinates and units; the reason where that is not known.
     pub(crate) fn coordinate(&self, axis: usize) -> Result<f64, String> {
         let unit = self.modes.units().map(Units::mm_per_unit);
-        match (self.known[axis], unit) {
+        match (self.places.known[axis], unit) {
             (true, Some(unit)) => {
                 let offset = self.work_offset_mm() + self.offset.active_mm;
-                Ok((self.position[axis] - offset[axis]) / unit)
+                Ok((self.places.position[axis] - offset[axis]) / unit)
             }
             _ => Err(format!(
                 "where the tool is along {} is not known here",

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::path::moves::{MoveKind, Path, Warning};
+use crate::path::moves::{Knowledge, Move, MoveKind, Path, Warning};
 use crate::path::tool_change::ToolChange;
 use crate::reading::block::Block;
 use crate::reading::options::ReadOptions;
@@ -182,7 +182,11 @@ fn before_first_tool(
     program: &Program,
     options: &ReadOptions,
 ) -> Result<(), ProgramError> {
-    let unnamed = |motion: &&crate::path::moves::Move| path.tool_on(motion.line).is_none();
+    // What is carried without a correction is corrected for no tool; what cuts is cut by one.
+    let unnamed = |motion: &&Move| {
+        let matters = motion.known != Knowledge::Nothing || motion.kind == MoveKind::Feed;
+        matters && path.tool_on(motion.line).is_none()
+    };
     let cut = path
         .moves
         .iter()

@@ -5,6 +5,7 @@
 
 pub(crate) mod after_end;
 pub(crate) mod lex;
+pub(crate) mod library;
 pub(crate) mod line;
 pub(crate) mod program;
 pub(crate) mod syntax;

@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::text::after_end::acting_word;
 use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::library::only_definitions;
 use crate::text::line::{Line, LineKind, Word};
 use crate::text::syntax;
 
@@ -52,7 +53,12 @@ impl Program {
     /// place of the fault are kept, so that its modes are not missed in the lines that follow.
     pub(crate) fn read_with_faults(bytes: Vec<u8>) -> (Program, Vec<ProgramError>) {
         let mut reader = Reader::new(bytes);
-        let faults = reader.read();
+        let mut faults = reader.read();
+        if !faults.is_empty()
+            && let Some(library) = only_definitions(&reader.program.bytes)
+        {
+            faults = vec![library];
+        }
         (reader.program, faults)
     }
 

@@ -19,9 +19,12 @@ pub(crate) struct Refused {
     pub remedy: &'static str,
 }
 
-const FLATTEN: &str =
-    "post-process the program without subprograms, or flatten it with the CAM system";
-const NO_VARIABLES: &str = "let the CAM system or a macro expander write plain numbers";
+const FLATTEN: &str = "flatten the program with `kinetostat expand` (or --expand), or post-process it without subprograms";
+const NO_VARIABLES: &str =
+    "run `kinetostat expand` (or give --expand), or let the CAM system write plain numbers";
+
+/// Why a line with variables is refused.
+pub(crate) const VARIABLES: &str = "variables and expressions are not read";
 
 /// Checks the tokens of a line without comments and blanks.
 pub(crate) fn check(
@@ -258,10 +261,7 @@ fn other(line: &[u8], tokens: &[&Spanned], index: usize, byte: u8) -> Refused {
             {
                 return subprogram(spanned, "an O word");
             }
-            (
-                "variables and expressions are not read".to_owned(),
-                NO_VARIABLES,
-            )
+            (VARIABLES.to_owned(), NO_VARIABLES)
         }
         b'.' if after_word => (
             "a number has two points".to_owned(),

@@ -165,6 +165,24 @@ impl<'a> BlockWriter<'a> {
         Ok(self.apply(edits))
     }
 
+    /// The block's own line where it has no correction: its axis words bring the output to where the input
+    /// goes, and no word is added.
+    pub fn uncorrected_line(&self, state: &mut OutputState) -> Vec<u8> {
+        let mut edits: Edits = Vec::new();
+        self.edit_motion_words(state, &mut edits);
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(word) = self.word(letter) else {
+                continue;
+            };
+            let target = self.motion.end[axis];
+            if let Some(text) = self.coordinate(state, axis, target, Some(word.value)) {
+                edits.push((number_span(word), text));
+            }
+        }
+        state.motion = Some(motion_of(self.motion));
+        self.apply(edits)
+    }
+
     /// A further piece: a line of axis words.
     pub fn further_line(
         &mut self,

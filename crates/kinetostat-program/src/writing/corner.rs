@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::field::request::{Request, Turning};
+use crate::path::moves::Knowledge;
 use crate::writing::jump::Jump;
 use crate::writing::node::{Node, is_divided};
 use crate::writing::options::WriteOptions;
@@ -46,6 +47,14 @@ pub(crate) fn follow_turns(
             let Some(last) = index.checked_sub(1).map(|i| nodes[i]) else {
                 continue;
             };
+            let between = &queries.path.moves[last.move_index + 1..node.move_index];
+            if between
+                .iter()
+                .any(|motion| motion.known == Knowledge::Nothing)
+            {
+                // Behind a move without a correction the load comes from nowhere.
+                continue;
+            }
             (last.move_index, last.share, node.share, last.after)
         } else {
             let [from, to] = node.bracket;

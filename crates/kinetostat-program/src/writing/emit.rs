@@ -11,7 +11,7 @@ use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::text::line::Line;
 use crate::text::program::Program;
 use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
-use crate::writing::block_writer::{BlockWriter, ProgramStyle, UNCHANGED_MM};
+use crate::writing::block_writer::{BlockWriter, ProgramStyle, UNCHANGED_MM, motion_word};
 use crate::writing::divide::Division;
 use crate::writing::header::{header, lines_above};
 use crate::writing::jump::{Jump, Turn};
@@ -275,33 +275,7 @@ impl<'a> Emitter<'a> {
     ) -> Result<(), WriteError> {
         self.input_position = motion.end;
         if motion.known == Knowledge::Nothing {
-            self.carry(motion.line, line)?;
-            let from = self.state.position;
-            let has_feed = self
-                .program
-                .words(line)
-                .iter()
-                .any(|word| word.letter == b'F');
-            self.state.position = motion.end;
-            self.state.target = motion.end;
-            self.state.motion = Some(motion_of(motion));
-            if has_feed {
-                self.state.feed = motion.feed;
-            }
-            self.pieces.push(Piece {
-                move_index,
-                share_from: 0.0,
-                share_to: 1.0,
-                commanded_from: from,
-                commanded_to: motion.end,
-                output_line: self.output_line - 1,
-                corner_step: false,
-                turn: None,
-                corrected: false,
-                kept_arc: false,
-                feed_limited: false,
-            });
-            return Ok(());
+            return self.write_uncorrected(line, move_index, motion);
         }
         let first_node = self.next_node;
         let mut steps = self.steps(move_index, motion);
@@ -352,6 +326,57 @@ impl<'a> Emitter<'a> {
             });
         }
         self.note_block(line, motion, steps.len(), before);
+        Ok(())
+    }
+
+    /// A move that has no correction: to a place of the machine it is carried byte for byte, and else its
+    /// words bring the axes that they name to where the input has them, without the correction that an
+    /// earlier move has left there.
+    fn write_uncorrected(
+        &mut self,
+        line: &Line,
+        move_index: usize,
+        motion: &Move,
+    ) -> Result<(), WriteError> {
+        let from = self.state.position;
+        let before = self.bytes.len();
+        let words = self.program.words(line);
+        let names_motion = motion_word(words).is_some();
+        if words.iter().any(|word| word.letter == b'F') {
+            self.state.feed = motion.feed;
+        }
+        if motion.words.is_to_machine() {
+            let content = self.program.content(line);
+            let content = self.program.bytes()[content].to_vec();
+            self.push_line(motion.line, content, self.program.ending(line))?;
+            for axis in (0..3).filter(|axis| motion.words.to_machine[*axis]) {
+                self.state.position[axis] = motion.end[axis];
+            }
+            if names_motion {
+                self.state.motion = Some(motion_of(motion));
+            }
+        } else {
+            let block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+            let content = block.uncorrected_line(&mut self.state);
+            self.push_line(motion.line, content, self.program.ending(line))?;
+        }
+        self.state.target = self.state.position;
+        self.state.feed_limited = false;
+        self.pieces.push(Piece {
+            move_index,
+            share_from: 0.0,
+            share_to: 1.0,
+            commanded_from: from,
+            commanded_to: self.state.position,
+            output_line: self.output_line - 1,
+            corner_step: false,
+            turn: None,
+            corrected: false,
+            kept_arc: false,
+            feed_limited: false,
+        });
+        self.rate.note(None);
+        self.note_block(line, motion, 1, before);
         Ok(())
     }
 

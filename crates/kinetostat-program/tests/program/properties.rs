@@ -1,12 +1,14 @@
 //! The promises of a written program, over generated programs and random fields.
 
 // Helpers of tests, which clippy does not count as tests.
-use crate::support::{Generated, START, Style, WORK, generate, op, read_plainly, style};
+use crate::support::{
+    Generated, MACHINE_ZERO, REFERENCES, START, Style, WORK, generate, op, read_plainly, style,
+};
 use kinetostat_program::*;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-fn reading() -> ReadOptions {
+fn reading(machine_is_known: bool) -> ReadOptions {
     let mut work_offsets_mm = [None; 9];
     for (offset, given) in work_offsets_mm.iter_mut().zip(WORK) {
         *offset = Some(Vector3::from(given));
@@ -15,6 +17,10 @@ fn reading() -> ReadOptions {
         let mut reading = ReadOptions::default();
         reading.work_offsets_mm = work_offsets_mm;
         reading.start_position_mm = Some(Vector3::from(START));
+        if machine_is_known {
+            reading.machine_zero_mm = Some(Vector3::from(MACHINE_ZERO));
+            reading.reference_points_mm = REFERENCES.map(|point| Some(Vector3::from(point)));
+        }
         reading
     }
 }
@@ -86,7 +92,28 @@ fn waves() -> impl Strategy<Value = Waves> {
 /// The path read is the path the generator meant.
 fn check_interpretation(generated: &Generated, path: &Path) {
     assert_eq!(path.moves.len(), generated.truths.len());
-    for (motion, truth) in path.moves.iter().zip(&generated.truths) {
+    assert_eq!(path.moves.len(), generated.facts.len());
+    for ((motion, truth), fact) in path
+        .moves
+        .iter()
+        .zip(&generated.truths)
+        .zip(&generated.facts)
+    {
+        let [before, after] = fact.known.map(|known| known == [true; 3]);
+        let known = match (fact.machine, before, after) {
+            (false, true, _) => Knowledge::Whole,
+            (false, false, true) => Knowledge::End,
+            _ => Knowledge::Nothing,
+        };
+        assert_eq!(motion.known, known, "line {}", motion.line);
+        assert_eq!(motion.words.is_to_machine(), fact.machine);
+        if known != Knowledge::Whole {
+            for axis in (0..3).filter(|axis| fact.known[1][*axis]) {
+                let off = (motion.end - truth.point(1.0))[axis].abs();
+                assert!(off <= 1e-6, "line {}: {off} mm", motion.line);
+            }
+            continue;
+        }
         // An arc by radius is rounded in R, which moves its middle by a little more than the rounding.
         let tolerance = if motion.curve == Curve::Line {
             1e-6
@@ -123,14 +150,19 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
         let half = 0.5 * unit * 10_f64.powi(-decimals);
         let rounding = half * 3.0_f64.sqrt() * 1.001 + 1e-9;
         let correction = |share: f64| {
+            let whole = motion.known == Knowledge::Whole;
             waves.at(&Request {
                 move_index: piece.move_index,
                 share,
                 position_mm: motion.point(share),
-                tangent: motion.tangent(share),
+                tangent: motion.tangent(share).filter(|_| whole),
                 turning: None,
             })
         };
+        if motion.known == Knowledge::Nothing {
+            assert!(!piece.corrected, "line {}", motion.line);
+            continue;
+        }
         if !piece.corrected {
             assert_eq!(
                 motion.length_mm(),
@@ -187,17 +219,37 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
 }
 
 /// The bytes mean the pieces, to a reader that shares no code with the crate.
-fn check_plainly(path: &Path, written: &Corrected) {
+fn check_plainly(generated: &Generated, path: &Path, written: &Corrected, waves: &Waves) {
     let text = std::str::from_utf8(&written.bytes).unwrap();
     let reached = read_plainly(text);
     assert_eq!(reached.len(), written.pieces.len());
+    let input = read_plainly(&generated.text);
     for (reached, piece) in reached.iter().zip(&written.pieces) {
         assert_eq!(reached.line, piece.output_line);
-        assert!(
-            (reached.place - piece.commanded_to).norm() < 1e-6,
-            "output line {}",
-            piece.output_line
-        );
+        let fact = &generated.facts[piece.move_index];
+        let off = reached.place - piece.commanded_to;
+        let said = (0..3).filter(|axis| fact.known[1][*axis]);
+        let largest = said.map(|axis| off[axis].abs()).fold(0.0, f64::max);
+        assert!(largest < 1e-6, "output line {}", piece.output_line);
+        if path.moves[piece.move_index].known == Knowledge::Nothing {
+            // On the machine the axes that move are where they were to be, and those that do not are off
+            // by no more than a correction.
+            let line = path.moves[piece.move_index].line;
+            let meant = input.iter().find(|reached| reached.line == line).unwrap();
+            let off = reached.place - meant.place;
+            for axis in 0..3 {
+                let allowed = match (fact.machine, fact.named[axis]) {
+                    (true, true) => 1e-9,
+                    (false, true) => 0.5e-4 * 2.54 + 1e-9,
+                    (_, false) => 2.0 * waves.size_mm + 1e-3,
+                };
+                assert!(
+                    off[axis].abs() <= allowed,
+                    "output line {}: {off}",
+                    piece.output_line
+                );
+            }
+        }
         let motion = &path.moves[piece.move_index];
         if let (MoveKind::Feed, Some(feed), false) = (motion.kind, motion.feed, piece.corner_step) {
             // The time the piece takes is the time the part's stretch should take.
@@ -231,11 +283,11 @@ fn check_plainly(path: &Path, written: &Corrected) {
     }
 }
 
-fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves) {
-    let generated = generate(ops, style);
+fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves, machine_is_known: bool) {
+    let generated = generate(ops, style, machine_is_known);
     let program = Program::read(generated.text.as_bytes()).unwrap();
     assert_eq!(program.bytes(), generated.text.as_bytes());
-    let reading = reading();
+    let reading = reading(machine_is_known);
     let path =
         interpret(&program, &reading).unwrap_or_else(|error| panic!("{error}\n{}", generated.text));
     check_interpretation(&generated, &path);
@@ -265,7 +317,7 @@ fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves) {
             )
         });
         check_places(&path, &written, waves, &writing);
-        check_plainly(&path, &written);
+        check_plainly(&generated, &path, &written, waves);
         let again = write_corrected(&program, &path, waves, &writing, &Unwatched).unwrap();
         assert!(again == written, "two runs differ");
         if written.bytes == program.bytes() {
@@ -293,8 +345,8 @@ proptest! {
 
     #[test]
     fn every_written_program_keeps_every_promise(
-        ops in prop::collection::vec(op(), 1..25), style in style(), waves in waves(),
+        ops in prop::collection::vec(op(), 1..25), style in style(), waves in waves(), machine_is_known in any::<bool>(),
     ) {
-        check_one(&ops, &style, &waves);
+        check_one(&ops, &style, &waves, machine_is_known);
     }
 }

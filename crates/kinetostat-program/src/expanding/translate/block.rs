@@ -69,7 +69,8 @@ impl MotionBlock {
                 self.after.push(b' ');
             }
             (b'G', code) => {
-                self.wants_axes |= matches!(code, 40 | 100 | 280..=301 | 520 | 920 | 431);
+                self.wants_axes |=
+                    matches!(code, 40 | 100 | 280..=301 | 431 | 432 | 520 | 530 | 920);
                 self.before.extend_from_slice(piece);
             }
             (b'L', _) => self.values[usize::from(b'L' - b'A')] = Some(value),

@@ -5,10 +5,10 @@ use kinetostat_program::*;
 use nalgebra::Vector3;
 
 /// G codes that are read, in tenths; from the manuals, not from the table of the crate.
-pub const READ: [u32; 45] = [
-    0, 10, 20, 30, 40, 80, 90, 150, 170, 180, 190, 200, 210, 400, 430, 490, 540, 550, 560, 570,
-    580, 590, 591, 592, 593, 610, 611, 640, 690, 800, 900, 901, 910, 911, 920, 921, 922, 923, 930,
-    940, 950, 960, 970, 980, 990,
+pub const READ: [u32; 50] = [
+    0, 10, 20, 30, 40, 80, 90, 150, 170, 180, 190, 200, 210, 280, 300, 400, 430, 431, 432, 490,
+    530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 690, 800, 900, 901, 910, 911,
+    920, 921, 922, 923, 930, 940, 950, 960, 970, 980, 990,
 ];
 
 /// M codes that act before the motion on every controller that a source could be named for.

@@ -34,6 +34,18 @@ pub enum Op {
     Here([Option<f64>; 3]),
     ForgetHere,
     Remark(usize),
+    /// G28 or G30, with the point on the way.
+    Reference {
+        second: bool,
+        by: [Option<f64>; 3],
+    },
+    /// G53.
+    Machine([Option<f64>; 3]),
+    /// G43 with a tool's length, or G49, perhaps beside a rapid that states the height.
+    Length {
+        tool: usize,
+        height: Option<f64>,
+    },
 }
 
 /// How the program is written down.
@@ -67,6 +79,9 @@ pub fn op() -> impl Strategy<Value = Op> {
         1 => [place(), place(), place()].prop_map(Op::Here),
         1 => Just(Op::ForgetHere),
         2 => (0..REMARKS.len()).prop_map(Op::Remark),
+        1 => (any::<bool>(), [place(), place(), place()]).prop_map(|(second, by)| Op::Reference { second, by }),
+        1 => [place(), place(), place()].prop_map(Op::Machine),
+        1 => (0..LENGTHS.len(), place()).prop_map(|(tool, height)| Op::Length { tool, height }),
     ]
 }
 
@@ -103,6 +118,11 @@ pub const REMARKS: &[&str] = &[
 /// Origins of G54 and G55 in mm.
 pub const WORK: [[f64; 3]; 2] = [[0.0, 0.0, 0.0], [12.345, -7.5, 3.25]];
 pub const START: [f64; 3] = [1.0, 2.0, 3.0];
+/// The machine's zero in the part frame, its two reference points in machine coordinates, and the lengths of its
+/// tools, in mm: what the reader may be told or not, and the machine knows.
+pub const MACHINE_ZERO: [f64; 3] = [-210.5, 133.25, 310.0];
+pub const REFERENCES: [[f64; 3]; 2] = [[12.5, -3.0, 7.75], [-40.0, 25.5, -1.5]];
+pub const LENGTHS: [f64; 3] = [0.0, 61.25, 87.5];
 
 /// A motion as the generator meant it.
 #[derive(Debug, Clone)]
@@ -151,12 +171,29 @@ impl Truth {
 pub struct Generated {
     pub text: String,
     pub truths: Vec<Truth>,
+    pub facts: Vec<Fact>,
+}
+
+/// What the text says about a motion.
+#[derive(Debug, Clone, Copy)]
+pub struct Fact {
+    /// Axes whose place the text says, before and after.
+    pub known: [[bool; 3]; 2],
+    /// Axes that the block moves.
+    pub named: [bool; 3],
+    /// To a place of the machine.
+    pub machine: bool,
 }
 
 struct Generator<'s> {
     style: &'s Style,
     lines: Vec<String>,
     truths: Vec<Truth>,
+    facts: Vec<Fact>,
+    known: [bool; 3],
+    /// The reader is told the places of the machine.
+    machine_is_known: bool,
+    tool: usize,
     place: [f64; 3],
     here: [f64; 3],
     work: usize,
@@ -171,11 +208,15 @@ struct Generator<'s> {
     motion: Option<u8>,
 }
 
-pub fn generate(ops: &[Op], style: &Style) -> Generated {
+pub fn generate(ops: &[Op], style: &Style, machine_is_known: bool) -> Generated {
     let mut generator = Generator {
         style,
         lines: Vec::new(),
         truths: Vec::new(),
+        facts: Vec::new(),
+        known: [true; 3],
+        machine_is_known,
+        tool: 0,
         place: START,
         here: [0.0; 3],
         work: 0,
@@ -214,6 +255,7 @@ pub fn generate(ops: &[Op], style: &Style) -> Generated {
     Generated {
         text,
         truths: generator.truths,
+        facts: generator.facts,
     }
 }
 
@@ -280,8 +322,99 @@ impl Generator<'_> {
         }
     }
 
+    fn fact(&mut self, before: [bool; 3], named: [bool; 3], machine: bool) {
+        self.facts.push(Fact {
+            known: [before, self.known],
+            named,
+            machine,
+        });
+    }
+
+    /// A block to places of the machine, which the text does not say.
+    fn go_to_machine(&mut self, words: &[String], places: [Option<f64>; 3]) {
+        let (start, before) = (self.place, self.known);
+        for axis in 0..3 {
+            if let Some(place) = places[axis] {
+                let length = if axis == 2 { LENGTHS[self.tool] } else { 0.0 };
+                self.place[axis] = MACHINE_ZERO[axis] + place - length;
+                self.known[axis] = self.machine_is_known && !(axis == 2 && self.tool > 0);
+            }
+        }
+        self.truths.push(Truth::Straight {
+            start,
+            end: self.place,
+        });
+        self.fact(before, places.map(|place| place.is_some()), true);
+        self.push(words);
+    }
+
     fn run(&mut self, op: &Op) {
+        let lost = self.known != [true; 3];
         match op.clone() {
+            Op::Reference { second, by } => {
+                let mut words = vec![if second { "G30" } else { "G28" }.to_owned()];
+                for axis in 0..3 {
+                    if let Some(place) = by[axis] {
+                        words.push(self.coordinate(axis, place).0);
+                    }
+                }
+                let all = by.iter().all(Option::is_none);
+                let point = REFERENCES[usize::from(second)];
+                let places =
+                    [0, 1, 2].map(|axis| (all || by[axis].is_some()).then_some(point[axis]));
+                self.go_to_machine(&words, places);
+            }
+            Op::Machine(to) => {
+                if self.incremental || to.iter().all(Option::is_none) {
+                    return;
+                }
+                let mut words = vec!["G53".to_owned()];
+                self.motion_word(0, &mut words);
+                let mut places = [None; 3];
+                for axis in 0..3 {
+                    if let Some(place) = to[axis] {
+                        let (text, value) = self.number(place / self.scale());
+                        words.push(format!("{}{text}", ["X", "Y", "Z"][axis]));
+                        places[axis] = Some(value * self.scale());
+                    }
+                }
+                self.go_to_machine(&words, places);
+            }
+            Op::Length { tool, height } => {
+                let mut words = vec![match tool {
+                    0 => "G49".to_owned(),
+                    tool => format!("G43 H{tool}"),
+                }];
+                // G49 where none is in force, and the same length once more, change nothing.
+                self.known[2] &= tool == self.tool;
+                self.place[2] += LENGTHS[self.tool] - LENGTHS[tool];
+                self.tool = tool;
+                if let Some(height) = height.filter(|_| !self.incremental) {
+                    let (start, before) = (self.place, self.known);
+                    self.motion_word(0, &mut words);
+                    let (word, reached) = self.coordinate(2, height);
+                    words.push(word);
+                    self.place[2] = reached;
+                    self.known[2] = true;
+                    self.truths.push(Truth::Straight {
+                        start,
+                        end: self.place,
+                    });
+                    self.fact(before, [false, false, true], false);
+                }
+                self.push(&words);
+            }
+            Op::Arc { .. } if lost => {
+                // States all axes again.
+                let to = [Some(11.0), Some(-7.0), Some(5.0)];
+                self.run(&Op::Straight {
+                    feed: false,
+                    to,
+                    speed: None,
+                    extruded: None,
+                    pause: false,
+                });
+            }
             Op::Straight {
                 feed,
                 to,
@@ -293,14 +426,16 @@ impl Generator<'_> {
                     return;
                 }
                 let mut words = Vec::new();
+                let feed = feed && !lost;
                 self.motion_word(u8::from(feed), &mut words);
-                let start = self.place;
+                let (start, before) = (self.place, self.known);
                 let mut end = start;
                 for axis in 0..3 {
                     if let Some(place) = to[axis] {
                         let (word, reached) = self.coordinate(axis, place);
                         words.push(word);
                         end[axis] = reached;
+                        self.known[axis] |= !self.incremental;
                     }
                 }
                 if let Some(length) = extruded.filter(|_| feed) {
@@ -326,6 +461,7 @@ impl Generator<'_> {
                 }
                 self.place = end;
                 self.truths.push(Truth::Straight { start, end });
+                self.fact(before, to.map(|place| place.is_some()), false);
                 self.push(&words);
             }
             Op::Arc {
@@ -380,7 +516,10 @@ impl Generator<'_> {
                 self.work = work;
                 self.push(&[format!("G{}", 54 + work)]);
             }
-            Op::Here(coordinates) => {
+            Op::Here(mut coordinates) => {
+                for axis in (0..3).filter(|axis| !self.known[*axis]) {
+                    coordinates[axis] = None;
+                }
                 if coordinates.iter().all(Option::is_none) {
                     return;
                 }
@@ -495,6 +634,7 @@ impl Generator<'_> {
         };
         self.speed_word(speed, radius * sweep.abs(), &mut words);
         self.place = end;
+        self.fact([true; 3], [true; 3], false);
         self.truths.push(Truth::Arc {
             axes,
             centre,
@@ -514,12 +654,13 @@ pub struct Reached {
     pub line: usize,
 }
 
-/// Reads the ends of motions from text, with none of the crate's code.
+/// Runs the text on the machine, with none of the crate's code: where its motions end.
 pub fn read_plainly(text: &str) -> Vec<Reached> {
     let mut reached = Vec::new();
     let mut place = Vector3::from(START);
     let (mut here, mut work) = (Vector3::zeros(), Vector3::from(WORK[0]));
     let (mut scale, mut incremental, mut speed) = (1.0, false, None);
+    let mut tool = 0_usize;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut bare = String::new();
         let mut inside = false;
@@ -558,6 +699,8 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
                 .map(|(_, value)| *value)
         };
         let mut is_here = false;
+        // Reference point of G28 and G30; zero of G53.
+        let mut machine: Option<([f64; 3], bool)> = None;
         for (letter, value) in &words {
             match (letter, value.to_string().as_str()) {
                 ('G', "20") => scale = 25.4,
@@ -566,6 +709,14 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
                 ('G', "91") => incremental = true,
                 ('G', "54") => work = Vector3::from(WORK[0]),
                 ('G', "55") => work = Vector3::from(WORK[1]),
+                ('G', "28") => machine = Some((REFERENCES[0], false)),
+                ('G', "30") => machine = Some((REFERENCES[1], false)),
+                ('G', "53") => machine = Some(([0.0; 3], true)),
+                ('G', "43" | "49") => {
+                    let next = get('H').unwrap_or(0.0) as usize;
+                    place.z += LENGTHS[tool] - LENGTHS[next];
+                    tool = next;
+                }
                 ('G', "92") => is_here = true,
                 ('G', "92.1") => here = Vector3::zeros(),
                 _ => {}
@@ -582,6 +733,20 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
         }
         if let Some(value) = get('F') {
             speed = Some(value);
+        }
+        if let Some((point, counts)) = machine {
+            let all = !counts && coordinates.iter().all(Option::is_none);
+            for axis in (0..3).filter(|axis| all || coordinates[*axis].is_some()) {
+                let word = coordinates[axis].filter(|_| counts).unwrap_or(0.0);
+                let length = if axis == 2 { LENGTHS[tool] } else { 0.0 };
+                place[axis] = MACHINE_ZERO[axis] + point[axis] + word * scale - length;
+            }
+            reached.push(Reached {
+                place,
+                speed,
+                line: index + 1,
+            });
+            continue;
         }
         // A piece so short that rounding leaves nothing to move may still have its share of E.
         if coordinates.iter().all(Option::is_none) && get('E').is_none() {

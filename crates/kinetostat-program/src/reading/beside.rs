@@ -1,0 +1,147 @@
+//! Words and codes of a block that nobody can tell the meaning of beside its others.
+
+use crate::error::{ProgramError, ProgramErrorKind};
+use crate::path::moves::{Motion, MoveKind};
+use crate::reading::block::Block;
+use crate::reading::extra::ExtraAxes;
+use crate::reading::moment::{Placed, moment_of};
+use crate::reading::options::{OtherAxes, ReadOptions};
+use crate::reading::repeated::Repeated;
+use crate::text::line::Word;
+
+const COORDINATES: [u8; 3] = *b"XYZ";
+
+/// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
+pub(crate) const OTHER_AXES: &[u8; 6] = b"ABCUVW";
+
+/// Words that mean a corner rounding or a call on some controllers.
+pub(crate) fn refuse_parameters_of_calls(
+    block: &Block<'_>,
+    motion: Option<Motion>,
+) -> Result<(), ProgramError> {
+    if block
+        .words
+        .iter()
+        .any(|word| word.letter == b'M' && word.value >= 100.0)
+        && block.codes.motion.is_none()
+    {
+        return Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            "an axis word beside this M code is its parameter to printers and a motion to mills",
+            "write the motion as a block of its own, with G0 or G1",
+        ));
+    }
+    if matches!(motion, Some(Motion::Rapid | Motion::Feed)) {
+        for letter in *b"IJKRP" {
+            if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
+                return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous,
+                    Some(word),
+                    &format!(
+                        "{} appears in a straight move: some controllers stop, some round a corner",
+                        char::from(letter)
+                    ),
+                    "remove the word, or write the arc with G2 or G3",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A block with motion may be divided: each of its codes must have a piece to stand in.
+pub(crate) fn check_codes_beside_motion(
+    block: &Block<'_>,
+    kind: MoveKind,
+    options: &ReadOptions,
+    repeated: &mut Repeated,
+) -> Result<(), ProgramError> {
+    for word in block.words.iter().filter(|word| word.letter == b'M') {
+        let tenths = word.tenths();
+        let Some(moment) = moment_of(tenths) else {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous, Some(word),
+                &format!(
+                    "M{} appears beside a motion, and whether it acts before or after it is not known here",
+                    word.value
+                ),
+                "write it in a block of its own, before or after the motion",
+            ));
+        };
+        if moment.code == 6 && options.tools.is_some() {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous, Some(word),
+                "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
+                "write M6 in a block of its own, before or after the motion",
+            ));
+        }
+        if kind != MoveKind::Feed {
+            continue;
+        }
+        if moment.placed == Placed::Refused {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous, Some(word),
+                &format!(
+                    "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it",
+                    moment.code, moment.meaning
+                ),
+                "write it in a block of its own, before or after the motion",
+            ));
+        }
+        if moment.is_disputed() {
+            repeated.note(block.line_number, &format!(
+                "M{} ({}) appears beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
+                moment.code, moment.meaning
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Words of axes that turn or shift the part or the head, of which there is no model here.
+pub(crate) fn refuse_other_axes(
+    block: &Block<'_>,
+    options: &ReadOptions,
+) -> Result<(), ProgramError> {
+    if options.other_axes == OtherAxes::StandStill {
+        return Ok(());
+    }
+    for letter in *OTHER_AXES {
+        if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous, Some(word),
+                &format!(
+                    "axis {} changes where the tool is in the part and in the machine, and there is no model of it",
+                    char::from(letter)
+                ),
+                "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
+pub(crate) fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
+    if block.dwells_before_motion() {
+        return Ok(());
+    }
+    let axis = |word: &&Word| {
+        COORDINATES.contains(&word.letter) || ExtraAxes::LETTERS.contains(&word.letter)
+    };
+    let time_elsewhere = block
+        .words
+        .iter()
+        .any(|word| matches!(word.letter, b'P' | b'S'));
+    let axes = block.words.iter().filter(axis).count();
+    if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
+        return Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            "a dwell and a motion are in one block: the axis words may belong to either",
+            "write them in two blocks",
+        ));
+    }
+    Ok(())
+}

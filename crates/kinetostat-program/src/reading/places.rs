@@ -1,0 +1,86 @@
+//! Where the tool is, axis by axis, as far as the program says it.
+//!
+//! An axis is unknown until the program states it by an absolute word, or the options do. It becomes unknown
+//! again where the program sends it to a place of the machine or changes the length of the tool. Its
+//! number goes on then: increments add to it, and what counts is the difference of two programs that make the same
+//! moves.
+
+use nalgebra::Vector3;
+
+/// Why an axis is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// G43, G43.1, G43.2, G49.
+    ToolLength,
+    /// G28, G30, G53.
+    Machine,
+}
+
+/// Place and knowledge of the three axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    /// In mm, part frame.
+    pub position: Vector3<f64>,
+    pub known: [bool; 3],
+    /// Axes that were known at some time.
+    pub stated: [bool; 3],
+    /// What made a known axis unknown, and on which line.
+    lost: [Option<(Cause, usize)>; 3],
+    /// Behind a line that could not be read: it may have moved the axis.
+    pub unsure: [bool; 3],
+}
+
+impl Places {
+    pub fn new(start: Option<Vector3<f64>>) -> Self {
+        Self {
+            position: start.unwrap_or_default(),
+            known: [start.is_some(); 3],
+            stated: [start.is_some(); 3],
+            lost: [None; 3],
+            unsure: [false; 3],
+        }
+    }
+
+    /// An axis is known from here on.
+    pub fn state(&mut self, axis: usize) {
+        self.known[axis] = true;
+        self.stated[axis] = true;
+        self.lost[axis] = None;
+        self.unsure[axis] = false;
+    }
+
+    /// An axis is unknown from here on.
+    pub fn lose(&mut self, axis: usize, cause: Cause, line: usize) {
+        if self.known[axis] {
+            self.known[axis] = false;
+            self.lost[axis] = Some((cause, line));
+        }
+    }
+
+    /// The first axis that was known and is so no more, why, and since which line.
+    pub fn first_lost(&self) -> Option<(usize, Cause, usize)> {
+        (0..3).find_map(|axis| self.lost[axis].map(|(cause, line)| (axis, cause, line)))
+    }
+
+    /// Why an axis that was known is so no more, in words; none where it never was or still is.
+    pub fn why_lost(&self, axis: usize) -> Option<String> {
+        let (cause, line) = self.lost[axis]?;
+        Some(match cause {
+            Cause::ToolLength => format!("line {line} changed the tool length"),
+            Cause::Machine => format!("line {line} sent the tool to a place of the machine"),
+        })
+    }
+
+    /// A line could not be read: no place is sure, and none is asked for.
+    pub fn doubt(&mut self) {
+        self.unsure = [true; 3];
+        self.stated = [true; 3];
+        self.take_as_known();
+    }
+
+    /// What was lost counts as known again: for going on behind a fault.
+    pub fn take_as_known(&mut self) {
+        self.known = self.stated;
+        self.lost = [None; 3];
+    }
+}
