@@ -1,5 +1,7 @@
 //! What is wrong with a tool, a material, a cut or a stock: which quantity, what was found, what was expected.
 
+use crate::number::plain;
+
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, CutError>;
 
@@ -33,7 +35,7 @@ pub enum CutErrorKind {
 
 /// A quantity, what was found and what was expected, with the place in a file where there is one.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{quantity}: {found}; expected {expected}", place(.file, .line))]
+#[error("{}{quantity}: {found}; {}", place(.file, .line), advice(.expected))]
 #[non_exhaustive]
 pub struct CutError {
     /// What it is about.
@@ -78,6 +80,14 @@ impl CutError {
     }
 }
 
+/// What was expected; a nearer name stands for itself.
+fn advice(expected: &str) -> String {
+    match expected.starts_with("did you mean") {
+        true => expected.to_owned(),
+        false => format!("expected {expected}"),
+    }
+}
+
 fn place(file: &Option<String>, line: &Option<usize>) -> String {
     match (file, line) {
         (Some(file), Some(line)) => format!("{file}:{line}: "),
@@ -99,8 +109,13 @@ pub(crate) fn within(
         false => Err(CutError::new(
             kind,
             quantity,
-            format!("{value} {unit}").trim_end(),
-            format!("{} to {} {unit}", bounds.start(), bounds.end()).trim_end(),
+            format!("{} {unit}", plain(value)).trim_end(),
+            format!(
+                "{} to {} {unit}",
+                plain(*bounds.start()),
+                plain(*bounds.end())
+            )
+            .trim_end(),
         )),
     }
 }

@@ -12,6 +12,11 @@ pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
 
+/// A number without the last digits that arithmetic leaves in it.
+pub(crate) fn plain(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 /// Nodes and weights of Gauss and Legendre on 0 to 1, twelve of them: `(node, weight)`.
 const GAUSS: [(f64, f64); 12] = [
     (0.009_219_682_876_640_375, 0.023_587_668_193_255_914),

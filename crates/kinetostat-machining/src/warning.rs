@@ -112,6 +112,8 @@ pub enum WarningCode {
     ForceInRapid,
     /// A move of which nobody knows how long it takes.
     TimeUnknown,
+    /// A cut that nobody makes: its feed, depth, speed or run-out.
+    ImplausibleCut,
     /// A fitted coefficient that hardly any material has.
     ImplausibleCoefficient,
     /// A fitted coefficient that is hardly known.

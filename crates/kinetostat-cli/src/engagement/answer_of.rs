@@ -27,7 +27,13 @@ pub(crate) fn answer_of(
         "model, placement and tool lengths of a job play no part: the program is cut where and as large as it is written, with the tool along z; tool and part are rigid".to_owned(),
     );
     let mut warned: Vec<Warning> = warnings(Some(forces));
-    warned.extend(of_program(path, None));
+    // Every tool has its own cutter here, and nothing is corrected.
+    let of_corrections = |w: &Warning| w.message.contains("corrections are made for one tool");
+    warned.extend(
+        of_program(path, None)
+            .into_iter()
+            .filter(|w| !of_corrections(w)),
+    );
     EngagementAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -216,13 +216,22 @@ fn walls<L: kinetostat_cutting::ForceLaw>(milling: &Milling<'_, L>, cut: &Cut) -
     walls.into_iter().filter_map(of).collect()
 }
 
-/// The first of the teeth's; with run-out also that of the spindle.
+/// The first of the teeth's; with run-out, which has every multiple of the spindle's, the largest of them.
 fn harmonics(revolution: &Revolution, run_out: bool, rpm: Option<f64>) -> Vec<HarmonicAnswer> {
     let teeth = revolution.teeth();
-    let mut wanted: Vec<usize> = (1..=HARMONICS).map(|k| k * teeth).collect();
-    if run_out && teeth > 1 {
-        wanted.insert(0, 1);
-    }
+    let wanted: Vec<usize> = match run_out && teeth > 1 {
+        false => (1..=HARMONICS).map(|k| k * teeth).collect(),
+        true => {
+            let size = |k: usize| revolution.harmonic(k).amplitude_n.norm();
+            let mut all: Vec<(usize, f64)> =
+                (1..=HARMONICS * teeth).map(|k| (k, size(k))).collect();
+            all.sort_by(|a, b| b.1.total_cmp(&a.1));
+            all.truncate(HARMONICS + 1);
+            let mut largest: Vec<usize> = all.into_iter().map(|(k, _)| k).collect();
+            largest.sort_unstable();
+            largest
+        }
+    };
     let of = |per_revolution: usize| HarmonicAnswer {
         per_revolution,
         frequency_hz: rpm.map(|rpm| per_revolution as f64 * rpm / 60.0),

@@ -10,7 +10,7 @@ use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::force::answer::MaterialAnswer;
 use crate::force::answer_of::material_answer;
 use crate::force::arguments::ForceArgs;
-use crate::force::findings::{of_chip, of_speed};
+use crate::force::findings::{of_chip, of_feed_per_turn, of_speed};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
 use crate::force::trust::section;
@@ -95,6 +95,7 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<DrillAnswer> {
     }
     assumed.push("Chips leave the hole freely: in a deep hole the torque grows.".to_owned());
     let mut warnings: Vec<Warning> = Vec::new();
+    warnings.extend(of_feed_per_turn(feed, diameter_mm));
     warnings.extend(of_chip(material, force.chip_mm, force.chip_mm));
     warnings.extend(speed.and_then(|speed| of_speed(material, speed)));
     Ok(DrillAnswer {

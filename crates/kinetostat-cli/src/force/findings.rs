@@ -49,6 +49,34 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
             );
         }
     }
+    let diameter = tool.tool.diameter_mm();
+    if tool.max_chip_mm.is_none() {
+        let feed = cut.feed.level_mm.hypot(cut.feed.down_mm);
+        list_coarse(feed, diameter, "per tooth", &mut say);
+    }
+    if tool.tool.run_out().offset_mm > RUN_OUT * diameter {
+        say(
+            WarningCode::ImplausibleCut,
+            format!(
+                "a run-out of {} um on a tool of {} mm: no tool is held like that",
+                given(1e3 * tool.tool.run_out().offset_mm),
+                given(diameter)
+            ),
+        );
+    }
+    if tool.flute_length_mm.is_none()
+        && tool.stick_out_mm.is_none()
+        && cut.depth_mm > DEEP * diameter
+    {
+        say(
+            WarningCode::ToolTooShort,
+            format!(
+                "the cut is {} mm deep, {} times the tool's diameter: hardly a tool has such edges (--flute-length-mm says how long they are)",
+                given(cut.depth_mm),
+                given(cut.depth_mm / diameter)
+            ),
+        );
+    }
     let depth = given(cut.depth_mm);
     if let Some(flutes) = tool.flute_length_mm.filter(|flutes| cut.depth_mm > *flutes) {
         say(
@@ -69,6 +97,54 @@ fn of_tool(answer: &ForceAnswer, tool: &CutTool, cut: &Cut) -> Vec<Warning> {
         );
     }
     list
+}
+
+/// A feed beyond this share of the diameter is none of milling or drilling.
+const COARSE: f64 = 0.25;
+
+/// Cuts deeper than this, in diameters, need a tool that is seldom made.
+const DEEP: f64 = 8.0;
+
+/// A run-out beyond this share of the diameter is a mistake.
+const RUN_OUT: f64 = 0.03;
+
+/// Faster than any edge cuts, m/min.
+const FASTEST: f64 = 10_000.0;
+
+fn list_coarse(feed: f64, diameter: f64, per: &str, say: &mut impl FnMut(WarningCode, String)) {
+    if feed > COARSE * diameter {
+        say(
+            WarningCode::ChipOverLimit,
+            format!(
+                "a feed of {} mm {per} with a tool of {} mm: check feed, speed and number of teeth; the force is that of chips that no such tool cuts",
+                given(feed),
+                given(diameter)
+            ),
+        );
+    }
+}
+
+/// A feed of a drill that none survives.
+pub(crate) fn of_feed_per_turn(feed: f64, diameter: f64) -> Option<Warning> {
+    let mut found = None;
+    list_coarse(feed, diameter, "per turn", &mut |code, text| {
+        found = Some(Warning::new(code, text));
+    });
+    found
+}
+
+/// A turning cut that no lathe makes.
+pub(crate) fn of_turning(depth_mm: f64, feed_mm: f64) -> Option<Warning> {
+    (depth_mm > 30.0 || feed_mm > 3.0).then(|| {
+        Warning::new(
+            WarningCode::ImplausibleCut,
+            format!(
+                "a depth of {} mm and a feed of {} mm per turn: hardly a lathe cuts more than 30 mm deep or 3 mm per turn",
+                given(depth_mm),
+                given(feed_mm)
+            ),
+        )
+    })
 }
 
 fn of_spindle(answer: &ForceAnswer, cut: &Cut) -> Option<Warning> {
@@ -114,6 +190,15 @@ pub(crate) fn of_chip(material: &Material, mean: f64, largest: f64) -> Option<Wa
 
 /// A cutting speed, m/min, that the law does not know.
 pub(crate) fn of_speed(material: &Material, speed: f64) -> Option<Warning> {
+    if speed > FASTEST {
+        return Some(Warning::new(
+            WarningCode::ImplausibleCut,
+            format!(
+                "the cutting speed is {} m/min: check the speed of the spindle and the diameter, nothing is cut faster than {FASTEST} m/min",
+                number(speed, 4)
+            ),
+        ));
+    }
     let (from, to) = material.speed_m_per_min?;
     if (from..=to).contains(&speed) {
         return None;

@@ -8,7 +8,7 @@ use crate::files::answer_files::{ClaimedFiles, Shown};
 use crate::force::answer::MaterialAnswer;
 use crate::force::answer_of::material_answer;
 use crate::force::arguments::ForceArgs;
-use crate::force::findings::{of_chip, of_speed};
+use crate::force::findings::{of_chip, of_speed, of_turning};
 use crate::force::material::{Made, applied};
 use crate::force::refusal::{refused, within};
 use crate::force::trust::section;
@@ -80,6 +80,7 @@ fn answer(args: &ForceArgs, material: &Material) -> Answer<TurningAnswer> {
             .to_owned(),
     );
     let mut warnings: Vec<Warning> = Vec::new();
+    warnings.extend(of_turning(depth_mm, feed));
     warnings.extend(of_chip(material, force.chip_mm, force.chip_mm));
     warnings.extend(speed.and_then(|speed| of_speed(material, speed)));
     Ok(TurningAnswer {

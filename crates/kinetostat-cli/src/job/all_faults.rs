@@ -166,12 +166,25 @@ fn put_right(
     (taken, put): (&mut Places, &mut Places),
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
+    // What was put in and was not accepted is no number: its table goes as a whole.
+    let behind_the_text = source.text.len() + 1;
+    if let Some(own) = span.start.checked_sub(behind_the_text) {
+        return match put.get(own).cloned() {
+            Some((_, table)) if !table.is_empty() => take(tree.get_mut(), table, taken),
+            _ => false,
+        };
+    }
     let missing = Source::missing(error);
-    // What was taken out above with a message of its own is not missing.
+    // What was taken out above with a message of its own is not missing; under a header it lies beside the table's place.
     let was_there = match &missing {
-        Some(missing) => taken
-            .iter()
-            .any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place))),
+        Some(missing) => taken.iter().any(|(key, place)| {
+            let under_header = || {
+                taken
+                    .iter()
+                    .any(|(key, table)| key.is_empty() && *table == span)
+            };
+            key == missing && (span.is_empty() || holds(&span, place) || under_header())
+        }),
         None => follows(&span, taken),
     };
     if !was_there {
@@ -182,16 +195,17 @@ fn put_right(
         }
     }
     if let Some(key) = missing {
-        // What was put in and was not accepted is no number: the table goes as a whole.
         let own = (key.to_owned(), span.clone());
         if put.contains(&own) {
             return take(tree.get_mut(), span, taken);
         }
-        put.push(own);
-        // Version 1, and any number for a number.
+        // Version 1, and any number for a number, at a place that no text has.
         let Ok(value) = DeValue::parse("1") else {
             return false;
         };
+        let place = behind_the_text + put.len();
+        let value = Spanned::new(place..place + 1, value.into_inner());
+        put.push(own);
         let key = Spanned::new(span.clone(), key.into());
         let at = table_of(tree.get_mut(), &span);
         let table = match at {

@@ -9,7 +9,7 @@ use kinetostat_machining::{
 };
 use kinetostat_program::{Path as ToolPath, Program};
 
-use crate::job::cut::along::{forces, measured, refuse_thick_chips, warnings};
+use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
@@ -149,7 +149,7 @@ pub(crate) fn solve(
     let progress = Progress::new();
     let forces = forces_of(machine, &setting.program_name, &path, &progress)?;
     if aim == Aim::Compensate {
-        refuse_thick_chips(forces.as_ref(), &setting.program_name)?;
+        refuse_what_breaks_the_tool(forces.as_ref(), &setting.program_name)?;
     }
     let read = (&program, &path);
     let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {

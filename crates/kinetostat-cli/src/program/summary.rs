@@ -109,7 +109,7 @@ fn figures(result: &RunResult) -> String {
         row("largest correction", "", &f.correction);
         if let (Some(value), Some(change)) = (&f.change, &s.largest_change_mm_per_mm) {
             row(
-                &format!("largest change of it, line {}", change.line),
+                &format!("largest change outside steps, line {}", change.line),
                 "",
                 value,
             );

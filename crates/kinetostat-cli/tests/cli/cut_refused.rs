@@ -151,3 +151,41 @@ fn a_speed_of_the_spindle_is_refused_where_it_stands() {
     let base = spindle("24000").replace("base_rpm = 10000", "base_rpm = -1");
     refused(&base, "15", "base speed: -1 rpm", 1);
 }
+
+/// A cut behind the ends of the edges, and a cutter that is longer than its tool.
+#[test]
+fn a_tool_that_is_too_short_is_not_compensated() {
+    let with = |keys: &str| JOB.replace("helix_deg = 30", &format!("helix_deg = 30, {keys}"));
+    let said = compensate(&with("stick_out_mm = 1"));
+    assert_eq!(said.code, 1, "{said:?}");
+    let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains(
+            "pass.ngc: line 5: material up to 2 mm above the tip; edges or tool are 1 mm long"
+        ),
+        "{flat}"
+    );
+    let long = with("stick_out_mm = 150").replace("length_mm = 0", "length_mm = 100");
+    refused(
+        &long,
+        "8",
+        "stands 150 mm out of its holder, and the whole tool is 100 mm long",
+        1,
+    );
+}
+
+/// What is wrong in a table is said once, where it stands.
+#[test]
+fn a_wrong_word_in_a_table_is_the_only_fault() {
+    refused(
+        &JOB.replace("\"AlMg4.5Mn\"", "5"),
+        "10",
+        "text in quotes is needed",
+        1,
+    );
+    let measured = JOB.replace(
+        "[material]\nname = \"AlMg4.5Mn\"\n[stock]\nblock_mm = [[0, -20, -12], [20, 0, 0]]",
+        "[measured]\nfile = \"log.csv\"\nacts_on = \"spindle\"",
+    );
+    refused(&measured, "11", "'spindle' is not known here", 1);
+}

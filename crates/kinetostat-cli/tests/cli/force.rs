@@ -635,3 +635,66 @@ fn drills_and_turning_tools_have_their_closed_forms() {
         refused(here.path(), line, needle);
     }
 }
+
+/// Cuts that nobody makes are computed, and said to be that.
+#[test]
+fn absurd_cuts_are_warned_of() {
+    let here = directory();
+    let milling =
+        "force --material AlMg4.5Mn --tool flat --diameter-mm 12 --teeth 4 --width-mm 4 --climb";
+    for (more, needle) in [
+        (
+            "--depth-mm 2 --feed-per-tooth-mm 9.9",
+            "check feed, speed and number of teeth",
+        ),
+        (
+            "--depth-mm 500 --feed-per-tooth-mm 0.1",
+            "times the tool's diameter",
+        ),
+        (
+            "--depth-mm 2 --feed-per-tooth-mm 0.1 --rpm 900000",
+            "nothing is cut faster",
+        ),
+        (
+            "--depth-mm 2 --feed-per-tooth-mm 0.1 --run-out-um 1200",
+            "no tool is held like that",
+        ),
+    ] {
+        let words: Vec<&str> = milling.split(' ').chain(more.split(' ')).collect();
+        let said = run(here.path(), &words);
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(needle), "{needle}: {said:?}");
+    }
+    for (cut, needle) in [
+        (
+            "force --drill --material AlMg4.5Mn --diameter-mm 8 --feed-per-turn-mm 99",
+            "check feed",
+        ),
+        (
+            "force --turning --material AlMg4.5Mn --depth-mm 1000 --feed-per-turn-mm 9",
+            "hardly a lathe",
+        ),
+    ] {
+        let said = run(here.path(), &cut.split(' ').collect::<Vec<_>>());
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(needle), "{needle}: {said:?}");
+    }
+}
+
+/// With run-out the largest harmonics are listed, whichever multiple of the spindle they are: those of the table of angles.
+#[test]
+fn the_largest_harmonics_are_listed() {
+    let here = directory();
+    let cut = "force --material AlMg4.5Mn --tool flat --diameter-mm 12 --teeth 4 --helix-deg 38 --width-mm 4 --climb --depth-mm 6 --feed-per-tooth-mm 0.05 --rpm 6000 --run-out-um 40 --run-out-angle-deg 10 --json";
+    let said = run(here.path(), &cut.split(' ').collect::<Vec<_>>());
+    let answer: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let listed = answer["harmonics"].as_array().unwrap();
+    let orders: Vec<u64> = listed
+        .iter()
+        .map(|h| h["per_revolution"].as_u64().unwrap())
+        .collect();
+    for order in [1, 2, 3, 4] {
+        assert!(orders.contains(&order), "{orders:?}");
+    }
+    assert!(orders.is_sorted(), "{orders:?}");
+}

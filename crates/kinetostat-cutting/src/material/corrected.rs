@@ -5,6 +5,7 @@ use std::fmt;
 use crate::error::Result;
 use crate::law::{Coolant, Corrected, Correction, CuttingMaterial};
 use crate::material::entry::{Material, Process};
+use crate::number::plain;
 
 /// `K_PRO` for coefficients of turning tests, where none is given: the middle of 1.2 to 1.4 [R Table 2.1].
 const PROCESS: f64 = 1.3;
@@ -93,8 +94,8 @@ impl Material {
                 symbol: "K_V",
                 value: Correction::of_speed(speed) / at_test,
                 reason: match of_test {
-                    Some(test) => format!("cutting speed of {speed} m/min, {test} m/min in the test"),
-                    None => format!("cutting speed of {speed} m/min; that of the test is not known and taken as 100 m/min"),
+                    Some(test) => format!("cutting speed of {} m/min, {test} m/min in the test", plain(speed)),
+                    None => format!("cutting speed of {} m/min; that of the test is not known and taken as 100 m/min", plain(speed)),
                 },
             });
         }

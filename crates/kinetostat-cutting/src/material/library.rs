@@ -80,6 +80,7 @@ impl Materials {
     /// assert_eq!(materials.find("en aw 5083")?.name, "AlMg4.5Mn");
     /// let error = materials.find("Inconell 718").unwrap_err();
     /// assert!(error.expected.contains("Inconel 718"));
+    /// assert!(materials.find("alu").unwrap_err().expected.contains("AlMg4.5Mn"));
     /// # Ok::<(), kinetostat_cutting::CutError>(())
     /// ```
     ///
@@ -92,7 +93,10 @@ impl Materials {
         };
         self.list.iter().find(named).ok_or_else(|| {
             let known = self.list.iter().flat_map(names_of);
-            let near = nearest(name, known, 3);
+            let mut near = nearest(name, known, 3);
+            if near.is_empty() && !wanted.is_empty() {
+                near = self.with_part(&wanted);
+            }
             let expected = match near.is_empty() {
                 false => format!("did you mean {}?", near.join(" or ")),
                 true => {
@@ -104,6 +108,16 @@ impl Materials {
             let found = format!("`{shown}` is not known");
             CutError::new(CutErrorKind::Material, "material", found, expected)
         })
+    }
+
+    /// Up to five names of materials whose name or group has a text in it.
+    fn with_part(&self, wanted: &str) -> Vec<&str> {
+        let has = |material: &&Material| {
+            names_of(material).any(|known| bare(known).contains(wanted))
+                || bare(&format!("{:?}", material.group)).contains(wanted)
+        };
+        let found = self.list.iter().filter(has).take(5);
+        found.map(|material| material.name.as_str()).collect()
     }
 
     /// All of them, in the order in which they are searched.

@@ -113,7 +113,7 @@ impl Source<'_> {
             .map_err(self.placed(&entry.law))?;
         let kind = CutErrorKind::Material;
         let percent = *entry.spread_percent.get_ref();
-        within(kind, "spread", percent, 0.0..=200.0, "%")
+        within(kind, "spread", percent, 0.0..=100.0, "%")
             .map_err(self.placed(&entry.spread_percent))?;
         let measured_in = *entry.measured_in.get_ref();
         let at = self.placed(&entry.measured_in);

@@ -27,12 +27,13 @@ struct Mark {
     in_contact: bool,
 }
 
-/// A straight move with its length and direction, mm.
+/// A straight move with its length, mm, and where the tool goes at both ends: along it, or along the curve that it stands for.
 #[derive(Clone, Copy, Debug)]
 struct Move {
     from: [f64; 3],
     to: [f64; 3],
     length: f64,
+    tangents: Option<[[f64; 3]; 2]>,
 }
 
 impl Move {
@@ -40,8 +41,14 @@ impl Move {
         std::array::from_fn(|i| self.from[i] + share * (self.to[i] - self.from[i]))
     }
 
-    fn direction(&self) -> [f64; 3] {
-        std::array::from_fn(|i| (self.to[i] - self.from[i]) / self.length)
+    fn direction(&self, share: f64) -> [f64; 3] {
+        let turning = self.tangents.and_then(|[a, b]| {
+            let between: [f64; 3] = std::array::from_fn(|i| a[i] + share * (b[i] - a[i]));
+            let length = norm(between);
+            (length > 0.0).then(|| between.map(|part| part / length))
+        });
+        turning
+            .unwrap_or_else(|| std::array::from_fn(|i| (self.to[i] - self.from[i]) / self.length))
     }
 }
 
@@ -62,6 +69,40 @@ impl Probe {
         stock: &mut Stock,
         from: [f64; 3],
         to: [f64; 3],
+        at: impl FnMut(f64, &Engagement),
+    ) -> Result<()> {
+        self.walk_turning(stock, from, to, None, at)
+    }
+
+    /// The same along a chord of a curve: the tool is looked at on the chord, and goes the way of the curve, of which
+    /// `tangents` (of the same length) are those at its ends. Without them the ends of the arcs in contact would be off by half of
+    /// what the chord turns.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{Probe, Shape, Stock, StockSettings, Tool};
+    ///
+    /// let tool = Tool::new(Shape::Flat, 6.0, 2)?;
+    /// let mut stock = Stock::block([0.0; 3], [40.0, 30.0, 10.0], &StockSettings::for_tool(&tool))?;
+    /// // An eighth of a circle of 10 mm in the full material: a slot all along.
+    /// let (sin, cos) = std::f64::consts::FRAC_PI_4.sin_cos();
+    /// let (from, to) = ([25.0, 15.0, 8.0], [15.0 + 10.0 * cos, 15.0 + 10.0 * sin, 8.0]);
+    /// let tangents = [[0.0, 1.0, 0.0], [-sin, cos, 0.0]];
+    /// let mut arcs = Vec::new();
+    /// Probe::new(&tool).walk_turning(&mut stock, from, to, Some(tangents), |_, met| {
+    ///     arcs.push(met.contacts[0].exit - met.contacts[0].entry);
+    /// })?;
+    /// assert!(arcs.iter().all(|arc| (arc - std::f64::consts::PI).abs() < 1e-9));
+    /// # Ok::<(), kinetostat_cutting::CutError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A place beyond 100 m.
+    pub fn walk_turning(
+        &mut self,
+        stock: &mut Stock,
+        from: [f64; 3],
+        to: [f64; 3],
+        tangents: Option<[[f64; 3]; 2]>,
         mut at: impl FnMut(f64, &Engagement),
     ) -> Result<()> {
         Stock::checked_place(from)?;
@@ -70,6 +111,7 @@ impl Probe {
             from,
             to,
             length: norm(std::array::from_fn(|i| to[i] - from[i])),
+            tangents,
         };
         let met = way.length > 1e-9;
         let inside = met.then(|| self.near(stock, &way)).flatten();
@@ -166,11 +208,8 @@ impl Probe {
     /// Looks at a share of a move, but not where the tool stood at its start.
     fn look_at(&mut self, stock: &Stock, way: &Move, share: f64) -> bool {
         let least = 0.5 * PLACE * stock.cell / way.length;
-        self.look(
-            stock,
-            way.at(if share < least { least } else { share }),
-            way.direction(),
-        );
+        let share = if share < least { least } else { share };
+        self.look(stock, way.at(share), way.direction(share));
         !self.found.is_air()
     }
 

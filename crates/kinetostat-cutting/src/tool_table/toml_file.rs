@@ -216,6 +216,14 @@ impl ToolEntry {
     }
 }
 
+/// Whether the first line with something in it is one of a `tool.tbl`.
+fn is_of_linuxcnc(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with([';', '#']));
+    let mut letters = first.into_iter().flat_map(str::chars);
+    letters.next() == Some('T') && letters.next().is_some_and(|digit| digit.is_ascii_digit())
+}
+
 /// All tools of a text, by number.
 pub(crate) fn read(
     file: &str,
@@ -229,7 +237,15 @@ pub(crate) fn read(
             .map_err(|error| error.at(file, None))
     };
     most("bytes of the table of tools", text.len(), MOST_BYTES)?;
-    let read: File = toml::from_str(text).map_err(|error| source.syntax(&error))?;
+    let read: File = toml::from_str(text).map_err(|error| match is_of_linuxcnc(text) {
+        true => source.error(
+            0,
+            "table of tools",
+            "a line of a `tool.tbl` of LinuxCNC (T1 P1 D6 ...)".to_owned(),
+            "a table in TOML with [[tool]]; `tool.tbl` is named beside it (tool_tbl under [cutters]), for it says nothing of teeth".to_owned(),
+        ),
+        false => source.syntax(&error),
+    })?;
     most("tools", read.tool.len(), MOST_TOOLS)?;
     let mut lines: BTreeMap<u32, usize> = BTreeMap::new();
     let mut entries = BTreeMap::new();

@@ -478,3 +478,14 @@ proptest! {
         }
     }
 }
+
+/// A `tool.tbl` in place of our table is known as that.
+#[test]
+fn a_table_of_linuxcnc_is_not_ours() {
+    let error = ToolTable::read("tool.tbl", "; of the mill\nT1 P1 D6 Z60 ;flat\n").unwrap_err();
+    let said = error.to_string();
+    assert!(
+        said.contains("tool.tbl") && said.contains("tool_tbl under [cutters]"),
+        "{said}"
+    );
+}

@@ -75,14 +75,29 @@ impl<'a> Walk<'a> {
                 for piece in 0..pieces {
                     let part = |share: f64| (piece as f64 + share) / pieces as f64;
                     let to = motion.point(part(1.0));
-                    let direction = (to - from).try_normalize(1e-9).unwrap_or_default();
-                    probes[tool].walk(stock, from.into(), to.into(), |share, engagement| {
-                        met.push(Met {
-                            share: part(share),
-                            direction,
-                            engagement: engagement.clone(),
-                        });
-                    })?;
+                    let chord = (to - from).try_normalize(1e-9).unwrap_or_default();
+                    let tangent = |share: f64| motion.tangent(part(share)).unwrap_or(chord);
+                    let tangents = match motion.curve {
+                        Curve::Line => None,
+                        Curve::Arc(_) => Some([0.0, 1.0].map(|share| tangent(share).into())),
+                    };
+                    let ends = (from.into(), to.into());
+                    probes[tool].walk_turning(
+                        stock,
+                        ends.0,
+                        ends.1,
+                        tangents,
+                        |share, engagement| {
+                            met.push(Met {
+                                share: part(share),
+                                direction: match tangents {
+                                    None => chord,
+                                    Some(_) => tangent(share),
+                                },
+                                engagement: engagement.clone(),
+                            });
+                        },
+                    )?;
                     from = to;
                 }
             }

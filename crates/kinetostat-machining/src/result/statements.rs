@@ -31,9 +31,9 @@ impl RunResult {
         let (places, turns, at_once) = match (s.corner_steps, s.entry_steps) {
             (0, 0) => return None,
             (_, 0) => ("At sharp corners", "turns", "follows the feed on the steps"),
-            (0, _) => ("Where a rapid ends in the cut", "comes", "is there at once"),
+            (0, _) => ("Where a rapid ends", "comes", "is there at once"),
             (_, _) => (
-                "At sharp corners and where a rapid ends in the cut",
+                "At sharp corners and where a rapid ends",
                 "turns or comes",
                 "follows the feed on the steps",
             ),

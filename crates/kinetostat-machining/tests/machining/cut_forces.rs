@@ -10,6 +10,7 @@ use kinetostat_machining::{
     ForceAlongPath, ForceChoice, LoadAlongPath, Placement, ProgramLoad, Unwatched,
 };
 use kinetostat_program::{Path, Program, ReadOptions, interpret};
+use kinetostat_testing::Worst;
 use nalgebra::{Rotation3, Vector3, vector};
 
 fn path(text: &str) -> Path {
@@ -333,4 +334,76 @@ fn chips_outside_the_law_are_told() {
         compared += 1;
     }
     assert_eq!(compared, 5);
+}
+
+/// Circles along walls that are round about the same centre, inside and outside, as G3 and G2: the arc in contact is that of two
+/// circles, however the stock's cells divide the way.
+#[test]
+fn arcs_have_the_engagement_of_two_circles() {
+    let radius = 3.0_f64;
+    let contact = |path: f64, wall: f64| {
+        // Angle between the way to the wall's centre and that to the end of the contact.
+        let cosine = (path * path + radius * radius - wall * wall) / (2.0 * path * radius);
+        cosine.acos()
+    };
+    let mut worst = [Worst::new(), Worst::new()];
+    for (which, cell) in [0.3, 0.15].into_iter().enumerate() {
+        for (rho, step) in [(12.0, 1.5), (2.0, 1.0), (20.0, 0.5)] {
+            // Inside: a hole is made with a smaller circle first, and the wall lies outside of the tool's way.
+            let before = rho - step;
+            let hole = format!(
+                "G21 G90\nS12000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nG1 X{before} F600\nG3 X{before} Y0 I-{before} J0\nG1 X{rho}\nG3 X{rho} Y0 I-{rho} J0\n"
+            );
+            // The way out from the old circle needs a while; behind a half turn only the new one counts.
+            let found = arcs_of_last_move(&hole, cell);
+            let wall = before + radius;
+            let exact = std::f64::consts::PI - contact(rho, wall);
+            for (share, arc) in found.iter().filter(|(share, _)| (0.3..0.7).contains(share)) {
+                worst[which].add_at((arc - exact).abs(), || {
+                    format!("inside {rho} at {share}: {arc} {exact}")
+                });
+            }
+            // Outside: a disc is turned around, from a larger circle to a smaller one.
+            let out = rho + 8.0;
+            let disc = format!(
+                "G21 G90\nS12000 M3\nG0 X{} Y0 Z5\nG1 Z-2 F100\nG2 X{} Y0 I-{} J0 F600\nG1 X{out}\nG2 X{out} Y0 I-{out} J0\n",
+                out + step,
+                out + step,
+                out + step
+            );
+            let found = arcs_of_last_move(&disc, cell);
+            let exact = contact(out, out + step - radius);
+            for (share, arc) in found.iter().filter(|(share, _)| (0.3..0.7).contains(share)) {
+                worst[which].add_at((arc - exact).abs(), || {
+                    format!("outside {out} at {share}: {arc} {exact}")
+                });
+            }
+        }
+    }
+    let [coarse, fine] = worst.map(|w| w.value());
+    assert!(coarse < 0.03, "{coarse}");
+    assert!(fine < 0.6 * coarse, "{fine} {coarse}");
+}
+
+/// Shares and arcs (rad) of the last move of a program in a block, for a tool of 6 mm.
+fn arcs_of_last_move(text: &str, cell_mm: f64) -> Vec<(f64, f64)> {
+    let path = interpret(&Program::read(text).unwrap(), &ReadOptions::default()).unwrap();
+    let tool = Tool::new(Shape::Flat, 6.0, 2).unwrap();
+    let settings = StockSettings::with_cell_mm(cell_mm).unwrap();
+    let stock = Stock::block([-45.0, -45.0, -6.0], [45.0, 45.0, 0.0], &settings).unwrap();
+    let law = Arc::new(Linear::new([800.0, 200.0, 0.0], [0.0; 3]).unwrap());
+    let question = CutQuestion {
+        tools: vec![CuttingTool::new(tool, law)],
+        engagement: EngagementSource::Stock(Box::new(stock)),
+        choice: ForceChoice::Mean,
+        rpm: None,
+        rotation: None,
+        spindle: None,
+    };
+    let forces = question.along(&path, &Unwatched).unwrap();
+    let last = forces.stations(path.moves.len() - 1);
+    assert!(last.len() > 10);
+    last.iter()
+        .map(|station| (station.share, station.arc))
+        .collect()
 }

@@ -336,10 +336,7 @@ fn a_step_where_a_rapid_ends_is_no_corner() {
         "{step} {force}"
     );
     let words = run.result.corners_text().expect("a sentence");
-    assert!(
-        words.starts_with("Where a rapid ends in the cut"),
-        "{words}"
-    );
+    assert!(words.starts_with("Where a rapid ends"), "{words}");
     assert!(
         words.contains("1 step where a rapid ends") && !words.contains("corner"),
         "{words}"

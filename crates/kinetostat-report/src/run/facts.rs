@@ -204,7 +204,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
         rows.push(row(
             "Steps where a rapid ends",
             steps(summary.entry_steps, &result.figures.entry_step),
-            "The load is there at once where a rapid ends in the cut: the program makes a step while the tool stays at its \
+            "The load is there at once where a rapid ends: the program makes a step while the tool stays at its \
              place."
                 .to_owned(),
         ));

@@ -48,23 +48,32 @@ pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
     }
 }
 
-/// Chips that no such tool cuts: a program with them is not compensated.
-pub(crate) fn too_thick_chip(forces: Option<&ForceAlongPath>) -> Option<&CutFinding> {
+/// A cut that the tool does not survive: chips beyond its limit, material behind the ends of its edges. A program with one is
+/// not compensated.
+pub(crate) fn breaks_the_tool(forces: Option<&ForceAlongPath>) -> Option<&CutFinding> {
     let mut found = forces.into_iter().flat_map(|forces| &forces.findings);
-    found.find(|finding| finding.kind == CutFindingKind::ThickChip)
+    found.find(|finding| {
+        matches!(
+            finding.kind,
+            CutFindingKind::ThickChip | CutFindingKind::ShortEdges
+        )
+    })
 }
 
-/// Refuses them, with the worst line.
-pub(crate) fn refuse_thick_chips(forces: Option<&ForceAlongPath>, program: &str) -> Answer<()> {
-    match too_thick_chip(forces) {
-        None => Ok(()),
-        Some(found) => Err(Failure::input(format!(
-            "line {}: {}; write a smaller feed or a higher speed, or correct the tool",
-            found.line,
-            text_of(found)
-        ))
-        .within(program)),
-    }
+/// Refuses it, with the worst line.
+pub(crate) fn refuse_what_breaks_the_tool(
+    forces: Option<&ForceAlongPath>,
+    program: &str,
+) -> Answer<()> {
+    let Some(found) = breaks_the_tool(forces) else {
+        return Ok(());
+    };
+    let help = match found.kind {
+        CutFindingKind::ShortEdges => "cut less deep, or correct the lengths of the tool",
+        _ => "write a smaller feed or a higher speed, or correct the tool",
+    };
+    let what = format!("line {}: {}; {help}", found.line, text_of(found));
+    Err(Failure::input(what).within(program))
 }
 
 /// What was found on the worst line, and on how many.

@@ -74,6 +74,7 @@ pub(crate) fn cutters(
             ));
         }
         let entry = ToolEntry::written(&file, &j.text, number.unwrap_or(0), cutter);
+        stands_out_of_its_length(j, number, cutter, entry.as_ref().ok())?;
         entry
             .map(|entry| Cutter::of_entry(number, &entry))
             .map_err(Failure::input)
@@ -108,6 +109,31 @@ pub(crate) fn cutters(
         }
     }
     Ok(all)
+}
+
+/// A tool cannot stand farther out of its holder than the holder's flange is away.
+fn stands_out_of_its_length(
+    j: &JobFile,
+    number: Option<u32>,
+    cutter: &Spanned<WrittenTool>,
+    entry: Option<&ToolEntry>,
+) -> Answer<()> {
+    let mut own = j.job.tools.iter().map(Spanned::get_ref);
+    let length = match number {
+        Some(number) => own
+            .find(|tool| tool.number == number)
+            .and_then(|tool| tool.length_mm.as_ref()),
+        None => j.job.tool.length_mm.as_ref(),
+    };
+    let out = entry.and_then(|entry| entry.stick_out_mm);
+    match (length.map(|length| *length.get_ref()), out) {
+        (Some(length), Some(out)) if length > 0.0 && out > length => Err(j.error(
+            cutter,
+            &format!("the cutter stands {} mm out of its holder, and the whole tool is {} mm long", short(out), short(length)),
+            "length_mm is that from the flange to the tip; stick_out_mm that from the holder to the tip",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Lengths that differ by more than this, mm, are said.

@@ -53,6 +53,10 @@ pub(crate) fn cut_setup(
         tools.push(tool.map_err(|error| refused(j, &table.get_ref().name, &error))?);
     }
     let Some(extremes) = extremes(&cutters) else {
+        // What was wrong with it has been said.
+        if j.lacks("cutter") {
+            return Ok(None);
+        }
         return Err(j.error(
             table,
             "a material is named, and no tool has a cutter",

@@ -40,7 +40,7 @@ impl Resolution<'_> {
     pub(crate) fn settings(&self, (smallest, largest): (&Tool, &Tool)) -> Answer<StockSettings> {
         let finest = FINEST * largest.diameter_mm();
         let mut settings = match self.cell_mm {
-            Some(cell) if cell < finest => {
+            Some(cell) if cell > 0.0 && cell < finest => {
                 return Err((self.refuse)(
                     About::Cell,
                     &format!(
@@ -93,7 +93,7 @@ impl Resolution<'_> {
 
     fn wrong(&self, error: &CutError) -> Failure {
         let what = format!("{}: {}", error.quantity, error.found);
-        (self.refuse)(About::Stock, &what, &format!("expected {}", error.expected))
+        (self.refuse)(About::Cell, &what, &format!("expected {}", error.expected))
     }
 }
 
