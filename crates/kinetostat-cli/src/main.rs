@@ -16,6 +16,7 @@ mod demo;
 mod end_condition;
 mod engagement;
 mod equilibria;
+mod expand;
 mod files;
 mod force;
 mod import;
@@ -81,6 +82,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Equilibria(args) => equilibria::run(&args),
         Command::Force(args) => force::run(&args),
         Command::Engagement(args) => engagement::run(&args),
+        Command::Expand(args) => expand::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),

@@ -14,6 +14,7 @@ use crate::deflect::arguments::DeflectArgs;
 use crate::demo::arguments::DemoArgs;
 use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
+use crate::expand::arguments::ExpandArgs;
 use crate::force::arguments::ForceArgs;
 use crate::import::arguments::ImportArgs;
 use crate::map::arguments::MapArgs;
@@ -74,6 +75,7 @@ pub(crate) enum Command {
     Equilibria(Box<EquilibriaArgs>),
     Force(Box<ForceArgs>),
     Engagement(Box<EngagementArgs>),
+    Expand(Box<ExpandArgs>),
     Check(CheckArgs),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

@@ -16,7 +16,7 @@ pub(crate) mod machine;
 pub(crate) mod output_paths;
 mod placement;
 pub(crate) mod program;
-mod reading;
+pub(crate) mod reading;
 pub(crate) mod run_warnings;
 pub(crate) mod setting;
 pub(crate) mod source;

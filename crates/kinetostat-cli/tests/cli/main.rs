@@ -23,6 +23,7 @@ mod demo;
 mod draw;
 mod engagement;
 mod engagement_of_program;
+mod expand;
 mod figures;
 mod force;
 mod force_fit;

@@ -19,9 +19,10 @@ pub(crate) struct Refused {
     pub remedy: &'static str,
 }
 
-const FLATTEN: &str = "flatten the program with `kinetostat expand` (or --expand), or post-process it without subprograms";
+const FLATTEN: &str =
+    "flatten the program with `kinetostat expand`, or post-process it without subprograms";
 const NO_VARIABLES: &str =
-    "run `kinetostat expand` (or give --expand), or let the CAM system write plain numbers";
+    "flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
 
 /// Why a line with variables is refused.
 pub(crate) const VARIABLES: &str = "variables and expressions are not read";

@@ -53,6 +53,8 @@ impl MotionBlock {
                 Token::Other(b'/') if block.before.is_empty() => {
                     block.head.extend_from_slice(piece)
                 }
+                // What is taken out leaves no second blank.
+                Token::Blank if block.before.last().is_none_or(|last| *last == b' ') => {}
                 _ => block.before.extend_from_slice(piece),
             }
         }

@@ -1,0 +1,55 @@
+//! `kinetostat expand`: programs with macros as plain blocks, from files to files.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use crate::common::{contents, run};
+
+const MACRO: &str = "G21 G90\nS1000 M3\n#1 = 0\nO1 while [#1 LT 2]\nO<hole> call [10 * #1] [#100]\n#1 = [#1 + 1]\nO1 endwhile\nM2\n";
+const HOLE: &str = "O<hole> sub\nG0 X#1 Y0 Z5\nG99 G81 X#1 Z-#2 R1 F100\nG80\nO<hole> endsub\n";
+
+#[test]
+fn a_program_is_written_flat_and_compensated() {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("part.ngc"), MACRO).unwrap();
+    std::fs::create_dir(here.path().join("macros")).unwrap();
+    std::fs::write(here.path().join("macros/hole.ngc"), HOLE).unwrap();
+    let words = "expand part.ngc --subprograms macros --parameter 100=3 --no-comments";
+    let said = run(here.path(), &words.split(' ').collect::<Vec<_>>());
+    assert_eq!(said.code, 0, "{said:?}");
+    let hole = |x: &str| format!("G0 X{x} Y0 Z5\nG99 F100\nG0 Z1\nG1 Z-3\nG0 Z1\nG80\n");
+    assert_eq!(
+        said.out,
+        format!("G21 G90\nS1000 M3\n{}{}M2\n", hole("0"), hole("10"))
+    );
+    let words = "expand part.ngc --subprograms macros --parameter 100=3 --out flat.ngc";
+    let said = run(here.path(), &words.split(' ').collect::<Vec<_>>());
+    assert_eq!(said.code, 0, "{said:?}");
+    let flat = std::fs::read_to_string(here.path().join("flat.ngc")).unwrap();
+    assert!(flat.contains("G1 Z-3 (hole, line 3)\n"), "{flat}");
+    let job = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"flat.ngc\"\n[placement]\npart_origin_mm = [0, 0, 100]\n[load]\nforce_n = [10, 0, 0]\n[output]\nprogram = \"out.ngc\"\n";
+    std::fs::write(here.path().join("job.toml"), job).unwrap();
+    run(here.path(), &["compensate", "job.toml"]).answered();
+}
+
+#[test]
+fn what_cannot_be_run_is_named_and_nothing_is_written() {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("part.ngc"), MACRO).unwrap();
+    for (more, needle) in [
+        ("", "line 5: `O<hole> call"),
+        ("--parameter 100", "there is no ="),
+        (
+            "--tool-diameter-mm 1=6 --tool-diameter-mm 1=8",
+            "comes twice",
+        ),
+        ("--out part.ngc --force-overwrite", "part.ngc"),
+    ] {
+        let words = format!("expand part.ngc --out flat.ngc {more}")
+            .replace("--out flat.ngc --out", "--out");
+        let said = run(here.path(), &words.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(said.code, 1, "{said:?}");
+        assert!(said.err.contains(needle), "{needle}: {said:?}");
+        let names: Vec<_> = contents(here.path()).into_keys().collect();
+        assert_eq!(names.len(), 1, "{names:?}");
+    }
+}
