@@ -231,10 +231,12 @@ mod tests {
             "joints",
             "limit",
             "load",
+            "parameter",
             "part-orientation",
             "pendant",
             "rotation",
             "section",
+            "tool-diameter-mm",
             "tool-orientation",
             "work-offset",
         ];

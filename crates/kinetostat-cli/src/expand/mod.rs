@@ -51,7 +51,8 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
             let mut text = summary(&name, &expanded);
             text.push_str("\nWritten\n");
             for path in written {
-                text.push_str(&item(&path.display().to_string()));
+                let path = path.display().to_string();
+                text.push_str(&format!("  {}\n", crate::ui::safe_text::safe(&path)));
             }
             print(text.as_bytes())
         }
