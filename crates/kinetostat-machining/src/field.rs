@@ -102,7 +102,10 @@ impl ModelField<'_> {
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
-                .map(|r| self.placement.tool_pose(&r.position_mm))
+                .map(|r| {
+                    let orientation = self.placement.orientation_of(r.orientation);
+                    self.placement.pose(&r.position_mm, orientation)
+                })
                 .collect();
             let wrenches: Vec<Wrench> = requests.iter().map(|r| self.wrench(r)).collect();
             let correction = |pose: &Pose, target: &Pose| {

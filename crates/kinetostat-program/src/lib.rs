@@ -75,6 +75,7 @@ pub use path::moves::{
 pub use path::pause::{Pause, PauseKind};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
+pub use path::tool_turn::ToolTurn;
 pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;
 pub use reading::interpret::interpret;

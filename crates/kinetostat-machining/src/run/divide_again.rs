@@ -139,6 +139,7 @@ fn inside(path: &Path, point: &PointResult) -> Option<Request> {
         share: point.share,
         position_mm: motion.point(point.share),
         tangent: motion.tangent(point.share),
+        orientation: motion.orientation(point.share),
         turning: None,
     })
 }

@@ -77,7 +77,8 @@ pub(crate) fn chunk(
 ) -> Vec<Result<PointResult, RunError>> {
     let (place, mechanism) = (&task.placement, machine.mechanism());
     let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
-        sites.iter().map(|s| place.tool_pose(of(s))).collect()
+        let pose = |s: &Site| place.pose(of(s), place.orientation_of(s.orientation));
+        sites.iter().map(pose).collect()
     };
     let wanted = poses(|s| &s.desired);
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
@@ -213,6 +214,7 @@ fn point(
         start_mm: site.start_mm,
         programmed: site.programmed,
         position_mm: site.desired.into(),
+        tool_orientation: site.orientation.map(|o| [o.w, o.i, o.j, o.k]),
         error_before_mm,
         error_after_mm,
         error_if_force_larger_mm: None,

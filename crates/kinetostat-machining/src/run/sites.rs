@@ -4,7 +4,7 @@ use kinetostat::Wrench;
 use kinetostat_program::{
     Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, Turn, irregular,
 };
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
@@ -29,6 +29,8 @@ pub(crate) struct Site {
     pub desired: Vector3<f64>,
     /// What the written program commands, mm; the same without compensation.
     pub commanded: Vector3<f64>,
+    /// Orientation of the tool in the program, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
     pub wrench: Wrench,
     /// On a corner step, the load by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
@@ -132,6 +134,7 @@ pub(crate) fn of_path<'a>(
                 programmed: true,
                 desired,
                 commanded: desired,
+                orientation: motion.orientation(share),
                 wrench: load.wrench(placement, i, share),
                 other_wrench: None,
                 end,
@@ -202,6 +205,7 @@ pub(crate) fn of_written<'a>(
                 programmed,
                 desired: motion.point(share),
                 commanded: commanded(motion, piece, place),
+                orientation: motion.orientation(share),
                 wrench,
                 other_wrench,
                 end,

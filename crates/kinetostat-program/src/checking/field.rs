@@ -174,6 +174,7 @@ impl Look {
                 share,
                 position_mm: motion.point(share),
                 tangent: motion.tangent(share),
+                orientation: motion.orientation(share),
                 turning,
             },
             line: motion.line,

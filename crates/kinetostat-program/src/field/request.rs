@@ -1,6 +1,6 @@
 //! Queries to a field of corrections, and its answers.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::path::moves::Move;
 
@@ -16,6 +16,8 @@ pub struct Request {
     /// Direction of motion there, a unit vector; `None` where the move has no length or its start is
     /// not known.
     pub tangent: Option<Vector3<f64>>,
+    /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
     /// Inside a corner step: how far the load has turned. `None` on the path itself.
     pub turning: Option<Turning>,
 }

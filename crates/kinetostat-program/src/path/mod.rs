@@ -11,3 +11,4 @@ pub(crate) mod pauses;
 pub(crate) mod position_offset;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
+pub(crate) mod tool_turn;

@@ -421,6 +421,7 @@ impl<'o> Interpreter<'o> {
             curve,
             start,
             end,
+            tool_turn: None,
             extra,
             feed: self.modes.feed,
             known: Knowledge::Whole,
@@ -478,6 +479,7 @@ impl<'o> Interpreter<'o> {
             curve: Curve::Line,
             start,
             end: self.places.position,
+            tool_turn: None,
             extra: Vec::new(),
             feed: self.modes.feed,
             known: Knowledge::Nothing,
@@ -625,6 +627,7 @@ impl<'o> Interpreter<'o> {
         self.warn_of_moved_axes();
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
+            tool_axis: Vector3::z(),
             moves: self.moves,
             stated,
             warnings: self.warnings,

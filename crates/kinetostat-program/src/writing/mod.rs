@@ -15,6 +15,8 @@ pub(crate) mod merge;
 pub(crate) mod node;
 pub(crate) mod options;
 pub(crate) mod output_state;
+pub(crate) mod piece_account;
 pub(crate) mod queries;
+pub(crate) mod steps;
 pub(crate) mod write;
 pub(crate) mod written;

@@ -29,6 +29,7 @@ impl FieldQueries<'_> {
             share,
             position_mm: motion.point(share),
             tangent,
+            orientation: motion.orientation(share),
             turning: None,
         }
     }

@@ -156,6 +156,7 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
                 share,
                 position_mm: motion.point(share),
                 tangent: motion.tangent(share).filter(|_| whole),
+                orientation: None,
                 turning: None,
             })
         };
