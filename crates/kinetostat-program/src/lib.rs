@@ -48,6 +48,7 @@ mod field;
 #[doc(hidden)]
 pub mod internal;
 mod irregular;
+mod machine_program;
 mod number;
 mod path;
 mod reading;
@@ -62,12 +63,14 @@ pub use expanding::expand::expand;
 pub use expanding::expanded::{Expanded, Origin};
 pub use expanding::options::{ExpandOptions, OriginComments};
 pub use expanding::run::source::{NoSubprograms, Subprograms};
+pub use field::correction::Correction;
 pub use field::map::CorrectionMap;
 pub use field::request::{
     CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,
     Unwatched,
 };
 pub use irregular::irregular;
+pub use machine_program::{Gcode, MachineProgram};
 pub use path::curve::{Arc, Curve};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
@@ -85,5 +88,6 @@ pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::Accounting;
 pub use writing::jump::Turn;
 pub use writing::options::WriteOptions;
+pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenMove};
 pub use writing::write::write_corrected;
 pub use writing::written::{Corrected, Piece};

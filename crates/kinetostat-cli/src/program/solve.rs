@@ -1,5 +1,6 @@
 //! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
+use kinetostat::Directions;
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
@@ -7,7 +8,7 @@ use kinetostat_machining::{
     Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
     origin_in_metres,
 };
-use kinetostat_program::{Path as ToolPath, Program};
+use kinetostat_program::{Gcode, Path as ToolPath, Program};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
@@ -120,11 +121,15 @@ pub(crate) fn with_task<R>(
             format!("placement {}", run_inputs.placement),
         ];
     }
+    let gcode = Gcode {
+        program,
+        path,
+        reading: &setting.reading,
+    };
     Ok(work(&Task {
         mechanism: &machine.mechanism,
-        program,
-        reading: setting.reading.clone(),
-        path,
+        program: &gcode,
+        corrected: Directions::POSITION,
         placement: machine.placement,
         load,
         tools: &tools,

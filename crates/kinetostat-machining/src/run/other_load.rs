@@ -34,7 +34,10 @@ pub(crate) fn errors_under(
                 let poses: Vec<Pose> = sites
                     .iter()
                     .map(|(site, _)| {
-                        place.pose(&site.commanded, place.orientation_of(site.orientation))
+                        place.pose(
+                            &site.commanded,
+                            place.orientation_of(site.commanded_orientation),
+                        )
                     })
                     .collect();
                 let wrenches: Vec<Wrench> = sites.iter().map(|(_, wrench)| *wrench).collect();

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_program::{
-    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, Turn, irregular,
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, ToolTurn, Turn, irregular,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -31,6 +31,8 @@ pub(crate) struct Site {
     pub commanded: Vector3<f64>,
     /// Orientation of the tool in the program, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
+    /// What the written program commands; the same without compensation, or where only the position is corrected.
+    pub commanded_orientation: Option<UnitQuaternion<f64>>,
     pub wrench: Wrench,
     /// On a corner step, the load by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
@@ -135,6 +137,7 @@ pub(crate) fn of_path<'a>(
                 desired,
                 commanded: desired,
                 orientation: motion.orientation(share),
+                commanded_orientation: motion.orientation(share),
                 wrench: load.wrench(placement, i, share),
                 other_wrench: None,
                 end,
@@ -187,6 +190,7 @@ pub(crate) fn of_written<'a>(
             1.0 => piece.share_to,
             _ => piece.share_from + place * width,
         };
+        let turn = commanded_turn(path, written, index);
         let mut push = |(place, share): (f64, f64),
                         (wrench, other_wrench): (Wrench, Option<Wrench>),
                         (end, programmed): (bool, bool)| {
@@ -206,6 +210,7 @@ pub(crate) fn of_written<'a>(
                 desired: motion.point(share),
                 commanded: commanded(motion, piece, place),
                 orientation: motion.orientation(share),
+                commanded_orientation: turn.map(|turn: ToolTurn| turn.at(place)),
                 wrench,
                 other_wrench,
                 end,
@@ -287,6 +292,16 @@ fn on_step(
     }
 }
 
+/// How the written program turns the tool along a piece; none in a program of positions.
+fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<ToolTurn> {
+    let end = *written.orientations.get(index)?;
+    let start = match index.checked_sub(1) {
+        Some(before) => written.orientations[before],
+        None => path.moves[written.pieces[index].move_index].orientation(0.0)?,
+    };
+    Some(ToolTurn { start, end })
+}
+
 fn kind(motion: &Move) -> PointKind {
     match motion.kind {
         MoveKind::Rapid => PointKind::Rapid,
@@ -307,7 +322,13 @@ pub(crate) fn sites_of_written<'s>(
     load: &'s LoadAlongPath<'s>,
     written: &'s Corrected,
 ) -> impl Iterator<Item = Site> + 's {
-    of_written(task.path, written, load, &task.placement, spacing_mm(task))
+    of_written(
+        task.path(),
+        written,
+        load,
+        &task.placement,
+        spacing_mm(task),
+    )
 }
 
 /// Length from which on a block is looked at in more places, mm of the program.

@@ -1,6 +1,6 @@
 //! The order of lines of the output, and the state of the controller that will run it.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 use crate::error::WriteError;
 use crate::number::larger;
@@ -116,6 +116,7 @@ impl<'a> Emitter<'a> {
         Corrected {
             bytes: self.bytes,
             pieces,
+            orientations: Vec::new(),
             accounting,
         }
     }
@@ -227,6 +228,7 @@ impl<'a> Emitter<'a> {
                 share_from: 0.0,
                 share_to: 1.0,
                 target: motion.end,
+                tilt: Vector3::zeros(),
                 corner_step: false,
                 turn: None,
                 corrected: true,
@@ -307,7 +309,7 @@ impl<'a> Emitter<'a> {
     /// Whether the output is where the input is, and no correction on the move can be written.
     fn is_uncorrected(&self, motion: &Move, nodes: &[Node]) -> bool {
         let half = self.options.half_digit_mm(motion.words.mm_per_unit);
-        let nothing = |correction: &Vector3<f64>| correction.iter().all(|part| part.abs() <= half);
+        let nothing = |correction: &Vector6<f64>| correction.iter().all(|part| part.abs() <= half);
         !nodes.is_empty()
             && is_divided(motion)
             && nodes

@@ -16,6 +16,7 @@ pub(crate) mod node;
 pub(crate) mod options;
 pub(crate) mod output_state;
 pub(crate) mod piece_account;
+pub(crate) mod plan;
 pub(crate) mod queries;
 pub(crate) mod steps;
 pub(crate) mod write;

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
+use crate::field::correction::Correction;
 use crate::number::larger;
 use crate::path::moves::{Move, Path};
 use crate::writing::jump::{Jump, Turn};
@@ -18,6 +19,8 @@ pub(crate) struct Steps<'a> {
     pub nodes: Vec<Node>,
     jumps: Vec<Jump>,
     next_node: usize,
+    /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
+    tilt: Vector3<f64>,
     /// Largest jump of the correction without a step of its own, in mm.
     pub largest_jump_taken_up_mm: f64,
 }
@@ -35,6 +38,7 @@ impl<'a> Steps<'a> {
             nodes,
             jumps,
             next_node: 0,
+            tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
         }
     }
@@ -59,23 +63,26 @@ impl<'a> Steps<'a> {
     ) -> (Vec<OutputMove>, Range<usize>) {
         let motion = &self.path.moves[move_index];
         let range = self.nodes_of(move_index);
-        let whole = |target, corrected| {
+        let whole = |target, tilt, corrected| {
             vec![OutputMove {
                 share_from: 0.0,
                 share_to: 1.0,
                 target,
+                tilt,
                 corner_step: false,
                 turn: None,
                 corrected,
             }]
         };
         let steps = match self.nodes[range.clone()].last() {
-            None => whole(reached, false),
+            None => whole(reached, Vector3::zeros(), false),
             Some(end) if is_corrected_at_end(motion) || !is_divided(motion) => {
-                whole(motion.end + end.after, true)
+                let end = Correction::of_lengths(&end.after, self.options.turn_lever_mm);
+                whole(motion.end + end.shift_mm, end.turn, true)
             }
             Some(_) => self.divided(motion, range.clone(), reached),
         };
+        self.tilt = steps.last().map_or(self.tilt, |step| step.tilt);
         (steps, range)
     }
 
@@ -83,48 +90,59 @@ impl<'a> Steps<'a> {
         &mut self,
         motion: &Move,
         range: Range<usize>,
-        mut reached: Vector3<f64>,
+        reached: Vector3<f64>,
     ) -> Vec<OutputMove> {
         let nodes = &self.nodes[range];
         let smallest_step = self.options.smallest_step_mm();
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
-        let mut go =
-            |target: Vector3<f64>, share_to: f64, corner_step: bool, turn: Option<Turn>| {
-                steps.push(OutputMove {
-                    share_from,
-                    share_to,
-                    target,
-                    corner_step,
-                    turn,
-                    corrected: true,
-                });
-                share_from = share_to;
-            };
+        let lever_mm = self.options.turn_lever_mm;
+        let mut go = |point: Vector3<f64>,
+                      correction: &Vector6<f64>,
+                      share_to: f64,
+                      corner_step: bool,
+                      turn: Option<Turn>| {
+            let correction = Correction::of_lengths(correction, lever_mm);
+            steps.push(OutputMove {
+                share_from,
+                share_to,
+                target: point + correction.shift_mm,
+                tilt: correction.turn,
+                corner_step,
+                turn,
+                corrected: true,
+            });
+            share_from = share_to;
+        };
+        let before = Correction {
+            shift_mm: reached - motion.start,
+            turn: self.tilt,
+        };
+        let mut last = before.in_lengths(lever_mm);
         for (index, node) in nodes.iter().enumerate() {
             let point = motion.point(node.share);
             if index > 0 {
-                reached = point + node.before;
-                go(reached, node.share, false, None);
+                last = node.before;
+                go(point, &node.before, node.share, false, None);
             }
             if index + 1 == nodes.len() {
                 continue;
             }
-            let jump = (point + node.after - reached).norm();
+            let jump = (node.after - last).norm();
             if jump <= smallest_step {
                 self.largest_jump_taken_up_mm = larger(self.largest_jump_taken_up_mm, jump);
                 continue;
             }
-            reached = point + node.after;
+            last = node.after;
             let jump = node.jump.map(|jump| &self.jumps[jump]);
             let mut done = 0.0;
             for &(part, correction) in jump.iter().flat_map(|jump| &jump.inner) {
                 let turn = jump.map(|jump| jump.between(done, part));
-                go(point + correction, node.share, true, turn);
+                go(point, &correction, node.share, true, turn);
                 done = part;
             }
             let turn = jump.map(|jump| jump.between(done, 1.0));
-            go(reached, node.share, true, turn);
+            go(point, &node.after, node.share, true, turn);
         }
         steps
     }

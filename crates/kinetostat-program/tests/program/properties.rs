@@ -64,10 +64,10 @@ impl Waves {
 }
 
 impl CorrectionField for Waves {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         requests
             .iter()
-            .map(|request| Ok(self.at(request)))
+            .map(|request| Ok(Correction::from(self.at(request))))
             .collect()
     }
 }
