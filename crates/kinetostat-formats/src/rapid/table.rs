@@ -1,0 +1,4 @@
+//! stub
+use crate::table::StatementRow;
+/// Stub.
+pub const RAPID_STATEMENTS: &[StatementRow] = &[];
