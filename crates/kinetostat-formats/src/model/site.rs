@@ -111,6 +111,8 @@ pub(crate) struct MotionSite {
     pub via: Option<(Range<usize>, TargetSite)>,
     /// None where another speed cannot be written.
     pub speed: Option<SpeedSite>,
+    /// Where the zone stands.
+    pub zone: Option<Range<usize>>,
     /// Why it cannot become several statements.
     pub indivisible: Option<&'static str>,
 }

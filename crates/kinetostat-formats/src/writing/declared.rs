@@ -58,8 +58,9 @@ impl Demands {
                     let taken = taken.get_or_insert_with(|| syntax.names(program));
                     let name = syntax.free_name(file.part(&declaration.name), taken)?;
                     let text = further(program, declaration, &name, &demand.literal)?;
-                    let end = declaration.statement.end;
-                    edits[home].replace(end..end, text);
+                    // Before it: what stands behind it on its line may be a comment on it.
+                    let start = declaration.statement.start;
+                    edits[home].replace(start..start, text);
                     new.insert(&demand.literal, name);
                 }
                 let name = new.get(demand.literal.as_slice())?;
@@ -78,8 +79,7 @@ fn further(
     literal: &[u8],
 ) -> Option<Vec<u8>> {
     let file = program.files.get(declaration.text.file)?;
-    let mut text = file.line_ending().to_vec();
-    text.extend_from_slice(file.indentation(declaration.statement.start));
+    let mut text = Vec::new();
     match &declaration.copy {
         DeclarationCopy::Statement => {
             let mut edits = Edits::default();
@@ -95,5 +95,7 @@ fn further(
             text.extend([before, name, middle.as_slice(), literal, after].concat());
         }
     }
+    text.extend_from_slice(file.line_ending());
+    text.extend_from_slice(file.indentation(declaration.statement.start));
     Some(text)
 }

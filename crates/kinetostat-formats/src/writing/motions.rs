@@ -107,7 +107,9 @@ impl Writer<'_> {
         }
         let wanted = Wanted {
             position_mm: last.position_mm,
-            orientation: last.orientation,
+            orientation: last
+                .orientation
+                .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
         if let Some((speed, text)) = speed_of(motion, last)? {
@@ -245,6 +247,9 @@ fn check(pieces: &[&Piece]) -> Result<(), Reason> {
         )),
     }
 }
+
+/// Orientations nearer than this are the same: the text of the orientation stays.
+const SAME_RAD: f64 = 1e-9;
 
 /// Farther than any robot reaches, mm.
 const FARTHEST_MM: f64 = 1e6;
