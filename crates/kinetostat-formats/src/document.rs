@@ -1,0 +1,70 @@
+//! Reading and writing by language.
+
+use crate::error::{ProgramError, WriteError};
+use crate::model::program::{Language, RobotProgram};
+use crate::options::{ReadOptions, WriteOptions};
+use crate::rapid::reader::read_rapid;
+use crate::rapid::write::RapidSyntax;
+use crate::text::source::SourceFile;
+use crate::writing::motions::write_with;
+use crate::writing::piece::Piece;
+
+/// Reads the files of a program together.
+///
+/// ```
+/// use kinetostat_formats::{Language, ReadOptions, SourceFile, read};
+///
+/// let text = "MODULE M\nPROC main()\n MoveL p10, v100, fine, tool0;\nENDPROC\nENDMODULE\n";
+/// let files = vec![SourceFile::new("m.mod", text)];
+/// let errors = read(Language::Rapid, files, &ReadOptions::default()).unwrap_err();
+/// assert_eq!(errors[0].line, 3);
+/// assert!(errors[0].to_string().contains("no `p10` is declared"));
+/// ```
+///
+/// # Errors
+/// All that is refused, in the order of files and lines.
+pub fn read(
+    language: Language,
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<RobotProgram, Vec<ProgramError>> {
+    match language {
+        Language::Rapid => read_rapid(files, options),
+    }
+}
+
+/// The files of a program with pieces in place of its motions: names and bytes, in the order of the files.
+///
+/// What no piece is of comes back byte for byte. Numbers keep their decimals, or get those of the options where they change;
+/// quaternions keep the sign of the text. A declaration that several motions use is edited where they agree in the last
+/// digit, and copied under a free name where they do not. The pieces before the last are written as straight motions
+/// before the statement, with its speed, tool and work object; a circle of several pieces becomes straight.
+///
+/// ```
+/// use kinetostat_formats::{Piece, ReadOptions, SourceFile, WriteOptions, read_rapid, write};
+/// use nalgebra::Vector3;
+///
+/// let text = "MODULE M\nPROC main()\n\
+///     MoveL [[100.0,0,5],[0,0,-1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0; ! groove\n\
+///     ENDPROC\nENDMODULE\n";
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+/// let options = WriteOptions::default();
+/// assert_eq!(write(&program, &[], &options).unwrap()[0].1, text.as_bytes());
+///
+/// let pieces = [Piece::to(0, Vector3::new(100.0123, 0.0, 4.98))];
+/// let written = write(&program, &pieces, &options).unwrap();
+/// let line = "MoveL [[100.012,0,4.980],[0,0,-1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0; ! groove";
+/// assert_eq!(written[0].1, text.replace(text.lines().nth(2).unwrap(), line).into_bytes());
+/// ```
+///
+/// # Errors
+/// A motion that cannot take its pieces, by file and line; nothing is written then.
+pub fn write(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    match program.language {
+        Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
+    }
+}

@@ -1,0 +1,113 @@
+//! What can be wrong with a program or a writing, reported so that a person can mend it.
+
+use std::ops::Range;
+
+use thiserror::Error;
+
+use crate::text::source::SourceFile;
+
+/// What is refused in a program: where, what stands there, why, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{file}, line {line}: `{found}`: {reason}; {remedy}")]
+#[non_exhaustive]
+pub struct ProgramError {
+    /// Name of the file.
+    pub file: String,
+    /// Line of the file, counted from 1.
+    pub line: usize,
+    /// Bytes of the file that are meant, counted from 0.
+    pub span: Range<usize>,
+    /// What was found there, shortened and without control characters.
+    pub found: String,
+    /// Why it is refused.
+    pub reason: String,
+    /// What the user can do about it.
+    pub remedy: String,
+}
+
+impl ProgramError {
+    /// An error at bytes of a file.
+    pub(crate) fn at(
+        file: &SourceFile,
+        span: Range<usize>,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self {
+            file: file.name().to_owned(),
+            line: file.line_of(span.start),
+            found: excerpt(file.part(&span)),
+            span,
+            reason: reason.into(),
+            remedy: remedy.into(),
+        }
+    }
+}
+
+/// Longest excerpt of a program quoted in a message, in characters.
+const EXCERPT_CHARACTERS: usize = 60;
+
+/// Text of a program made safe to print on a terminal: in one line, bytes that are not text and control characters (a
+/// comment may hold escape codes) are shown as `?` or by their number.
+pub(crate) fn excerpt(bytes: &[u8]) -> String {
+    // A character has four bytes at most.
+    let text =
+        String::from_utf8_lossy(&bytes[..bytes.len().min(5 * EXCERPT_CHARACTERS)]).into_owned();
+    let mut shown = String::new();
+    let (mut count, mut blank) = (0, false);
+    for character in text.trim().chars() {
+        if character.is_ascii_whitespace() {
+            blank = true;
+            continue;
+        }
+        if count >= EXCERPT_CHARACTERS {
+            shown.push_str("...");
+            break;
+        }
+        if std::mem::take(&mut blank) {
+            shown.push(' ');
+            count += 1;
+        }
+        if character.is_control() {
+            shown.push_str(&format!("\\x{:02x}", u32::from(character)));
+        } else {
+            shown.push(character);
+        }
+        count += 1;
+    }
+    shown
+}
+
+/// Why no corrected program was written.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// A motion cannot take what it is given.
+    #[error("{file}, line {line}: {reason}; {remedy}")]
+    Motion {
+        /// Name of the file.
+        file: String,
+        /// Line of the motion, counted from 1.
+        line: usize,
+        /// Why.
+        reason: String,
+        /// What the user can do about it.
+        remedy: String,
+    },
+    /// A piece speaks of a motion that the program does not have.
+    #[error(
+        "a piece is of motion {motion}, the program has {motions} motions: take the pieces of this very program"
+    )]
+    NoSuchMotion {
+        /// The motion of the piece, counted from 0.
+        motion: usize,
+        /// Number of motions.
+        motions: usize,
+    },
+    /// Two changes want the same bytes: a fault of this library.
+    #[error("two changes of {file} overlap; nothing was written, please report this")]
+    Overlap {
+        /// Name of the file.
+        file: String,
+    },
+}

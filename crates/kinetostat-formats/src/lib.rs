@@ -1,0 +1,58 @@
+//! Robot programs: read without loss, corrected in place, written byte for byte where nothing changes.
+//!
+//! The way of a program:
+//!
+//! 1. A reader ([`read_rapid`], or [`read`] by language) takes the files of a program together and says where the tool
+//!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
+//!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
+//!    taken for stands in a table ([`RAPID_STATEMENTS`]).
+//! 2. The caller makes [`Piece`]s: where motions are to end instead.
+//! 3. [`write`] changes the numbers of the text that must change, and nothing else.
+//!
+//! This crate knows no robot. It reads and writes bytes in memory; files are the caller's. Lengths are in mm; poses are in the
+//! axes of the motion's work object; lines are counted from 1.
+//!
+//! ```
+//! use kinetostat_formats::*;
+//! use nalgebra::Vector3;
+//!
+//! let text = "MODULE Part\n\
+//!     CONST robtarget p1:=[[100,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+//!     PROC main()\n\
+//!     MoveJ Offs(p1,0,0,50),v500,z10,tool0;\n\
+//!     MoveL p1,v20,fine,tool0;\n\
+//!     ENDPROC\nENDMODULE\n";
+//! let files = vec![SourceFile::new("Part.mod", text)];
+//! let program = read_rapid(files, &ReadOptions::default()).unwrap();
+//!
+//! // The arm sags by 0.2 mm at the second motion: it is sent higher.
+//! let end = program.motions[1].target.pose().unwrap().position_mm;
+//! let pieces = [Piece::to(1, end + Vector3::new(0.0, 0.0, 0.2))];
+//! let written = write(&program, &pieces, &WriteOptions::default()).unwrap();
+//! let output = String::from_utf8(written[0].1.clone()).unwrap();
+//! // The first motion rests on p1, which stays.
+//! assert!(output.contains("CONST robtarget p1_2:=[[100,0,0.200],[0,1,0,0]"));
+//! assert!(output.contains("MoveJ Offs(p1,0,0,50),v500,z10,tool0;\nMoveL p1_2,v20,fine,tool0;"));
+//! ```
+
+mod document;
+mod error;
+mod model;
+mod options;
+mod rapid;
+mod table;
+mod text;
+mod writing;
+
+pub use document::{read, write};
+pub use error::{ProgramError, WriteError};
+pub use model::frame::{Frame, FrameUse};
+pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+pub use model::program::{Finding, Language, RobotProgram};
+pub use model::target::{Configuration, PoseTarget, Target};
+pub use options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
+pub use rapid::reader::read_rapid;
+pub use rapid::table::RAPID_STATEMENTS;
+pub use table::{StatementRow, Treatment};
+pub use text::source::SourceFile;
+pub use writing::piece::Piece;

@@ -1,0 +1,43 @@
+//! Tools and work objects: what a motion uses, as far as the text or the caller says what it is.
+
+use nalgebra::Isometry3;
+
+/// Where a tool or a work object is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Frame {
+    /// A tool in the flange's axes, a work object in the axes of the base (or the world, where the controller says so); mm.
+    Known(Isometry3<f64>),
+    /// Neither the text nor the caller says it.
+    Unknown {
+        /// Why, in words.
+        reason: String,
+    },
+}
+
+/// A tool or a work object that a motion uses.
+///
+/// ```
+/// use kinetostat_formats::{Frame, FrameUse};
+/// use nalgebra::Isometry3;
+///
+/// let tool = FrameUse { name: "tool0".into(), frame: Frame::Known(Isometry3::identity()) };
+/// assert_eq!(tool.known(), Some(&Isometry3::identity()));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameUse {
+    /// Its name or number in the program.
+    pub name: String,
+    /// Where it is.
+    pub frame: Frame,
+}
+
+impl FrameUse {
+    /// Where it is, if known.
+    #[must_use]
+    pub fn known(&self) -> Option<&Isometry3<f64>> {
+        match &self.frame {
+            Frame::Known(isometry) => Some(isometry),
+            Frame::Unknown { .. } => None,
+        }
+    }
+}

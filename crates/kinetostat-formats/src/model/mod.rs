@@ -1,0 +1,11 @@
+//! One model of robot programs for all languages: motions with poses, and where in the text these stand.
+//!
+//! A reader fills it, [`crate::write`] takes it. It knows no language; lengths are in mm, angles in degrees where the name
+//! says so, poses in the axes of the work object as written.
+
+pub(crate) mod frame;
+pub(crate) mod motion;
+pub(crate) mod orientation;
+pub(crate) mod program;
+pub(crate) mod site;
+pub(crate) mod target;

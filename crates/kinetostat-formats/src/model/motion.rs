@@ -1,0 +1,109 @@
+//! One motion of a program.
+
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+
+use crate::model::frame::FrameUse;
+use crate::model::site::MotionSite;
+use crate::model::target::Target;
+
+/// On which way the tool goes to the end of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MotionKind {
+    /// All joints in step: the way of the tool is the controller's.
+    Joint,
+    /// On a straight line.
+    Linear,
+    /// On a circle through a pose.
+    Circular {
+        /// Between start and end.
+        via: Target,
+    },
+}
+
+/// How near the tool comes to the end before the next motion begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Zone {
+    /// It stops there (`fine`, `FINE`).
+    Exact,
+    /// It may leave the path within this radius, mm.
+    Radius(f64),
+    /// Percent of what the controller allows (`CNT50`).
+    Percent(f64),
+    /// Not known from the text.
+    Unstated,
+}
+
+/// How often a motion runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Runs {
+    /// Once in every run of the program.
+    Once,
+    /// At most once: in a branch.
+    OnCondition,
+    /// More than once, or perhaps: in a loop, or in a routine that is called more than once.
+    Repeatedly,
+    /// In a routine that nothing in these files calls.
+    Elsewhere,
+}
+
+/// The speed of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Speed {
+    /// Of the tool centre point in mm/s, if the text says it.
+    pub mm_per_s: Option<f64>,
+    /// As written.
+    pub text: String,
+}
+
+/// One motion statement.
+///
+/// Poses are in the axes of the work object; [`Motion::base_pose`] gives those of the base.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Motion {
+    /// File, an index of [`crate::RobotProgram::files`].
+    pub file: usize,
+    /// Line of the file on which the statement begins, counted from 1.
+    pub line: usize,
+    /// Bytes of the statement with what ends it.
+    pub span: Range<usize>,
+    /// On which way.
+    pub kind: MotionKind,
+    /// Where it ends.
+    pub target: Target,
+    /// How fast.
+    pub speed: Speed,
+    /// How near.
+    pub zone: Zone,
+    /// With which tool.
+    pub tool: FrameUse,
+    /// In the axes of which work object.
+    pub work_object: FrameUse,
+    /// How often.
+    pub runs: Runs,
+    /// The motion (an index of [`crate::RobotProgram::motions`]) at whose end this one begins, at every run; none where
+    /// that is not known from the text.
+    pub follows: Option<usize>,
+    pub(crate) site: MotionSite,
+}
+
+impl Motion {
+    /// The pose of the tool at the end in the axes of the base, mm; none without a pose or a known work object.
+    ///
+    /// ```
+    /// use kinetostat_formats::{ReadOptions, SourceFile, read_rapid};
+    ///
+    /// let text = "MODULE M\nPERS wobjdata table:=[FALSE,TRUE,\"\",[[0,0,100],[1,0,0,0]],[[5,0,0],[1,0,0,0]]];\n\
+    ///     PROC main()\nMoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tool0\\WObj:=table;\n\
+    ///     ENDPROC\nENDMODULE";
+    /// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+    /// let pose = program.motions[0].base_pose().unwrap();
+    /// assert_eq!(pose.translation.vector.as_slice(), [6.0, 2.0, 103.0]);
+    /// ```
+    #[must_use]
+    pub fn base_pose(&self) -> Option<Isometry3<f64>> {
+        Some(self.work_object.known()? * self.target.pose()?.isometry())
+    }
+}

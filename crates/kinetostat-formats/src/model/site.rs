@@ -1,0 +1,118 @@
+//! Where in the text a motion can be corrected: what readers fill in and the writer takes.
+//!
+//! One idea for all languages: numbers in place; a declaration, edited or copied under a free name; the literal arguments
+//! of an offset; further statements before the one that is there.
+
+use std::ops::Range;
+
+use crate::model::orientation::OrientationText;
+use crate::model::target::PoseTarget;
+use crate::text::number::{NumberText, Width};
+
+/// The numbers of a pose in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PoseText {
+    /// An index of the program's files.
+    pub file: usize,
+    /// The whole literal, with configuration and external axes.
+    pub whole: Range<usize>,
+    /// X, Y, Z.
+    pub position: [NumberText; 3],
+    /// As many as the convention has, in the order of the convention.
+    pub orientation: Vec<NumberText>,
+    /// What they mean.
+    pub convention: OrientationText,
+    /// Whether its numbers may become longer.
+    pub width: Width,
+}
+
+/// A declared pose.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Declaration {
+    /// The whole statement with what ends it.
+    pub statement: Range<usize>,
+    /// Its name, without an index.
+    pub name: Range<usize>,
+    /// Its numbers.
+    pub text: PoseText,
+    /// What they say.
+    pub pose: PoseTarget,
+    /// What else than the pose depends on it (offsets, assignments): its value must stay.
+    pub keeps_value: bool,
+    /// How a further one is declared.
+    pub copy: DeclarationCopy,
+}
+
+/// How a further declaration is made from one that is there.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DeclarationCopy {
+    /// Its statement, with another name and other numbers.
+    Statement,
+    /// Texts around its name and its pose: of an element of an array.
+    #[allow(dead_code, reason = "read by the languages that have arrays")]
+    Around {
+        before: Vec<u8>,
+        middle: Vec<u8>,
+        after: Vec<u8>,
+    },
+}
+
+/// In whose axes the arguments of an offset are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OffsetAxes {
+    /// Those of the work object (`Offs`).
+    WorkObject,
+    /// Those of the tool at the pose that is offset (`RelTool`, KRL's geometric sum).
+    Tool,
+}
+
+/// Where the text of a target is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum TargetSite {
+    /// A literal in the statement.
+    Literal(PoseText),
+    /// A name in the statement, an index of the program's declarations.
+    Declared {
+        declaration: usize,
+        name: Range<usize>,
+    },
+    /// An offset from a pose by literals in the statement.
+    Offset {
+        /// The whole call.
+        call: Range<usize>,
+        arguments: Box<[NumberText; 3]>,
+        axes: OffsetAxes,
+        /// The pose that is offset.
+        base: Box<PoseTarget>,
+        /// A literal with the configuration and external axes of the end.
+        literal: Box<PoseText>,
+    },
+    /// Nothing to correct, in words why.
+    Fixed(&'static str),
+}
+
+/// Where the speed stands, and what is written around another one: `[`, the number, `,500,5000,1000]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SpeedSite {
+    pub span: Range<usize>,
+    pub before: String,
+    pub after: String,
+}
+
+/// Where the parts of a motion statement stand.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionSite {
+    /// The word that says on which way.
+    pub keyword: Range<usize>,
+    /// Where the end stands, in the file of the statement.
+    pub target_span: Range<usize>,
+    pub target: TargetSite,
+    /// Span and text of the pose on a circle.
+    pub via: Option<(Range<usize>, TargetSite)>,
+    /// None where another speed cannot be written.
+    pub speed: Option<SpeedSite>,
+    /// Where the zone stands.
+    pub zone: Option<Range<usize>>,
+    /// Why it cannot become several statements.
+    pub indivisible: Option<&'static str>,
+}

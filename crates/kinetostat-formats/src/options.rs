@@ -1,0 +1,90 @@
+//! What the caller states about reading and writing.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Isometry3;
+
+/// What becomes of a motion whose end is not known from the text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UnknownTargets {
+    /// It is refused with its line.
+    #[default]
+    Refused,
+    /// It stays as it is written: [`crate::Target::Unknown`], with a finding.
+    LeftAsWritten,
+}
+
+/// What becomes of external axes that move from one target to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ExternalAxes {
+    /// The program is refused at the first line where they move: the arm stands elsewhere then.
+    #[default]
+    Refused,
+    /// They are carried as written: the caller knows what they move ([`crate::PoseTarget::external`]).
+    Carried,
+}
+
+/// How a program is read.
+///
+/// ```
+/// use kinetostat_formats::{ExternalAxes, ReadOptions, UnknownTargets};
+/// use nalgebra::Isometry3;
+///
+/// let mut options = ReadOptions::default();
+/// options.unknown_targets = UnknownTargets::LeftAsWritten;
+/// options.external_axes = ExternalAxes::Carried;
+/// // Names count without case where the language takes them so.
+/// options.frames.insert("tSpindle".into(), Isometry3::translation(0.0, 0.0, 180.0));
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ReadOptions {
+    /// Tools (in the flange's axes) and work objects (in the robot's base axes, or the world's where its controller says
+    /// so) by name, in mm: they stand in for what the program says or does not say.
+    pub frames: BTreeMap<String, Isometry3<f64>>,
+    /// Motions to ends that are not known from the text.
+    pub unknown_targets: UnknownTargets,
+    /// External axes that move.
+    pub external_axes: ExternalAxes,
+}
+
+/// Where a motion that is written as several pieces stops, if it stops at its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ExactStops {
+    /// At its end alone: the pieces before pass their ends by the controller's smallest zone (RAPID: `z0`, 0.3 mm).
+    #[default]
+    AtEnd,
+    /// At the end of every piece: zones are copied as written.
+    AtEveryPiece,
+}
+
+/// How a program is written.
+///
+/// ```
+/// let mut options = kinetostat_formats::WriteOptions::default();
+/// assert_eq!((options.position_decimals, options.quaternion_decimals), (3, 7));
+/// options.position_decimals = 4;
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct WriteOptions {
+    /// Least decimals of a changed length in mm, 3: half a micrometre along each axis. A number that had more keeps them.
+    pub position_decimals: usize,
+    /// Least decimals of a changed part of a quaternion, 7: two tenths of a microradian.
+    pub quaternion_decimals: usize,
+    /// Least decimals of a changed angle in degrees, 5.
+    pub angle_decimals: usize,
+    /// Where divided motions stop.
+    pub exact_stops: ExactStops,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self {
+            position_decimals: 3,
+            quaternion_decimals: 7,
+            angle_decimals: 5,
+            exact_stops: ExactStops::AtEnd,
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Tokens of a file with their places; blanks, comments and the header `%%%` are none.
+//!
+//! The lexer never fails: a byte that begins nothing known is a token of its own, and the parser says what is wrong.
+
+use std::ops::Range;
+
+use winnow::ascii::{digit0, digit1};
+use winnow::combinator::{alt, opt};
+use winnow::prelude::*;
+use winnow::stream::LocatingSlice;
+use winnow::token::{any, one_of, take_till, take_while};
+
+type Input<'i> = LocatingSlice<&'i [u8]>;
+type Nothing = winnow::error::EmptyError;
+
+/// What a token is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// An identifier or a keyword.
+    Word,
+    /// Digits with point and exponent, without sign.
+    Number,
+    /// `"..."`.
+    Text,
+    /// `"...` that its line does not close.
+    OpenText,
+    /// `:=`.
+    Assign,
+    /// Any other byte.
+    Symbol(u8),
+}
+
+/// A token and its bytes in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Token {
+    pub kind: Kind,
+    start: u32,
+    end: u32,
+}
+
+impl Token {
+    /// Its bytes in the file.
+    pub(crate) fn bytes(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// The tokens of a file shorter than 4 GiB.
+pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
+    let mut tokens = Vec::with_capacity(bytes.len() / 3);
+    let mut input = LocatingSlice::new(bytes);
+    let _ = header(&mut input);
+    // `token` takes at least one byte and matches every byte, so the loop ends with the file.
+    while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
+        if let Some(kind) = kind {
+            tokens.push(Token {
+                kind,
+                start: span.start as u32,
+                end: span.end as u32,
+            });
+        }
+    }
+    tokens
+}
+
+/// `%%%`, version and language, `%%%`: what controllers put before the first module.
+fn header(input: &mut Input<'_>) -> Result<(), Nothing> {
+    let start = *input;
+    let found = (
+        take_while(0.., |byte: u8| byte.is_ascii_whitespace()),
+        "%%%",
+        take_till(0.., b'%'),
+        "%%%",
+    )
+        .void()
+        .parse_next(input);
+    found.inspect_err(|_: &Nothing| *input = start)
+}
+
+/// None for what is skipped.
+fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
+    let first = *input.first().ok_or(winnow::error::EmptyError)?;
+    match first {
+        b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => blank(input).map(|()| None),
+        b'!' => take_till(0.., b'\n').value(None).parse_next(input),
+        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
+            .map(Some)
+            .parse_next(input),
+        b'"' => text.map(Some).parse_next(input),
+        b':' => alt((":=".value(Kind::Assign), symbol))
+            .map(Some)
+            .parse_next(input),
+        byte if is_letter(byte) => take_while(1.., is_part)
+            .value(Some(Kind::Word))
+            .parse_next(input),
+        _ => symbol.map(Some).parse_next(input),
+    }
+}
+
+fn blank(input: &mut Input<'_>) -> Result<(), Nothing> {
+    take_while(1.., |byte: u8| byte.is_ascii_whitespace() || byte == 0x0b)
+        .void()
+        .parse_next(input)
+}
+
+fn symbol(input: &mut Input<'_>) -> Result<Kind, Nothing> {
+    any.map(Kind::Symbol).parse_next(input)
+}
+
+/// Letters of Latin-1 and of UTF-8 count: controllers take the first, editors write the second.
+fn is_letter(byte: u8) -> bool {
+    byte.is_ascii_alphabetic() || byte == b'_' || byte >= 0x80
+}
+
+fn is_part(byte: u8) -> bool {
+    is_letter(byte) || byte.is_ascii_digit()
+}
+
+fn number(input: &mut Input<'_>) -> Result<(), Nothing> {
+    let mantissa = alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void()));
+    let exponent = (one_of([b'e', b'E']), opt(one_of([b'+', b'-'])), digit1);
+    (mantissa, opt(exponent)).void().parse_next(input)
+}
+
+/// A quote inside is written twice.
+fn text(input: &mut Input<'_>) -> Result<Kind, Nothing> {
+    any.void().parse_next(input)?;
+    loop {
+        take_till(0.., [b'"', b'\n']).void().parse_next(input)?;
+        match opt(b'"').parse_next(input)? {
+            None => return Ok(Kind::OpenText),
+            Some(_) if opt(b'"').parse_next(input)?.is_none() => return Ok(Kind::Text),
+            Some(_) => {}
+        }
+    }
+}

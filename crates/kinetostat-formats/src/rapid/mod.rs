@@ -1,0 +1,23 @@
+//! ABB RAPID: modules read together, and what the writer must know of the language.
+//!
+//! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
+//! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`]).
+//!
+//! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
+
+pub(crate) mod arguments;
+pub(crate) mod expression;
+pub(crate) mod frames;
+pub(crate) mod lex;
+pub(crate) mod literals;
+pub(crate) mod motion;
+pub(crate) mod name;
+pub(crate) mod parser;
+pub(crate) mod reader;
+pub(crate) mod symbols;
+pub(crate) mod table;
+pub(crate) mod targets;
+pub(crate) mod tree;
+pub(crate) mod usage;
+pub(crate) mod walk;
+pub(crate) mod write;

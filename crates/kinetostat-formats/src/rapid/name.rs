@@ -1,0 +1,42 @@
+//! Identifiers: letters of any case are the same, 32 at most.
+
+use std::fmt;
+
+/// Most characters of an identifier.
+pub(crate) const LONGEST: usize = 32;
+
+/// An identifier as RAPID compares it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Name {
+    bytes: [u8; LONGEST],
+    length: u8,
+}
+
+impl Name {
+    /// Of the bytes of a word; none where it is too long to be an identifier.
+    pub(crate) fn of(word: &[u8]) -> Option<Self> {
+        let mut bytes = [0; LONGEST];
+        bytes.get_mut(..word.len())?.copy_from_slice(word);
+        bytes.make_ascii_uppercase();
+        Some(Self {
+            bytes,
+            length: word.len() as u8,
+        })
+    }
+
+    /// In capitals.
+    pub(crate) fn letters(&self) -> &[u8] {
+        &self.bytes[..usize::from(self.length)]
+    }
+
+    /// Whether it is a word given in capitals.
+    pub(crate) fn is(&self, capitals: &str) -> bool {
+        self.letters() == capitals.as_bytes()
+    }
+}
+
+impl fmt::Debug for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", String::from_utf8_lossy(self.letters()))
+    }
+}

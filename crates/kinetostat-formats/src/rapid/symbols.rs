@@ -1,0 +1,166 @@
+//! Names of a program: data and routines of all modules, and what a routine sees.
+
+use std::collections::BTreeMap;
+
+use crate::error::ProgramError;
+use crate::rapid::name::Name;
+use crate::rapid::tree::{Change, DatumNode, Module, Routine, RoutineKind, Sight, TokenFile};
+
+/// A datum of the program.
+#[derive(Debug)]
+pub(crate) struct Datum<'p> {
+    pub node: &'p DatumNode,
+    /// An index of the files.
+    pub file: usize,
+    /// File and line of an assignment, or of a call that may change it.
+    pub assigned: Option<(usize, usize)>,
+    /// Something else than the motions that end there rests on its value.
+    pub keeps_value: bool,
+}
+
+/// What a name means in a routine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// An index of [`Symbols::data`].
+    Datum(usize),
+    /// A parameter of the routine, or the variable of a loop.
+    Parameter,
+}
+
+/// Where a routine is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Home<'p> {
+    /// An index of the files.
+    pub file: usize,
+    /// An index over all modules.
+    pub module: usize,
+    pub routine: &'p Routine,
+}
+
+/// All names.
+#[derive(Debug, Default)]
+pub(crate) struct Symbols<'p> {
+    pub data: Vec<Datum<'p>>,
+    pub routines: Vec<Home<'p>>,
+    everywhere: BTreeMap<Name, usize>,
+    in_module: Vec<BTreeMap<Name, usize>>,
+    in_routine: Vec<BTreeMap<Name, Meaning>>,
+    routines_everywhere: BTreeMap<Name, usize>,
+    routines_in_module: Vec<BTreeMap<Name, usize>>,
+    /// There is a function among the routines.
+    pub has_functions: bool,
+}
+
+impl<'p> Symbols<'p> {
+    /// Of the modules of each file.
+    pub(crate) fn of(
+        files: &[TokenFile<'_>],
+        modules: &'p [(usize, Module)],
+        faults: &mut Vec<ProgramError>,
+    ) -> Self {
+        let mut all = Self::default();
+        for (module, (file, content)) in modules.iter().enumerate() {
+            let mut own = BTreeMap::new();
+            for node in &content.data {
+                let index = all.add(*file, node);
+                let names = match node.sight {
+                    Sight::Module => &mut own,
+                    Sight::Everywhere => &mut all.everywhere,
+                };
+                if names.insert(node.name, index).is_some() {
+                    faults.push(twice(&files[*file], node.name_at));
+                }
+            }
+            all.in_module.push(own);
+            let mut own = BTreeMap::new();
+            for routine in &content.routines {
+                all.has_functions |= routine.kind == RoutineKind::Function;
+                let index = all.routines.len();
+                all.routines.push(Home {
+                    file: *file,
+                    module,
+                    routine,
+                });
+                let names = match routine.sight {
+                    Sight::Module => &mut own,
+                    Sight::Everywhere => &mut all.routines_everywhere,
+                };
+                if names.insert(routine.name, index).is_some() {
+                    faults.push(twice(&files[*file], routine.name_at));
+                }
+                let mut locals = BTreeMap::new();
+                for parameter in &routine.parameters {
+                    locals.insert(parameter.name, Meaning::Parameter);
+                }
+                for node in &routine.data {
+                    let index = all.add(*file, node);
+                    if locals.insert(node.name, Meaning::Datum(index)).is_some() {
+                        faults.push(twice(&files[*file], node.name_at));
+                    }
+                }
+                all.in_routine.push(locals);
+            }
+            all.routines_in_module.push(own);
+        }
+        all
+    }
+
+    fn add(&mut self, file: usize, node: &'p DatumNode) -> usize {
+        self.data.push(Datum {
+            node,
+            file,
+            assigned: None,
+            keeps_value: false,
+        });
+        self.data.len() - 1
+    }
+
+    /// What a name means in a routine (an index).
+    pub(crate) fn meaning(&self, routine: usize, name: &Name) -> Option<Meaning> {
+        let local = self.in_routine.get(routine)?.get(name);
+        local.copied().or_else(|| {
+            let module = self.in_module.get(self.routines[routine].module)?;
+            let found = module.get(name).or_else(|| self.everywhere.get(name));
+            found.map(|index| Meaning::Datum(*index))
+        })
+    }
+
+    /// Something rests on all data of this name.
+    pub(crate) fn keep_everywhere(&mut self, name: &Name) {
+        let own = self.in_module.iter().filter_map(|names| names.get(name));
+        for index in own.chain(self.everywhere.get(name)) {
+            self.data[*index].keeps_value = true;
+        }
+    }
+
+    /// The routine that a name means in a routine.
+    pub(crate) fn routine(&self, from: usize, name: &Name) -> Option<usize> {
+        let module = self.routines_in_module.get(self.routines[from].module)?;
+        let found = module
+            .get(name)
+            .or_else(|| self.routines_everywhere.get(name));
+        found.copied()
+    }
+
+    /// The routine with which the program begins.
+    pub(crate) fn main(&self) -> Option<usize> {
+        let name = Name::of(b"main")?;
+        self.routines_everywhere.get(&name).copied()
+    }
+
+    /// Whether a datum has one value for the whole program.
+    pub(crate) fn is_fixed(&self, index: usize) -> bool {
+        let datum = &self.data[index];
+        datum.node.change == Change::Constant || datum.assigned.is_none()
+    }
+}
+
+fn twice(file: &TokenFile<'_>, name_at: usize) -> ProgramError {
+    let span = file.span(&(name_at..name_at + 1));
+    ProgramError::at(
+        file.source,
+        span,
+        "the name is declared twice",
+        "give the modules that run together only, or rename one",
+    )
+}

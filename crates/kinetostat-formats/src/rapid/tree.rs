@@ -1,0 +1,139 @@
+//! What a file holds: modules, routines, declarations and statements, by ranges of tokens.
+
+use std::ops::Range;
+
+use crate::rapid::lex::Token;
+use crate::rapid::name::Name;
+use crate::text::source::SourceFile;
+
+/// A file and its tokens.
+pub(crate) struct TokenFile<'a> {
+    pub index: usize,
+    pub source: &'a SourceFile,
+    pub tokens: Vec<Token>,
+}
+
+impl TokenFile<'_> {
+    /// The bytes of a token; none behind the last.
+    pub(crate) fn word(&self, at: usize) -> &[u8] {
+        let token = self.tokens.get(at);
+        token.map_or(&[], |token| self.source.part(&token.bytes()))
+    }
+
+    /// The place of a range of tokens in the file.
+    pub(crate) fn span(&self, tokens: &Range<usize>) -> Range<usize> {
+        let place = |at: usize| self.tokens.get(at).map(Token::bytes);
+        let first = place(tokens.start).or_else(|| self.tokens.last().map(Token::bytes));
+        let start = first.map_or(0, |place| place.start);
+        let last = tokens.end.checked_sub(1).and_then(place);
+        start..last.map_or(start, |place| place.end).max(start)
+    }
+}
+
+/// How a datum may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Change {
+    Constant,
+    Persistent,
+    Variable,
+}
+
+/// Who sees a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sight {
+    Everywhere,
+    Module,
+}
+
+/// A declaration.
+#[derive(Debug, Clone)]
+pub(crate) struct DatumNode {
+    pub change: Change,
+    pub sight: Sight,
+    pub type_name: Name,
+    pub name: Name,
+    /// Token of its name.
+    pub name_at: usize,
+    /// The whole statement with its semicolon.
+    pub tokens: Range<usize>,
+    /// Of its first value.
+    pub initial: Option<Range<usize>>,
+}
+
+/// A parameter of a routine.
+#[derive(Debug, Clone)]
+pub(crate) struct Parameter {
+    pub name: Name,
+    /// Whether the routine may change what is given (INOUT, VAR, PERS).
+    pub changes: bool,
+}
+
+/// What kind of routine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RoutineKind {
+    Procedure,
+    Function,
+    Trap,
+}
+
+/// A routine.
+#[derive(Debug, Clone)]
+pub(crate) struct Routine {
+    pub kind: RoutineKind,
+    pub sight: Sight,
+    pub name: Name,
+    pub name_at: usize,
+    pub parameters: Vec<Parameter>,
+    pub data: Vec<DatumNode>,
+    pub body: Vec<Statement>,
+    /// ERROR, UNDO and BACKWARD.
+    pub handlers: Vec<Statement>,
+    /// It has a GOTO: its order is not that of its lines.
+    pub jumps: bool,
+}
+
+/// A module of a file.
+#[derive(Debug, Clone)]
+pub(crate) struct Module {
+    pub data: Vec<DatumNode>,
+    pub routines: Vec<Routine>,
+}
+
+/// How the blocks of a branch run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// One of them.
+    OneOfAll,
+    /// One of them or none.
+    AtMostOne,
+    /// One statement behind `IF condition`, without THEN.
+    Compact,
+}
+
+/// A statement of a routine.
+#[derive(Debug, Clone)]
+pub(crate) enum Statement {
+    Assignment {
+        tokens: Range<usize>,
+        /// Token of `:=`.
+        assign: usize,
+    },
+    /// An instruction or the call of a procedure, with its semicolon.
+    Call {
+        tokens: Range<usize>,
+    },
+    Branches {
+        header: Range<usize>,
+        choice: Choice,
+        blocks: Vec<Vec<Statement>>,
+    },
+    Loop {
+        header: Range<usize>,
+        block: Vec<Statement>,
+    },
+    Label,
+    /// RETURN, EXIT, RAISE, RETRY, TRYNEXT, GOTO: what follows does not run.
+    Leaves {
+        tokens: Range<usize>,
+    },
+}

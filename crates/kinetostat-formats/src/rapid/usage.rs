@@ -1,0 +1,164 @@
+//! What statements do to data: which are assigned, which values something rests on.
+
+use std::ops::Range;
+
+use crate::rapid::lex::Kind;
+use crate::rapid::name::Name;
+use crate::rapid::symbols::{Meaning, Symbols};
+use crate::rapid::table::{Ends, motion_row, row};
+use crate::rapid::tree::{Change, Statement, TokenFile};
+use crate::table::Treatment;
+
+/// Notes it in the symbols, for all statements of all routines.
+pub(crate) fn note_usage(files: &[TokenFile<'_>], symbols: &mut Symbols<'_>) {
+    for routine in 0..symbols.routines.len() {
+        let home = symbols.routines[routine];
+        let mut notes = Notes {
+            file: &files[home.file],
+            symbols: &mut *symbols,
+            routine,
+        };
+        notes.statements(&home.routine.body);
+        notes.statements(&home.routine.handlers);
+    }
+    // What a declaration's first value rests on.
+    for index in 0..symbols.data.len() {
+        let node = symbols.data[index].node;
+        let file = symbols.data[index].file;
+        let Some(initial) = &node.initial else {
+            continue;
+        };
+        for at in initial.clone() {
+            let token = files[file].tokens[at];
+            if token.kind == Kind::Word
+                && let Some(name) = Name::of(files[file].word(at))
+            {
+                symbols.keep_everywhere(&name);
+            }
+        }
+    }
+}
+
+struct Notes<'n, 's, 'p, 'f> {
+    file: &'n TokenFile<'f>,
+    symbols: &'s mut Symbols<'p>,
+    routine: usize,
+}
+
+impl Notes<'_, '_, '_, '_> {
+    fn statements(&mut self, block: &[Statement]) {
+        for statement in block {
+            match statement {
+                Statement::Assignment { tokens, assign } => {
+                    self.assign(tokens.start);
+                    self.keep(tokens.start + 1..*assign);
+                    self.keep(*assign..tokens.end);
+                }
+                Statement::Call { tokens } => self.call(tokens),
+                Statement::Branches { header, blocks, .. } => {
+                    self.keep(header.clone());
+                    for block in blocks {
+                        self.statements(block);
+                    }
+                }
+                Statement::Loop { header, block } => {
+                    self.keep(header.clone());
+                    self.statements(block);
+                }
+                Statement::Leaves { tokens } => self.keep(tokens.clone()),
+                Statement::Label => {}
+            }
+        }
+    }
+
+    fn datum(&self, at: usize) -> Option<usize> {
+        let is_word = self.file.tokens.get(at)?.kind == Kind::Word;
+        let name = is_word.then(|| Name::of(self.file.word(at)))??;
+        match self.symbols.meaning(self.routine, &name)? {
+            Meaning::Datum(index) => Some(index),
+            Meaning::Parameter => None,
+        }
+    }
+
+    fn assign(&mut self, at: usize) {
+        if let Some(index) = self.datum(at) {
+            let datum = &mut self.symbols.data[index];
+            if datum.node.change != Change::Constant {
+                let line = self
+                    .file
+                    .source
+                    .line_of(self.file.span(&(at..at + 1)).start);
+                datum.assigned.get_or_insert((self.file.index, line));
+            }
+        }
+    }
+
+    /// Something rests on the values of the names in these tokens.
+    fn keep(&mut self, tokens: Range<usize>) {
+        for at in tokens {
+            if let Some(index) = self.datum(at) {
+                self.symbols.data[index].keeps_value = true;
+            }
+        }
+    }
+
+    fn call(&mut self, tokens: &Range<usize>) {
+        let Some(name) = Name::of(self.file.word(tokens.start)) else {
+            return self.keep(tokens.clone());
+        };
+        if let Some(motion) = motion_row(&name) {
+            let targets = match motion.ends {
+                Ends::Circular => 2,
+                _ => 1,
+            };
+            return self.motion(tokens.start + 1..tokens.end, targets);
+        }
+        self.keep(tokens.start + 1..tokens.end);
+        let changes = match self.symbols.routine(self.routine, &name) {
+            Some(index) => {
+                let parameters = &self.symbols.routines[index].routine.parameters;
+                parameters.iter().any(|parameter| parameter.changes)
+            }
+            None => row(&name).is_none_or(|row| row.treatment != Treatment::Carried),
+        };
+        if changes {
+            for at in tokens.start + 1..tokens.end {
+                if self.is_whole_argument(at) {
+                    self.assign(at);
+                }
+            }
+        }
+    }
+
+    /// A name between commas: what a routine could change.
+    fn is_whole_argument(&self, at: usize) -> bool {
+        let kind = |at: usize| self.file.tokens.get(at).map(|token| token.kind);
+        let is_after = |kind| {
+            matches!(
+                kind,
+                Some(Kind::Symbol(b',' | b';' | b')' | b'\\' | b'{' | b'.'))
+            )
+        };
+        let is_before = |kind| {
+            matches!(
+                kind,
+                Some(Kind::Symbol(b',' | b'(') | Kind::Word | Kind::Assign)
+            )
+        };
+        kind(at) == Some(Kind::Word) && is_after(kind(at + 1)) && is_before(kind(at - 1))
+    }
+
+    /// The ends of a motion are followed by the writer; what an offset begins at is kept.
+    fn motion(&mut self, tokens: Range<usize>, targets: usize) {
+        let (mut open, mut argument) = (0_usize, 0);
+        for at in tokens {
+            match self.file.tokens[at].kind {
+                Kind::Symbol(b'(' | b'[' | b'{') => open += 1,
+                Kind::Symbol(b')' | b']' | b'}') => open = open.saturating_sub(1),
+                Kind::Symbol(b',') if open == 0 => argument += 1,
+                Kind::Word if argument >= targets || open > 0 => self.keep(at..at + 1),
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,389 @@
+//! The order in which motions run: routines followed from `main`, branches and loops noted.
+//!
+//! Where a motion begins is known if it is the same at every run. Each routine is walked once; what depends on where it is
+//! called from stays open until all its calls are known.
+
+use crate::error::ProgramError;
+use crate::model::motion::Runs;
+use crate::model::program::Finding;
+use crate::options::{ReadOptions, UnknownTargets};
+use crate::rapid::frames::Values;
+use crate::rapid::motion::{Followed, Instruction, follow};
+use crate::rapid::name::Name;
+use crate::rapid::symbols::Symbols;
+use crate::rapid::table::{motion_row, row};
+use crate::rapid::targets::Targets;
+use crate::rapid::tree::{Choice, RoutineKind, Statement};
+use crate::table::Treatment;
+
+/// Deepest nesting of calls and blocks together.
+const DEEPEST: usize = 400;
+
+/// Where the tool is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// Where it was as the routine was called.
+    Entry,
+    /// At the end of a motion.
+    Motion(usize),
+    /// Not known from the text.
+    Unknown,
+}
+
+fn merge(one: Place, other: Place) -> Place {
+    match one == other {
+        true => one,
+        false => Place::Unknown,
+    }
+}
+
+/// What a routine is found to do.
+#[derive(Debug, Clone, Default)]
+struct Summary {
+    /// None while it is walked or was not.
+    leaves: Option<Place>,
+    begun: bool,
+    calls: Vec<Call>,
+    recursive: bool,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Call {
+    from: usize,
+    at: Place,
+    runs: Runs,
+}
+
+/// What the walk gives: motions in their order, with the external axes at their ends.
+pub(crate) struct Walked {
+    pub motions: Vec<Followed>,
+    pub findings: Vec<Finding>,
+}
+
+/// Walks `main` and what it calls, then all that nothing calls.
+pub(crate) fn walk(
+    values: &mut Values<'_>,
+    targets: &mut Targets,
+    options: &ReadOptions,
+    faults: &mut Vec<ProgramError>,
+) -> Walked {
+    let count = values.symbols.routines.len();
+    let main = values.symbols.main();
+    let mut walker = Walker {
+        values,
+        targets,
+        unknown: options.unknown_targets,
+        faults,
+        motions: Vec::new(),
+        places: Vec::new(),
+        findings: Vec::new(),
+        summaries: vec![Summary::default(); count],
+        finished: Vec::new(),
+        now: Now {
+            routine: 0,
+            runs: Runs::Once,
+            left: None,
+            depth: 0,
+        },
+    };
+    for routine in main.into_iter().chain(0..count) {
+        if !walker.summaries[routine].begun {
+            walker.routine(routine, 0);
+        }
+    }
+    walker.resolve(main)
+}
+
+/// The routine that is walked.
+#[derive(Debug, Clone, Copy)]
+struct Now {
+    routine: usize,
+    /// Of the statement in its routine.
+    runs: Runs,
+    /// Where a RETURN left it.
+    left: Option<Place>,
+    depth: usize,
+}
+
+struct Walker<'w, 'p> {
+    values: &'w mut Values<'p>,
+    targets: &'w mut Targets,
+    unknown: UnknownTargets,
+    faults: &'w mut Vec<ProgramError>,
+    motions: Vec<Followed>,
+    /// Routine and place at the beginning of each motion.
+    places: Vec<(usize, Place)>,
+    findings: Vec<Finding>,
+    summaries: Vec<Summary>,
+    /// Callers behind what they call.
+    finished: Vec<usize>,
+    now: Now,
+}
+
+impl Walker<'_, '_> {
+    fn routine(&mut self, index: usize, depth: usize) {
+        let home = self.values.symbols.routines[index];
+        let outer = std::mem::replace(
+            &mut self.now,
+            Now {
+                routine: index,
+                runs: Runs::Once,
+                left: None,
+                depth,
+            },
+        );
+        self.summaries[index].begun = true;
+        let before = self.motions.len();
+        if home.routine.jumps {
+            self.now.runs = Runs::Repeatedly;
+        }
+        let mut place = self.block(&home.routine.body, Place::Entry);
+        if let Some(left) = self.now.left {
+            place = merge(place, left);
+        }
+        let in_body = self.motions.len();
+        self.now.runs = Runs::OnCondition.max(self.now.runs);
+        self.block(&home.routine.handlers, Place::Unknown);
+        // Where handlers move or jumps lead back, no place of the routine is sure.
+        if home.routine.jumps || self.motions.len() > in_body {
+            let own = (before..in_body).filter(|motion| self.places[*motion].0 == index);
+            for motion in own.collect::<Vec<_>>() {
+                self.places[motion].1 = Place::Unknown;
+            }
+            place = Place::Unknown;
+        }
+        self.summaries[index].leaves = Some(place);
+        self.finished.push(index);
+        self.now = outer;
+    }
+
+    fn block(&mut self, statements: &[Statement], mut place: Place) -> Place {
+        let runs = self.now.runs;
+        for statement in statements {
+            place = self.statement(statement, place);
+            if self.now.left.is_some() {
+                // What is behind a RETURN in a branch runs on a condition.
+                self.now.runs = self.now.runs.max(Runs::OnCondition);
+            }
+        }
+        self.now.runs = runs;
+        place
+    }
+
+    fn statement(&mut self, statement: &Statement, place: Place) -> Place {
+        match statement {
+            Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
+            Statement::Assignment { tokens, .. } => self.functions(tokens.clone(), place),
+            Statement::Label => Place::Unknown,
+            Statement::Leaves { .. } => {
+                let left = self.now.left.map_or(place, |left| merge(left, place));
+                self.now.left = Some(left);
+                place
+            }
+            Statement::Branches {
+                header,
+                choice,
+                blocks,
+            } => {
+                let place = self.functions(header.clone(), place);
+                let runs = self.now.runs;
+                self.now.runs = runs.max(Runs::OnCondition);
+                let mut after = (*choice != Choice::OneOfAll).then_some(place);
+                for block in blocks {
+                    let end = match (choice, block.as_slice()) {
+                        (Choice::Compact, [Statement::Call { tokens }]) => {
+                            self.call(tokens, place, *choice)
+                        }
+                        _ => self.block(block, place),
+                    };
+                    after = Some(after.map_or(end, |after| merge(after, end)));
+                }
+                self.now.runs = runs;
+                after.unwrap_or(place)
+            }
+            Statement::Loop { header, block } => {
+                let place = self.functions(header.clone(), place);
+                let runs = self.now.runs;
+                self.now.runs = runs.max(Runs::Repeatedly);
+                let inside = match self.stays(block, 0) {
+                    true => place,
+                    false => Place::Unknown,
+                };
+                let end = self.block(block, inside);
+                self.now.runs = runs;
+                merge(place, end)
+            }
+        }
+    }
+
+    /// Whether nothing in a block can move the tool.
+    fn stays(&self, block: &[Statement], depth: usize) -> bool {
+        block.iter().all(|statement| match statement {
+            Statement::Call { tokens } => {
+                let file = &self.values.files[self.values.symbols.routines[self.now.routine].file];
+                let name = Name::of(file.word(tokens.start));
+                let row = name.as_ref().and_then(row);
+                row.is_some_and(|row| row.treatment == Treatment::Carried)
+            }
+            Statement::Branches { blocks, .. } => {
+                blocks.iter().all(|block| self.stays(block, depth + 1))
+            }
+            Statement::Loop { block, .. } => self.stays(block, depth + 1),
+            Statement::Label => false,
+            Statement::Assignment { .. } | Statement::Leaves { .. } => true,
+        })
+    }
+
+    /// After an expression: a function of these files may move the tool.
+    fn functions(&mut self, tokens: std::ops::Range<usize>, place: Place) -> Place {
+        let file = &self.values.files[self.values.symbols.routines[self.now.routine].file];
+        let symbols: &Symbols<'_> = &self.values.symbols;
+        let moves = |at: usize| {
+            let index = symbols.routine(self.now.routine, &Name::of(file.word(at))?)?;
+            let routine = symbols.routines[index].routine;
+            (routine.kind == RoutineKind::Function && !self.stays(&routine.body, 0)).then_some(())
+        };
+        match symbols.has_functions && tokens.into_iter().any(|at| moves(at).is_some()) {
+            true => Place::Unknown,
+            false => place,
+        }
+    }
+
+    fn call(&mut self, tokens: &std::ops::Range<usize>, place: Place, choice: Choice) -> Place {
+        let routine = self.now.routine;
+        let file = &self.values.files[self.values.symbols.routines[routine].file];
+        let span = file.span(tokens);
+        let name = Name::of(file.word(tokens.start));
+        if let Some(row) = name.as_ref().and_then(motion_row) {
+            let instruction = Instruction {
+                row,
+                routine,
+                tokens,
+            };
+            let followed = follow(&instruction, self.values, self.targets, self.unknown);
+            return match followed {
+                Ok(mut followed) => {
+                    if choice == Choice::Compact && followed.motion.site.indivisible.is_none() {
+                        followed.motion.site.indivisible =
+                            Some("it stands behind IF without THEN, where one statement can stand");
+                    }
+                    followed.motion.runs = self.now.runs;
+                    self.motions.push(followed);
+                    self.places.push((routine, place));
+                    Place::Motion(self.motions.len() - 1)
+                }
+                Err((reason, remedy)) => {
+                    self.faults
+                        .push(ProgramError::at(file.source, span, reason, remedy));
+                    Place::Unknown
+                }
+            };
+        }
+        if let Some(called) = name
+            .as_ref()
+            .and_then(|name| self.values.symbols.routine(routine, name))
+        {
+            return self.enter(called, span, place);
+        }
+        let place = self.functions(tokens.start + 1..tokens.end, place);
+        match name.as_ref().and_then(row).map(|row| row.treatment) {
+            Some(Treatment::Refused { reason, remedy }) => {
+                self.faults
+                    .push(ProgramError::at(file.source, span, reason, remedy));
+                Place::Unknown
+            }
+            Some(_) => place,
+            None => {
+                let called = crate::error::excerpt(file.word(tokens.start));
+                self.findings.push(Finding {
+                    file: file.index,
+                    line: file.source.line_of(span.start),
+                    message: match called.as_str() {
+                        "%" => "what is called is computed: it is carried, and if it moves the tool, that is not seen".to_owned(),
+                        _ => format!("`{called}` is in none of these files: it is carried, and if it moves the tool, that is not seen"),
+                    },
+                });
+                Place::Unknown
+            }
+        }
+    }
+
+    fn enter(&mut self, called: usize, span: std::ops::Range<usize>, place: Place) -> Place {
+        let now = self.now;
+        let (from, runs) = (now.routine, now.runs);
+        self.summaries[called].calls.push(Call {
+            from,
+            at: place,
+            runs,
+        });
+        if now.depth >= DEEPEST {
+            let file = &self.values.files[self.values.symbols.routines[from].file];
+            self.faults.push(ProgramError::at(
+                file.source,
+                span,
+                "calls are nested deeper than 400",
+                "call what is deepest from main",
+            ));
+            return Place::Unknown;
+        }
+        if !self.summaries[called].begun {
+            self.routine(called, now.depth + 1);
+        }
+        let summary = &mut self.summaries[called];
+        match summary.leaves {
+            Some(Place::Entry) => place,
+            Some(leaves) => leaves,
+            None => {
+                summary.recursive = true;
+                Place::Unknown
+            }
+        }
+    }
+
+    /// Fills in what depends on the calls of each routine.
+    fn resolve(mut self, main: Option<usize>) -> Walked {
+        let count = self.summaries.len();
+        let mut runs = vec![Runs::Elsewhere; count];
+        let mut entry = vec![Place::Unknown; count];
+        // Callers first.
+        for routine in self.finished.iter().rev().copied() {
+            let summary = &self.summaries[routine];
+            let from = |call: &Call| match call.at {
+                Place::Entry => entry[call.from],
+                place => place,
+            };
+            let reached = summary
+                .calls
+                .iter()
+                .filter(|call| runs[call.from] != Runs::Elsewhere);
+            let mut reached = reached.map(|call| runs[call.from].max(call.runs));
+            runs[routine] = match (reached.next(), reached.next()) {
+                _ if summary.recursive => Runs::Repeatedly,
+                (None, _) if Some(routine) == main => Runs::Once,
+                (None, _) => Runs::Elsewhere,
+                (Some(once), None) => once,
+                (Some(_), Some(_)) => Runs::Repeatedly,
+            };
+            let mut places = summary.calls.iter().map(from);
+            entry[routine] = match (Some(routine) == main || summary.recursive, places.next()) {
+                (false, Some(first)) => places.fold(first, merge),
+                _ => Place::Unknown,
+            };
+        }
+        for (followed, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
+            let place = match place {
+                Place::Entry => entry[*routine],
+                place => *place,
+            };
+            followed.motion.follows = match place {
+                Place::Motion(index) => Some(index),
+                Place::Entry | Place::Unknown => None,
+            };
+            followed.motion.runs = followed.motion.runs.max(runs[*routine]);
+        }
+        Walked {
+            motions: self.motions,
+            findings: self.findings,
+        }
+    }
+}

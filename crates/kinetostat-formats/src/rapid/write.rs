@@ -1,0 +1,92 @@
+//! What the writer must know of RAPID.
+
+use std::collections::BTreeSet;
+
+use crate::model::motion::{Motion, Zone};
+use crate::model::program::RobotProgram;
+use crate::options::{ExactStops, WriteOptions};
+use crate::rapid::lex::{Kind, tokens_of};
+use crate::rapid::name::{LONGEST, Name};
+use crate::rapid::table::{MotionRow, motion_row};
+use crate::text::edits::Edits;
+use crate::writing::syntax::Syntax;
+
+/// RAPID.
+pub(crate) struct RapidSyntax;
+
+/// The row of the word with which a motion begins.
+fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow> {
+    let word = program.files.get(motion.file)?.part(&motion.site.keyword);
+    motion_row(&Name::of(word)?)
+}
+
+impl Syntax for RapidSyntax {
+    fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
+        let mut names = BTreeSet::new();
+        for file in &program.files {
+            for token in tokens_of(file.bytes()) {
+                if token.kind == Kind::Word {
+                    names.insert(file.part(&token.bytes()).to_ascii_uppercase());
+                }
+            }
+        }
+        names
+    }
+
+    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
+        for number in 2..=taken.len() + 2 {
+            let end = format!("_{number}");
+            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
+            let name = [&near[..kept], end.as_bytes()].concat();
+            if taken.insert(name.to_ascii_uppercase()) {
+                return Some(name);
+            }
+        }
+        None
+    }
+
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literal: &[u8],
+        speed: Option<&[u8]>,
+        options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let file = program.files.get(motion.file)?;
+        let (word, _) = row_of(program, motion)?.straight?;
+        let site = &motion.site;
+        let mut edits = Edits::default();
+        replace_word(file.part(&site.keyword), word, &site.keyword, &mut edits);
+        if let Some((span, _)) = &site.via {
+            edits.replace(span.clone(), "");
+        }
+        edits.replace(site.target_span.clone(), literal);
+        if let (Some(site), Some(speed)) = (&site.speed, speed) {
+            edits.replace(site.span.clone(), speed);
+        }
+        if let (Some(zone), Zone::Exact, ExactStops::AtEnd) =
+            (&site.zone, motion.zone, options.exact_stops)
+        {
+            edits.replace(zone.clone(), "z0");
+        }
+        edits.applied_to_part(file.bytes(), &motion.span)
+    }
+
+    fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {
+        let site = &motion.site;
+        let words = row_of(program, motion).and_then(|row| row.straight);
+        if let (Some((_, word)), Some((span, _))) = (words, &site.via) {
+            let written = program.files[motion.file].part(&site.keyword);
+            replace_word(written, word, &site.keyword, edits);
+            edits.replace(span.clone(), "");
+        }
+    }
+}
+
+/// A word of the same letters stays as it is written.
+fn replace_word(written: &[u8], word: &str, span: &std::ops::Range<usize>, edits: &mut Edits) {
+    if !written.eq_ignore_ascii_case(word.as_bytes()) {
+        edits.replace(span.clone(), word);
+    }
+}

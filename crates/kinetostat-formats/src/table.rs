@@ -1,0 +1,35 @@
+//! What a language's reader does with each of its statements, as data.
+
+/// What is done with a statement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Treatment {
+    /// It is followed: motions, frames, declarations, control flow.
+    Understood,
+    /// It cannot move the tool: it comes back byte for byte.
+    Carried,
+    /// It can move the tool, and how is not known here.
+    Refused {
+        /// Why.
+        reason: &'static str,
+        /// What the user can do about it.
+        remedy: &'static str,
+    },
+}
+
+/// A row of a language's table.
+///
+/// ```
+/// use kinetostat_formats::{RAPID_STATEMENTS, Treatment};
+///
+/// let row = RAPID_STATEMENTS.iter().find(|row| row.name == "SearchL").unwrap();
+/// assert!(matches!(row.treatment, Treatment::Refused { .. }));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StatementRow {
+    /// Its word, as the language's manual writes it.
+    pub name: &'static str,
+    /// What is done with it.
+    pub treatment: Treatment,
+    /// Where its meaning is from.
+    pub source: &'static str,
+}

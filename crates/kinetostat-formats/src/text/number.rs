@@ -1,0 +1,80 @@
+//! Numbers of a text, printed again as the text printed them.
+
+use std::ops::Range;
+
+/// A number as it stands in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NumberText {
+    /// Its bytes; with the blanks before it where the file has columns of fixed width.
+    pub span: Range<usize>,
+    /// What it says.
+    pub value: f64,
+}
+
+/// Whether a number may become longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Width {
+    /// As many bytes as needed.
+    Free,
+    /// As wide as it was where it fits: columns stay.
+    #[allow(dead_code, reason = "for files with columns: FANUC LS, CATIA's APT")]
+    Kept,
+}
+
+/// Digits behind the point of a printed number.
+fn decimals(text: &[u8]) -> usize {
+    let is_exponent = |byte: &u8| matches!(byte, b'e' | b'E');
+    let end = text.iter().position(is_exponent).unwrap_or(text.len());
+    let point = text.iter().position(|byte| *byte == b'.');
+    match (point, end == text.len()) {
+        (Some(point), true) => text[point + 1..]
+            .iter()
+            .filter(|b| b.is_ascii_digit())
+            .count(),
+        _ => 0,
+    }
+}
+
+/// Most digits behind the point that are ever printed: a double has no more in mm.
+const MOST_DECIMALS: usize = 12;
+
+/// The value as the text would print it: with as many decimals as it had, but at least so many; with its plus sign and
+/// without the zero before the point if it had none. A value that prints as the old one keeps the old text, byte for byte.
+pub(crate) fn printed(
+    original: &[u8],
+    old: f64,
+    value: f64,
+    least_decimals: usize,
+    width: Width,
+) -> Vec<u8> {
+    let digits = decimals(original).max(least_decimals).min(MOST_DECIMALS);
+    let fixed = |value: f64| {
+        let text = format!("{value:.digits$}");
+        let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+        match text.strip_prefix('-') {
+            Some(positive) if is_zero => positive.to_owned(),
+            _ => text,
+        }
+    };
+    let mut text = fixed(value);
+    if text == fixed(old) {
+        return original.to_vec();
+    }
+    let body = original.trim_ascii_start();
+    if body.starts_with(b"+") && !text.starts_with('-') {
+        text.insert(0, '+');
+    }
+    let unsigned = body.strip_prefix(b"-").or(body.strip_prefix(b"+"));
+    if unsigned.unwrap_or(body).starts_with(b".") {
+        text = match text.strip_prefix("-0.") {
+            Some(rest) => format!("-.{rest}"),
+            None if text.starts_with("0.") => text[1..].to_owned(),
+            None => text,
+        };
+    }
+    let wide = match width {
+        Width::Free => 0,
+        Width::Kept => original.len(),
+    };
+    format!("{text:>wide$}").into_bytes()
+}

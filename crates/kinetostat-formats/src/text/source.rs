@@ -1,0 +1,92 @@
+//! A file of a program: its name, its bytes, where its lines begin.
+
+use std::ops::Range;
+
+/// A file of a program as it was read; nothing in it is ever changed.
+///
+/// ```
+/// use kinetostat_formats::SourceFile;
+///
+/// let file = SourceFile::new("part.mod", "MODULE Part\r\n  ! nothing\r\nENDMODULE");
+/// assert_eq!((file.name(), file.line_count()), ("part.mod", 3));
+/// assert_eq!(file.line_of(file.bytes().len() - 1), 3);
+/// assert_eq!(file.line(2), Some(&b"  ! nothing"[..]));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourceFile {
+    name: String,
+    bytes: Vec<u8>,
+    line_starts: Vec<usize>,
+}
+
+impl SourceFile {
+    /// A file with the name that messages and written files have.
+    pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        let bytes = bytes.into();
+        let ends = (bytes.iter().enumerate()).filter(|(_, byte)| **byte == b'\n');
+        let line_starts = std::iter::once(0)
+            .chain(ends.map(|(at, _)| at + 1))
+            .collect();
+        Self {
+            name: name.into(),
+            bytes,
+            line_starts,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All of it.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Number of its lines; what follows the last line ending is one, even if it is empty.
+    #[must_use]
+    pub fn line_count(&self) -> usize {
+        self.line_starts.len()
+    }
+
+    /// The line in which a byte stands, counted from 1.
+    #[must_use]
+    pub fn line_of(&self, at: usize) -> usize {
+        self.line_starts.partition_point(|start| *start <= at)
+    }
+
+    /// A line, counted from 1, without its line ending.
+    #[must_use]
+    pub fn line(&self, line: usize) -> Option<&[u8]> {
+        let start = *self.line_starts.get(line.checked_sub(1)?)?;
+        let next = self.line_starts.get(line).map_or(self.bytes.len(), |n| *n);
+        let text = &self.bytes[start..next];
+        let text = text.strip_suffix(b"\n").unwrap_or(text);
+        Some(text.strip_suffix(b"\r").unwrap_or(text))
+    }
+
+    /// The bytes of a range; none where it is outside.
+    pub(crate) fn part(&self, span: &Range<usize>) -> &[u8] {
+        self.bytes.get(span.clone()).unwrap_or_default()
+    }
+
+    /// What ends the first line: new lines are ended alike.
+    pub(crate) fn line_ending(&self) -> &'static [u8] {
+        let first = self.bytes.iter().position(|byte| *byte == b'\n');
+        match first.is_some_and(|at| at > 0 && self.bytes[at - 1] == b'\r') {
+            true => b"\r\n",
+            false => b"\n",
+        }
+    }
+
+    /// The blanks with which the line of a byte begins.
+    pub(crate) fn indentation(&self, at: usize) -> &[u8] {
+        let line = self.line(self.line_of(at)).unwrap_or_default();
+        let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+        let blanks = line.iter().take_while(|byte| is_blank(byte)).count();
+        &line[..blanks]
+    }
+}

@@ -1,0 +1,275 @@
+//! From pieces of motions to edits of files.
+
+use std::collections::BTreeMap;
+
+use crate::error::WriteError;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::RobotProgram;
+use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+use crate::text::number::Width;
+use crate::writing::declared::Demands;
+use crate::writing::literal::{Wanted, literal_of, put, put_pose};
+use crate::writing::piece::Piece;
+use crate::writing::syntax::Syntax;
+
+/// The files of a program with the pieces in place of its motions.
+pub(crate) fn write_with(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+    syntax: &dyn Syntax,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    let mut of_motion: BTreeMap<usize, Vec<&Piece>> = BTreeMap::new();
+    for piece in pieces {
+        if piece.motion >= program.motions.len() {
+            return Err(WriteError::NoSuchMotion {
+                motion: piece.motion,
+                motions: program.motions.len(),
+            });
+        }
+        of_motion.entry(piece.motion).or_default().push(piece);
+    }
+    let mut writer = Writer {
+        program,
+        options,
+        syntax,
+        edits: program.files.iter().map(|_| Edits::default()).collect(),
+        demands: Demands::default(),
+    };
+    for (index, motion) in program.motions.iter().enumerate() {
+        let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
+        let written = writer.motion(motion, pieces);
+        written.map_err(|(reason, remedy)| WriteError::Motion {
+            file: program.files[motion.file].name().to_owned(),
+            line: motion.line,
+            reason: reason.to_owned(),
+            remedy: remedy.to_owned(),
+        })?;
+    }
+    let Writer {
+        mut edits, demands, ..
+    } = writer;
+    let overlap = |file: usize| WriteError::Overlap {
+        file: program.files[file].name().to_owned(),
+    };
+    (demands.write(program, syntax, &mut edits)).ok_or_else(|| overlap(0))?;
+    (edits.into_iter().enumerate())
+        .map(|(index, edits)| {
+            let file = &program.files[index];
+            let bytes = edits.applied_to(file.bytes());
+            Ok((file.name().to_owned(), bytes.ok_or_else(|| overlap(index))?))
+        })
+        .collect()
+}
+
+/// Why a motion cannot be written, and what to do.
+type Reason = (&'static str, &'static str);
+
+const NO_END: Reason = (
+    "the motion has no pose that could be corrected",
+    "leave its pieces out",
+);
+
+struct Writer<'a> {
+    program: &'a RobotProgram,
+    options: &'a WriteOptions,
+    syntax: &'a dyn Syntax,
+    /// One for each file.
+    edits: Vec<Edits>,
+    demands: Demands,
+}
+
+impl Writer<'_> {
+    fn motion(&mut self, motion: &Motion, pieces: &[&Piece]) -> Result<(), Reason> {
+        let Some((last, before)) = pieces.split_last() else {
+            self.end(motion, &motion.site.target, None)?;
+            return match &motion.site.via {
+                Some((_, site)) => self.end(motion, site, None),
+                None => Ok(()),
+            };
+        };
+        let end = motion.target.pose().ok_or(NO_END)?;
+        check(pieces)?;
+        let is_circle = matches!(motion.kind, MotionKind::Circular { .. });
+        if is_circle && before.is_empty() {
+            let via = last.via_mm.ok_or((
+                "one piece of a circle states no place between its start and its end",
+                "state via_mm, or divide the circle into straight pieces",
+            ))?;
+            let (_, site) = motion.site.via.as_ref().ok_or(NO_END)?;
+            let wanted = Wanted {
+                position_mm: via,
+                orientation: None,
+            };
+            self.end(motion, site, Some(wanted))?;
+        }
+        let wanted = Wanted {
+            position_mm: last.position_mm,
+            orientation: last
+                .orientation
+                .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
+        };
+        self.end(motion, &motion.site.target, Some(wanted))?;
+        if let Some((speed, text)) = speed_of(motion, last)? {
+            self.edits[motion.file].replace(speed.span.clone(), text);
+        }
+        if before.is_empty() {
+            return Ok(());
+        }
+        if motion.kind == MotionKind::Joint {
+            return Err((
+                "a joint motion cannot be divided: the tool does not go straight",
+                "give it one piece, at its end",
+            ));
+        }
+        if let Some(reason) = motion.site.indivisible {
+            return Err((
+                reason,
+                "give it one piece, at its end, or write it otherwise",
+            ));
+        }
+        if is_circle {
+            let edits = &mut self.edits[motion.file];
+            self.syntax.straighten(self.program, motion, edits);
+        }
+        let file = &self.program.files[motion.file];
+        let text = self.text_of(&motion.site.target).ok_or(NO_END)?;
+        let mut inserted = Vec::new();
+        for piece in before {
+            let wanted = Wanted {
+                position_mm: piece.position_mm,
+                orientation: Some(piece.orientation.unwrap_or(end.orientation)),
+            };
+            let home = &self.program.files[text.file];
+            let literal = literal_of(home, text, &wanted, self.options).ok_or(NO_END)?;
+            let speed = speed_of(motion, piece)?.map(|(_, text)| text);
+            let (program, options) = (self.program, self.options);
+            let statement = self
+                .syntax
+                .piece(program, motion, &literal, speed.as_deref(), options);
+            inserted.extend(statement.ok_or(NO_END)?);
+            inserted.extend_from_slice(file.line_ending());
+            inserted.extend_from_slice(file.indentation(motion.span.start));
+        }
+        self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
+        Ok(())
+    }
+
+    /// The literal that says the configuration of an end.
+    fn text_of<'s>(&'s self, site: &'s TargetSite) -> Option<&'s PoseText> {
+        match site {
+            TargetSite::Literal(text) => Some(text),
+            TargetSite::Declared { declaration, .. } => {
+                Some(&self.program.declarations.get(*declaration)?.text)
+            }
+            TargetSite::Offset { literal, .. } => Some(literal),
+            TargetSite::Fixed(_) => None,
+        }
+    }
+
+    /// Writes one pose of a motion; without a wanted one it stays, which other uses of its declaration must know.
+    fn end(
+        &mut self,
+        motion: &Motion,
+        site: &TargetSite,
+        wanted: Option<Wanted>,
+    ) -> Result<(), Reason> {
+        let program = self.program;
+        let edits = &mut self.edits[motion.file];
+        let file = &program.files[motion.file];
+        match (site, wanted) {
+            (TargetSite::Declared { declaration, name }, wanted) => {
+                let declared = program.declarations.get(*declaration).ok_or(NO_END)?;
+                let home = &program.files[declared.text.file];
+                let literal = match &wanted {
+                    Some(wanted) => literal_of(home, &declared.text, wanted, self.options),
+                    None => Some(home.part(&declared.text.whole).to_vec()),
+                };
+                let literal = literal.ok_or(NO_END)?;
+                (self.demands).demand(*declaration, motion.file, name.clone(), literal);
+            }
+            (_, None) => {}
+            (TargetSite::Literal(text), Some(wanted)) => {
+                put_pose(file, text, &wanted, self.options, edits);
+            }
+            (TargetSite::Offset { call, literal, .. }, Some(wanted))
+                if wanted.orientation.is_some() =>
+            {
+                // The arguments cannot turn the tool: the end itself is written in place of the call.
+                let home = &program.files[literal.file];
+                let text = literal_of(home, literal, &wanted, self.options).ok_or(NO_END)?;
+                edits.replace(call.clone(), text);
+            }
+            (
+                TargetSite::Offset {
+                    arguments,
+                    axes,
+                    base,
+                    ..
+                },
+                Some(wanted),
+            ) => {
+                let by = wanted.position_mm - base.position_mm;
+                let by = match axes {
+                    OffsetAxes::WorkObject => by,
+                    OffsetAxes::Tool => base.orientation.inverse() * by,
+                };
+                let least = self.options.position_decimals;
+                for (number, value) in arguments.iter().zip(by.iter()) {
+                    put(file, number, *value, least, Width::Free, edits);
+                }
+            }
+            (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
+        }
+        Ok(())
+    }
+}
+
+/// Whether pieces are numbers.
+fn check(pieces: &[&Piece]) -> Result<(), Reason> {
+    let finite = |piece: &&Piece| {
+        let via = piece.via_mm.unwrap_or_default();
+        let far = |value: &f64| value.abs() < FARTHEST_MM;
+        piece.position_mm.iter().chain(via.iter()).all(far)
+            && piece.speed_factor.is_finite()
+            && piece.speed_factor > 0.0
+            && piece
+                .orientation
+                .is_none_or(|q| q.coords.iter().all(|part| part.is_finite()))
+    };
+    match pieces.iter().all(finite) {
+        true => Ok(()),
+        false => Err((
+            "a piece has no finite place, orientation or speed, or one farther than 1 km",
+            "mend the correction",
+        )),
+    }
+}
+
+/// Orientations nearer than this are the same: the text of the orientation stays.
+const SAME_RAD: f64 = 1e-9;
+
+/// Farther than any robot reaches, mm.
+const FARTHEST_MM: f64 = 1e6;
+
+/// The speed of a piece where it is not that of the motion.
+fn speed_of<'m>(
+    motion: &'m Motion,
+    piece: &Piece,
+) -> Result<Option<(&'m SpeedSite, Vec<u8>)>, Reason> {
+    if piece.speed_factor == 1.0 {
+        return Ok(None);
+    }
+    let (Some(site), Some(speed)) = (&motion.site.speed, motion.speed.mm_per_s) else {
+        return Err((
+            "its speed cannot be changed: it is not known from the text",
+            "state the speed as a number, or keep it",
+        ));
+    };
+    let number = format!("{:.4}", speed * piece.speed_factor);
+    let number = number.trim_end_matches('0').trim_end_matches('.');
+    let text = [&site.before, number, &site.after].concat();
+    Ok(Some((site, text.into_bytes())))
+}

@@ -1,0 +1,40 @@
+//! What the caller wants a motion to become.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// One piece of a motion. Motions without pieces stay as they are; of several pieces the last is at the motion's end.
+///
+/// ```
+/// use kinetostat_formats::Piece;
+/// use nalgebra::Vector3;
+///
+/// let piece = Piece::to(7, Vector3::new(100.0, 0.0, 0.02));
+/// assert_eq!((piece.motion, piece.speed_factor), (7, 1.0));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// An index of [`crate::RobotProgram::motions`].
+    pub motion: usize,
+    /// Where it ends: mm, in the axes of the motion's work object.
+    pub position_mm: Vector3<f64>,
+    /// How the tool stands there, in the same axes; none for that of the motion's end.
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// Where a circle that stays one passes between its start and its end, mm.
+    pub via_mm: Option<Vector3<f64>>,
+    /// By what the written speed is multiplied.
+    pub speed_factor: f64,
+}
+
+impl Piece {
+    /// The end of a motion at another place, all else as written.
+    #[must_use]
+    pub fn to(motion: usize, position_mm: Vector3<f64>) -> Self {
+        Self {
+            motion,
+            position_mm,
+            orientation: None,
+            via_mm: None,
+            speed_factor: 1.0,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! What the writer must know of a language.
+
+use std::collections::BTreeSet;
+
+use crate::model::motion::Motion;
+use crate::model::program::RobotProgram;
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+
+/// What the writer asks of a language.
+pub(crate) trait Syntax {
+    /// All names of the program, as the language compares them.
+    fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>>;
+
+    /// A name like `near` that is not taken, and takes it.
+    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>>;
+
+    /// A statement that goes straight to a pose (its literal) before the end of a motion, as that motion is written
+    /// otherwise; without line ending.
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literal: &[u8],
+        speed: Option<&[u8]>,
+        options: &WriteOptions,
+    ) -> Option<Vec<u8>>;
+
+    /// Makes a circular motion a straight one to the same end.
+    fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits);
+}
