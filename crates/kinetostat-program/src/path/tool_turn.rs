@@ -72,3 +72,29 @@ impl Path {
         orientation.map_or_else(Vector3::z, |orientation| orientation * self.tool_axis)
     }
 }
+
+impl Path {
+    /// A path of moves that a program of another language than G-code makes, with the direction from the tool's tip to its
+    /// holder in axes of the tool. All axes count as stated; nothing else is known of it.
+    ///
+    /// ```
+    /// use kinetostat_program::Path;
+    /// use nalgebra::Vector3;
+    ///
+    /// let path = Path::of_moves(Vec::new(), -Vector3::z());
+    /// assert_eq!(path.stated, [true; 3]);
+    /// ```
+    #[must_use]
+    pub fn of_moves(moves: Vec<Move>, tool_axis: Vector3<f64>) -> Self {
+        Self {
+            moves,
+            tool_axis,
+            stated: [true; 3],
+            warnings: Vec::new(),
+            tool_changes: Vec::new(),
+            spindle_changes: Vec::new(),
+            pauses: Vec::new(),
+            events: Vec::new(),
+        }
+    }
+}

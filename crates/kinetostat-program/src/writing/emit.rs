@@ -116,6 +116,7 @@ impl<'a> Emitter<'a> {
         Corrected {
             bytes: self.bytes,
             pieces,
+            beside: Vec::new(),
             orientations: Vec::new(),
             accounting,
         }

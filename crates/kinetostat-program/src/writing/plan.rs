@@ -185,6 +185,7 @@ impl<'a> Plan<'a> {
         let (pieces, accounting) = account.finish(bytes.len());
         Corrected {
             bytes,
+            beside: Vec::new(),
             pieces,
             orientations,
             accounting,
