@@ -112,6 +112,10 @@ A job file:
   # machine_zero_mm = [0, 0, 300], g28_mm = [0, 0, 0], g30_mm = [0, 0, 0]
   # work_offset_mm = { G54 = [0, 0, 0] }
 
+  # [expand]                       # a program with macros, run once
+  # subprograms = ["macros"], comments = true
+  # tool_diameters_mm = { 1 = 6.5 }, parameters = { 100 = 2.5 }
+
   [tolerances]
   path_um = 0.5
   chord_um = 0.4
@@ -123,6 +127,7 @@ A job file:
   report = "report.html"
   json = "result.json"
   points = "points.csv"
+  # flat_program = "flat.ngc"      # of an expanded program
   # header = true
 
   [limits]                         # a program that leaves them is refused
