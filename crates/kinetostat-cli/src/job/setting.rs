@@ -93,6 +93,8 @@ pub(crate) fn setting(
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
+    // Where faults of a job are looked for, what follows from one of them is none.
+    let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
     let (program, flat) = match expand {
         Some(expand) => {
             let done = flattened(program, (&path, &program_name), &expand)?;

@@ -32,7 +32,7 @@ pub(crate) fn advice(
         // What is wrong with or without an expansion is no reason for one.
         Err(error) if known(faults, &error) || error.line <= first.line => None,
         Err(error) => Some(format!(
-            "{ADD}, which refuses only line {}: `{}`: {}; {}. As it stands: ",
+            "{ADD}; what is wrong then is in line {}: `{}`: {}; {}. As it stands: ",
             error.line, error.found, error.reason, error.remedy
         )),
     }
