@@ -6,8 +6,8 @@ use std::path::Path;
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
-    LoadAlongPath, Placement, Task, Unwatched, Warning, load_description, refused_question,
-    unusual_question,
+    FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, load_description,
+    refused_question, unusual_question,
 };
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
@@ -24,6 +24,7 @@ use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
+use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::solve::{computed, forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
@@ -55,6 +56,9 @@ struct JobFindings {
 #[derive(Serialize)]
 struct ProgramFinding {
     name: String,
+    /// Where its lines are, of a program that was run once and written flat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flat: Option<FlatProgram>,
     lines: usize,
     blocks: usize,
     feed_moves: usize,
@@ -96,7 +100,8 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
         with_all_others(&files, &query, failure)
     })?;
     let text = answer_text(&found);
-    json::print_answer(&text, &found, json)?;
+    let flat = found.program.flat.as_ref();
+    json::print_answer(&text, &WithSources(&found, flat), json)?;
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
         n => Err(Failure::unanswered(format!(
@@ -120,7 +125,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     ));
     let read = (&program, &motion);
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
-    let forces = forces_of(&machine, &setting.program_name, &motion, &Unwatched)?;
+    let forces = forces_of(&machine, &setting, &motion, &Unwatched)?;
     let forces = forces.as_ref();
     let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, forces, check)?;
     warnings.extend(along::warnings(forces));
@@ -146,6 +151,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         ),
         program: ProgramFinding {
             name: setting.program_name.clone(),
+            flat: setting.flat.clone(),
             lines: program.line_count(),
             blocks: program.block_count(),
             feed_moves: feed(MoveKind::Feed).count(),
@@ -159,7 +165,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         },
         ends: ends(&machine.mechanism, &machine.placement, &motion),
         outputs: outputs(&setting.targets),
-        warnings,
+        warnings: of_warnings(warnings, setting.flat.as_ref()),
         refused: is_refused,
     })
 }
@@ -294,6 +300,7 @@ fn answer_text(f: &JobFindings) -> String {
         .collect();
     out.push_str(&format!("\nOutputs\n{}", listed(&rows, 2)));
     out.push_str(&warnings::warnings(&f.warnings));
+    out.push_str(&listed_under(&out, f.program.flat.as_ref()));
     out.push_str("\nNext\n");
     let mut mended = Vec::new();
     if !missed.is_empty() {

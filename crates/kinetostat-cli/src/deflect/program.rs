@@ -27,6 +27,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         ..WritingFlags::default()
     };
     let mut setting = setting(&files, job.as_ref(), &args.program, &flags)?;
+    setting.write_flat_to(args.program.expansion.flat_program.clone());
     let mut chosen = setting.targets.clone();
     // The job's outputs are those of the compensation: an analysis writes what is named here.
     chosen.report.clone_from(&args.program.report);
@@ -48,7 +49,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.program.all_points, &model);
-    outputs.fill(&run)?;
+    outputs.fill(&run, &setting)?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let text = format!(

@@ -152,7 +152,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);
-    outputs.fill(&run)?;
+    outputs.fill(&run, &setting)?;
     outputs.files.commit()?;
     let mut text = wrapped(
         "An Orthoglide mills a circular groove, radius 25 mm. Its links bend under the milling force (215 N to the right of the feed, -10 N along it, -25 N along z), and each of its legs was assembled one degree askew.",
@@ -162,7 +162,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     report::print_run(&text, args.json.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.run_inputs.program)
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)
 }
 
 fn next(out: &Path) -> String {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Args};
 
+use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
@@ -68,6 +69,8 @@ pub(crate) struct ProgramArgs {
     pub(crate) below_z_mm: Option<f64>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) expansion: ExpandFlags,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a
     /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]

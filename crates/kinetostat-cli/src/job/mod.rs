@@ -8,6 +8,8 @@ pub(crate) mod all_faults;
 pub(crate) mod arguments;
 pub(crate) mod cut;
 mod cut_tables;
+mod expand_table;
+pub(crate) mod expansion;
 pub(crate) mod format;
 pub(crate) mod job_file;
 mod limits;

@@ -1,25 +1,32 @@
 //! Everything that decides a run, the machine apart: options go over the job file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{FileRead, Limits};
+use kinetostat_machining::{FileRead, FlatProgram, Limits};
 use kinetostat_program::{ReadOptions, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::expansion::flat::flattened;
+use crate::job::expansion::settings::wanted;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
-use crate::job::output_paths::{OutputPaths, output_paths};
+use crate::job::output_paths::{Form, OutputPaths, output_paths};
 use crate::job::reading::reading;
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.
 pub(crate) struct Setting {
+    /// The program that is run: of an expanded one the flat form.
     pub(crate) program: Vec<u8>,
     pub(crate) program_name: String,
-    pub(crate) program_file: FileRead,
+    pub(crate) program_path: PathBuf,
+    /// Where the lines came from, of a program that was expanded.
+    pub(crate) flat: Option<FlatProgram>,
+    /// The program and its subprograms, as they were read.
+    pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
     pub(crate) reading: ReadOptions,
     pub(crate) writing: WriteOptions,
@@ -31,6 +38,25 @@ pub(crate) struct Setting {
     pub(crate) targets: OutputPaths,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
+}
+
+impl Setting {
+    /// A failure along the program: with its name, and of an expanded one with the lines that its lines came from.
+    pub(crate) fn within(&self, mut failure: Failure) -> Failure {
+        if let Some(flat) = &self.flat {
+            failure.plain = flat.with_sources(&failure.plain);
+        }
+        failure.within(&self.program_name)
+    }
+
+    /// Where the flat program goes, if it goes anywhere.
+    pub(crate) fn write_flat_to(&mut self, target: Option<PathBuf>) {
+        if let Some(flat) = &mut self.flat {
+            let name = target.as_deref().and_then(Path::file_name);
+            flat.name = name.map(|name| name.to_string_lossy().into_owned());
+        }
+        self.targets.flat = target;
+    }
 }
 
 /// Reads the program and everything said about it.
@@ -58,13 +84,33 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let targets = output_paths(job, flags, writing, &path)?;
+    let expand = wanted(job, &flags.expansion, &reading)?;
+    let form = match expand {
+        Some(_) => Form::Flat,
+        None => Form::AsItStands,
+    };
+    let targets = output_paths(job, flags, writing, (&path, form))?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
-    Ok(Setting {
-        program_file: origin::file("program", &path, &program),
+    let mut program_files = vec![origin::file("program", &path, &program)];
+    // Where faults of a job are looked for, what follows from one of them is none.
+    let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
+    let (program, flat) = match expand {
+        Some(expand) => {
+            let done = flattened(program, (&path, &program_name), &expand)?;
+            program_files.extend(done.read);
+            inputs.extend(done.paths);
+            (done.expanded.program.bytes().to_vec(), Some(done.flat))
+        }
+        None => (program, None),
+    };
+    let target = targets.flat.clone();
+    let mut setting = Setting {
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
+        program_files,
+        flat,
         program,
+        program_path: path,
         program_name,
         reading,
         writing: write,
@@ -73,7 +119,9 @@ pub(crate) fn setting(
         stated,
         targets,
         inputs,
-    })
+    };
+    setting.write_flat_to(target);
+    Ok(setting)
 }
 
 /// The program's file, of the command line or of the job.

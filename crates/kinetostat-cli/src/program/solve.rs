@@ -15,6 +15,7 @@ use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
+use crate::program::flat_lines::of_warnings;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
@@ -47,13 +48,13 @@ pub(crate) fn computed(load: ProgramLoad, forces: Option<&ForceAlongPath>) -> Pr
 /// The forces along the program of a job that has them measured, or computed from its cuts.
 pub(crate) fn forces_of(
     machine: &MachineSetup,
-    program: &str,
+    setting: &Setting,
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<Option<ForceAlongPath>> {
     match &machine.measured {
-        Some(setup) => measured(setup, program, path, watch).map(Some),
-        None => forces(machine.cut.as_ref(), program, path, watch),
+        Some(setup) => measured(setup, setting, path, watch).map(Some),
+        None => forces(machine.cut.as_ref(), setting, path, watch),
     }
 }
 
@@ -70,7 +71,10 @@ pub(crate) fn with_task<R>(
     let load = computed(machine.load, forces);
     let mut run_inputs = machine.run_inputs.clone();
     run_inputs.program.clone_from(&setting.program_name);
-    run_inputs.files.insert(0, setting.program_file.clone());
+    run_inputs.flat.clone_from(&setting.flat);
+    run_inputs
+        .files
+        .splice(..0, setting.program_files.iter().cloned());
     run_inputs.files.extend(setting.job_file.clone());
     run_inputs.date = crate::files::origin::day();
     let report = forces.and_then(|forces| forces.measured.as_ref());
@@ -152,9 +156,9 @@ pub(crate) fn solve(
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
     let progress = Progress::new();
-    let forces = forces_of(machine, &setting.program_name, &path, &progress)?;
+    let forces = forces_of(machine, setting, &path, &progress)?;
     if aim == Aim::Compensate {
-        refuse_what_breaks_the_tool(forces.as_ref(), &setting.program_name)?;
+        refuse_what_breaks_the_tool(forces.as_ref(), setting)?;
     }
     let read = (&program, &path);
     let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
@@ -165,7 +169,7 @@ pub(crate) fn solve(
     })??;
     progress.finish();
     let mut run = result.map_err(|error| {
-        let failure = Failure::from(error).within(&setting.program_name);
+        let failure = setting.within(Failure::from(error));
         // What is no warning without an answer may be the reason why there is none.
         match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
             Some(doubt) => failure.with_reason(&doubt.message),
@@ -182,5 +186,7 @@ pub(crate) fn solve(
             largest(most, "")
         )));
     }
+    let found = std::mem::take(&mut run.result.warnings);
+    run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)
 }

@@ -51,10 +51,6 @@ impl<'o> Flat<'o> {
 
     /// Adds a block that came from a line of a file; what is wrong with it is said of that line.
     pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
-        let of_source = |error: ProgramError| ProgramError {
-            line: origin.line,
-            ..error
-        };
         if self.origins.len() >= self.options.most_blocks {
             return Err(self.too_many(text, origin));
         }
@@ -66,6 +62,8 @@ impl<'o> Flat<'o> {
             OriginComments::Left => None,
         };
         let text = commented.as_deref().unwrap_or(text);
+        let file = self.files.get(&origin.file).map_or("", String::as_str);
+        let of_source = |error: ProgramError| of_source(error, origin.line, file);
         self.reader.add_line(text).map_err(of_source)?;
         self.origins.push(origin);
         let index = self.origins.len() - 1;
@@ -89,15 +87,30 @@ impl<'o> Flat<'o> {
 
     pub fn finish(self) -> Result<(Program, Path, Vec<Origin>), ProgramError> {
         let program = self.reader.into_program();
-        let origins = self.origins;
+        let (origins, files) = (self.origins, self.files);
         let path = self.interpreter.finish(&program).map_err(|error| {
-            let line = origins.get(error.line.wrapping_sub(1));
-            ProgramError {
-                line: line.map_or(error.line, |origin| origin.line),
-                ..error
+            match origins.get(error.line.wrapping_sub(1)) {
+                Some(origin) => {
+                    let file = files.get(&origin.file).map_or("", String::as_str);
+                    of_source(error, origin.line, file)
+                }
+                None => error,
             }
         })?;
         Ok((program, path, origins))
+    }
+}
+
+/// What is wrong with a flat block, said of the line that it came from.
+fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
+    let reason = match file {
+        "" => error.reason,
+        name => format!("in the subprogram '{name}': {}", error.reason),
+    };
+    ProgramError {
+        line,
+        reason,
+        ..error
     }
 }
 
