@@ -227,10 +227,13 @@ pub fn corrections(chance: &mut Chance, program: &RobotProgram) -> Vec<Piece> {
             );
             piece.orientation = Some(turn * end.orientation);
         }
-        if chance.below(4) == 0 {
+        if chance.below(4) == 0 && motion.speed.mm_per_s.is_some() {
             piece.speed_factor = 1.0 + chance.within(0.1);
         }
-        pieces.push(piece);
+        let near = |place: Vector3<f64>| place.amax() < 9e5;
+        if near(piece.position_mm) && piece.via_mm.is_none_or(near) {
+            pieces.push(piece);
+        }
     }
     pieces
 }
