@@ -11,7 +11,7 @@ use crate::rapid::expression::{Expression, Value, expression_of};
 use crate::rapid::literals::{frame_of, values};
 use crate::rapid::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
-use crate::rapid::tree::TokenFile;
+use crate::rapid::tree::{Change, TokenFile};
 
 /// Why something is refused, and what to do.
 pub(crate) type Reason = (String, &'static str);
@@ -63,6 +63,17 @@ impl<'p> Values<'p> {
         Some(expression_of(&self.files[datum.file], tokens))
     }
 
+    /// That something is changed at run time, as said in a file.
+    pub(crate) fn changed(&self, text: &str, here: usize, file: usize, line: usize) -> String {
+        match here == file {
+            true => format!("`{text}` is changed while the program runs (line {line})"),
+            false => {
+                let file = self.files[file].source.name();
+                format!("`{text}` is changed while the program runs ({file}, line {line})")
+            }
+        }
+    }
+
     /// The datum of a name in a routine, if it is one.
     fn datum(&self, routine: usize, name: &Name) -> Option<usize> {
         match self.symbols.meaning(routine, name)? {
@@ -77,8 +88,8 @@ impl<'p> Values<'p> {
             Value::Number(value) => Some(*value),
             Value::Word(name) => {
                 let index = self.datum(routine, name)?;
-                let fixed = self.symbols.is_fixed(index)
-                    && self.symbols.data[index].node.type_name.is("NUM");
+                let node = self.symbols.data[index].node;
+                let fixed = node.change == Change::Constant && node.type_name.is("NUM");
                 match fixed.then(|| self.initial(index))??.value {
                     Value::Number(value) => Some(value),
                     _ => None,
@@ -137,7 +148,8 @@ impl<'p> Values<'p> {
             }
             Some(Meaning::Datum(index)) => {
                 if !self.frames.contains_key(&index) {
-                    let found = self.declared(role, index, &text);
+                    let found =
+                        self.declared(role, index, &text, self.symbols.routines[routine].file);
                     self.frames
                         .insert(index, found.map(|frame| FrameUse { name: text, frame }));
                 }
@@ -146,15 +158,11 @@ impl<'p> Values<'p> {
         }
     }
 
-    fn declared(&self, role: Role, index: usize, text: &str) -> Result<Frame, Reason> {
+    fn declared(&self, role: Role, index: usize, text: &str, from: usize) -> Result<Frame, Reason> {
         if !self.symbols.is_fixed(index)
             && let Some((file, line)) = self.symbols.data[index].assigned
         {
-            let file = self.files[file].source.name();
-            return Err((
-                format!("`{text}` is changed while the program runs ({file}, line {line})"),
-                STATE_IT,
-            ));
+            return Err((self.changed(text, from, file, line), STATE_IT));
         }
         match self.initial(index) {
             Some(initial) => literal(role, &initial),

@@ -287,7 +287,9 @@ impl Parser<'_, '_> {
         let assigned = self.kind() == Some(Kind::Assign);
         let first = self.at + 1;
         let tokens = self.rest_of_statement(start);
-        let ((type_name, _), (name, name_at)) = (type_name?, name?);
+        let (Some((type_name, _)), Some((name, name_at))) = (type_name, name) else {
+            return Some(None);
+        };
         if !dimensions.is_empty() && self.file.word(open) != b"{" {
             self.fault(
                 dimensions,

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::error::ProgramError;
 use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::MotionKind;
 use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::target::Target;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
@@ -108,12 +110,26 @@ pub fn read_rapid(
     let mut findings = [targets.findings, walked.findings].concat();
     let mut named = BTreeSet::new();
     for motion in &motions {
+        let (file, line) = (motion.file, motion.line);
+        let via = match &motion.kind {
+            MotionKind::Circular { via } => Some(via),
+            MotionKind::Joint | MotionKind::Linear => None,
+        };
+        for target in via.into_iter().chain([&motion.target]) {
+            if let Target::Unknown { reason } = target {
+                let message = format!("it stays as it is written: {reason}");
+                findings.push(Finding {
+                    file,
+                    line,
+                    message,
+                });
+            }
+        }
         let frames = [&motion.tool, &motion.work_object];
         for FrameUse { name, frame } in frames {
             if let Frame::Unknown { reason } = frame
                 && named.insert(name)
             {
-                let (file, line) = (motion.file, motion.line);
                 let message = format!("where `{name}` is, is not known: {reason}");
                 findings.push(Finding {
                     file,

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
 use crate::rapid::name::Name;
-use crate::rapid::tree::{Change, DatumNode, Module, Routine, RoutineKind, Sight, TokenFile};
+use crate::rapid::tree::{
+    Change, DatumNode, Module, Routine, RoutineKind, Sight, Statement, TokenFile,
+};
 
 /// A datum of the program.
 #[derive(Debug)]
@@ -98,6 +100,8 @@ impl<'p> Symbols<'p> {
                         faults.push(twice(&files[*file], node.name_at));
                     }
                 }
+                loop_variables(&files[*file], &routine.body, &mut locals);
+                loop_variables(&files[*file], &routine.handlers, &mut locals);
                 all.in_routine.push(locals);
             }
             all.routines_in_module.push(own);
@@ -152,6 +156,28 @@ impl<'p> Symbols<'p> {
     pub(crate) fn is_fixed(&self, index: usize) -> bool {
         let datum = &self.data[index];
         datum.node.change == Change::Constant || datum.assigned.is_none()
+    }
+}
+
+/// `FOR i FROM`: it hides other data of its name; here in the whole routine, which at most refuses too much.
+fn loop_variables(file: &TokenFile<'_>, block: &[Statement], locals: &mut BTreeMap<Name, Meaning>) {
+    for statement in block {
+        match statement {
+            Statement::Loop { header, block } => {
+                let second = file.word(header.start + 1);
+                if header.len() > 1 && second.eq_ignore_ascii_case(b"FROM") {
+                    let name = Name::of(file.word(header.start));
+                    locals.extend(name.map(|name| (name, Meaning::Parameter)));
+                }
+                loop_variables(file, block, locals);
+            }
+            Statement::Branches { blocks, .. } => {
+                for block in blocks {
+                    loop_variables(file, block, locals);
+                }
+            }
+            _ => {}
+        }
     }
 }
 

@@ -160,7 +160,7 @@ const fn line(name: &'static str, treatment: Treatment, source: &'static str) ->
 const COUNT: usize = OTHERS.len() + MOTIONS.len();
 
 /// Motions and others in order of their names in capitals.
-const SORTED: [StatementRow; COUNT] = sorted();
+static SORTED: [StatementRow; COUNT] = sorted();
 
 const fn sorted() -> [StatementRow; COUNT] {
     let mut all = [OTHERS[0]; COUNT];

@@ -74,7 +74,7 @@ impl Targets {
             Value::Element(name, indices) => {
                 let index = |part: &Expression| {
                     let value = values.number(routine, part)?;
-                    (value >= 1.0 && value < 1e9 && value.fract() == 0.0).then_some(value as usize)
+                    ((1.0..1e9).contains(&value) && value.fract() == 0.0).then_some(value as usize)
                 };
                 let indices: Option<Vec<usize>> = indices.iter().map(index).collect();
                 let indices = indices.ok_or_else(|| (IS_COMPUTED.to_owned(), WRITE_IT))?;
@@ -108,7 +108,9 @@ impl Targets {
         indices: &[usize],
         span: Range<usize>,
     ) -> Result<Found, Reason> {
-        let shown = String::from_utf8_lossy(name.letters()).to_ascii_lowercase();
+        let own = &values.files[values.symbols.routines[routine].file];
+        let shown = String::from_utf8_lossy(own.source.part(&span));
+        let shown = shown.split('{').next().unwrap_or_default().trim_end();
         let index = match values.symbols.meaning(routine, name) {
             Some(Meaning::Datum(index)) => index,
             Some(Meaning::Parameter) => {
@@ -130,14 +132,12 @@ impl Targets {
             return Err((format!("`{shown}` is no robtarget"), WRITE_IT));
         }
         if let (Some((file, line)), false) = (datum.assigned, values.symbols.is_fixed(index)) {
-            let file = values.files[file].source.name();
-            let reason =
-                format!("`{shown}` is changed while the program runs ({file}, line {line})");
+            let reason = values.changed(shown, own.index, file, line);
             return Err((reason, WRITE_IT));
         }
         let key = (index, indices.to_vec());
         if !self.known.contains_key(&key) {
-            let declaration = self.declare(values, index, indices, &shown)?;
+            let declaration = self.declare(values, index, indices, shown)?;
             self.known.insert(key.clone(), self.declarations.len());
             self.declarations.push(declaration);
         }

@@ -10,14 +10,13 @@ use crate::options::{ReadOptions, UnknownTargets};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
 use crate::rapid::name::Name;
-use crate::rapid::symbols::Symbols;
 use crate::rapid::table::{motion_row, row};
 use crate::rapid::targets::Targets;
-use crate::rapid::tree::{Choice, RoutineKind, Statement};
+use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
 use crate::table::Treatment;
 
 /// Deepest nesting of calls and blocks together.
-const DEEPEST: usize = 400;
+const DEEPEST: usize = 200;
 
 /// Where the tool is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +68,12 @@ pub(crate) fn walk(
 ) -> Walked {
     let count = values.symbols.routines.len();
     let main = values.symbols.main();
+    let homes = values.symbols.routines.iter().enumerate();
+    let moving_functions = homes
+        .map(|(index, home)| {
+            home.routine.kind == RoutineKind::Function && !stays(values, index, &home.routine.body)
+        })
+        .collect();
     let mut walker = Walker {
         values,
         targets,
@@ -77,6 +82,7 @@ pub(crate) fn walk(
         motions: Vec::new(),
         places: Vec::new(),
         findings: Vec::new(),
+        moving_functions,
         summaries: vec![Summary::default(); count],
         finished: Vec::new(),
         now: Now {
@@ -114,13 +120,42 @@ struct Walker<'w, 'p> {
     /// Routine and place at the beginning of each motion.
     places: Vec<(usize, Place)>,
     findings: Vec<Finding>,
+    /// By routine: a function that may move the tool.
+    moving_functions: Vec<bool>,
     summaries: Vec<Summary>,
     /// Callers behind what they call.
     finished: Vec<usize>,
     now: Now,
 }
 
-impl Walker<'_, '_> {
+/// Whether nothing in a block can move the tool.
+fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) -> bool {
+    block.iter().all(|statement| match statement {
+        Statement::Call { tokens } => {
+            let symbols = &values.symbols;
+            let file = &values.files[symbols.routines[routine].file];
+            let carried = |name: &Name| {
+                symbols.routine(routine, name).is_none()
+                    && row(name).is_some_and(|row| row.treatment == Treatment::Carried)
+            };
+            Name::of(file.word(tokens.start)).is_some_and(|name| carried(&name))
+        }
+        Statement::Branches { blocks, .. } => {
+            blocks.iter().all(|block| stays(values, routine, block))
+        }
+        Statement::Loop { block, .. } => stays(values, routine, block),
+        Statement::Label => false,
+        Statement::Assignment { .. } | Statement::Leaves { .. } => true,
+    })
+}
+
+impl<'p> Walker<'_, 'p> {
+    /// The file of the routine that is walked.
+    fn file(&self) -> &'p TokenFile<'p> {
+        let files: &'p [TokenFile<'p>] = self.values.files;
+        &files[self.values.symbols.routines[self.now.routine].file]
+    }
+
     fn routine(&mut self, index: usize, depth: usize) {
         let home = self.values.symbols.routines[index];
         let outer = std::mem::replace(
@@ -186,6 +221,7 @@ impl Walker<'_, '_> {
                 blocks,
             } => {
                 let place = self.functions(header.clone(), place);
+                self.now.depth += 1;
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::OnCondition);
                 let mut after = (*choice != Choice::OneOfAll).then_some(place);
@@ -199,51 +235,35 @@ impl Walker<'_, '_> {
                     after = Some(after.map_or(end, |after| merge(after, end)));
                 }
                 self.now.runs = runs;
+                self.now.depth -= 1;
                 after.unwrap_or(place)
             }
             Statement::Loop { header, block } => {
                 let place = self.functions(header.clone(), place);
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::Repeatedly);
-                let inside = match self.stays(block, 0) {
+                let inside = match stays(self.values, self.now.routine, block) {
                     true => place,
                     false => Place::Unknown,
                 };
+                self.now.depth += 1;
                 let end = self.block(block, inside);
+                self.now.depth -= 1;
                 self.now.runs = runs;
                 merge(place, end)
             }
         }
     }
 
-    /// Whether nothing in a block can move the tool.
-    fn stays(&self, block: &[Statement], depth: usize) -> bool {
-        block.iter().all(|statement| match statement {
-            Statement::Call { tokens } => {
-                let file = &self.values.files[self.values.symbols.routines[self.now.routine].file];
-                let name = Name::of(file.word(tokens.start));
-                let row = name.as_ref().and_then(row);
-                row.is_some_and(|row| row.treatment == Treatment::Carried)
-            }
-            Statement::Branches { blocks, .. } => {
-                blocks.iter().all(|block| self.stays(block, depth + 1))
-            }
-            Statement::Loop { block, .. } => self.stays(block, depth + 1),
-            Statement::Label => false,
-            Statement::Assignment { .. } | Statement::Leaves { .. } => true,
-        })
-    }
-
     /// After an expression: a function of these files may move the tool.
     fn functions(&mut self, tokens: std::ops::Range<usize>, place: Place) -> Place {
-        let file = &self.values.files[self.values.symbols.routines[self.now.routine].file];
-        let symbols: &Symbols<'_> = &self.values.symbols;
+        let (file, symbols) = (self.file(), &self.values.symbols);
         let moves = |at: usize| {
-            let index = symbols.routine(self.now.routine, &Name::of(file.word(at))?)?;
-            let routine = symbols.routines[index].routine;
-            (routine.kind == RoutineKind::Function && !self.stays(&routine.body, 0)).then_some(())
+            let name = Name::of(file.word(at));
+            let called = name.and_then(|name| symbols.routine(self.now.routine, &name));
+            called.is_some_and(|index| self.moving_functions[index])
         };
-        match symbols.has_functions && tokens.into_iter().any(|at| moves(at).is_some()) {
+        match symbols.has_functions && tokens.into_iter().any(moves) {
             true => Place::Unknown,
             false => place,
         }
@@ -251,7 +271,7 @@ impl Walker<'_, '_> {
 
     fn call(&mut self, tokens: &std::ops::Range<usize>, place: Place, choice: Choice) -> Place {
         let routine = self.now.routine;
-        let file = &self.values.files[self.values.symbols.routines[routine].file];
+        let file = self.file();
         let span = file.span(tokens);
         let name = Name::of(file.word(tokens.start));
         if let Some(row) = name.as_ref().and_then(motion_row) {
@@ -321,7 +341,7 @@ impl Walker<'_, '_> {
             self.faults.push(ProgramError::at(
                 file.source,
                 span,
-                "calls are nested deeper than 400",
+                "calls and blocks are nested deeper than 200",
                 "call what is deepest from main",
             ));
             return Place::Unknown;

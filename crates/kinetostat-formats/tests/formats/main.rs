@@ -1,0 +1,12 @@
+//! What reading, correcting and writing a robot program must keep: one room per language, one module per subject.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a failing test may panic"
+)]
+
+mod rapid;
+mod real_files;
