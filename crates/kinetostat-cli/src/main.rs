@@ -28,6 +28,7 @@ mod options;
 mod place;
 mod program;
 mod reproduce;
+mod robot;
 mod shell;
 mod stiffness;
 mod ui;

@@ -37,6 +37,7 @@
 
 mod document;
 mod error;
+mod language;
 mod model;
 mod options;
 mod path;
@@ -47,6 +48,7 @@ mod writing;
 
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
+pub use language::language_of;
 pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};

@@ -10,9 +10,7 @@ use kinetostat_machining::{
     correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
     unchanged_text, wide_table,
 };
-use kinetostat_program::{
-    Accounting, CorrectionMap, Path as ToolPath, WriteOptions, verify_written,
-};
+use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
@@ -74,7 +72,8 @@ pub(crate) fn from_map(
         ));
     }
     let field = read_table(files, map)?;
-    let (program, path) = program::read_program(setting)?;
+    let read = program::read_program(setting)?;
+    let path = read.path();
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());
     let mut outputs = Outputs::new(existing, inputs);
@@ -101,24 +100,27 @@ pub(crate) fn from_map(
     }
     let refuse = |error| setting.within(Failure::from(RunError::Write(error)));
     let progress = Progress::new();
-    let made = correct_by_table(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let made = read
+        .with(|program| correct_by_table(program, &field, &writing, &progress))
+        .map_err(refuse)?;
     let (written, against) = (&made.written, &made.against);
     let a = &written.accounting;
     let beyond = of_accounting(&setting.limits, a);
     if !beyond.is_empty() {
         return Err(setting.within(Failure::from(RunError::BeyondLimits(beyond))));
     }
-    let check =
-        verify_written(&program, &path, written, &setting.reading, &writing).map_err(refuse)?;
+    let check = read
+        .with(|program| program.verify(written, &writing))
+        .map_err(refuse)?;
     progress.finish();
-    let unchanged = written.bytes == program.bytes();
+    let unchanged = read.with(|program| written.bytes == program.bytes());
     let farthest = match unchanged {
         true => &against.before,
         false => &against.after,
     };
     let tolerance = of_table(farthest, against.allowed_mm, a);
     let flat = setting.flat.as_ref();
-    let warnings = warnings_of(setting, &path, &field, &made, &tolerance, &writing);
+    let warnings = warnings_of(setting, path, &field, &made, &tolerance, &writing);
     let warnings = of_warnings(warnings, flat);
     let result = MapResult {
         schema: RESULT_SCHEMA,

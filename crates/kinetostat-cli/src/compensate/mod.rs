@@ -67,12 +67,13 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
+    let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         files,
         job.as_ref(),
         args.run.model.as_deref(),
         &args.run.program,
-        &mut setting.inputs,
+        (frames.as_ref(), &mut setting.inputs),
     )?;
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;

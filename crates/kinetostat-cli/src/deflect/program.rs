@@ -34,12 +34,13 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
+    let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,
         job.as_ref(),
         named,
         &args.program,
-        &mut setting.inputs,
+        (frames.as_ref(), &mut setting.inputs),
     )?;
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;

@@ -135,7 +135,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     let job = JobFile::read(&files, &at("job.toml"))?;
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let mut inputs = Vec::new();
-    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, &mut inputs)?;
+    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, (None, &mut inputs))?;
     // The demo's own inputs are written together with its results.
     setting.inputs.clear();
     let existing = if args.force_overwrite {

@@ -45,7 +45,8 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let mut setting = setting(&files, job.as_ref(), &flags, &WritingFlags::default())?;
     setting.write_flat_to(args.expansion.flat_program.clone());
     let cut = cut(&files, job.as_ref(), args, &flags)?;
-    let (_, path) = read_program(&setting)?;
+    let read = read_program(&setting)?;
+    let path = read.path();
     let mut inputs = setting.inputs.clone();
     inputs.extend(cut.files.paths.iter().cloned());
     let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
@@ -54,21 +55,21 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
         claimed.fill(index, &setting.program)?;
     }
     let progress = Progress::new();
-    let walked = cut.question.along_and_left(&path, &progress);
+    let walked = cut.question.along_and_left(path, &progress);
     let (forces, left) = walked.map_err(|failure| stopped_or_within(failure, &setting))?;
     progress.finish();
-    let answer = answer_of(&setting, &cut, (&path, &forces), left.as_ref());
+    let answer = answer_of(&setting, &cut, (path, &forces), left.as_ref());
     let flat = setting.flat.as_ref();
     let mut text = text::answer_text(&answer);
     text.push_str(&listed_under(&text, flat));
     let shown = Shown {
         text,
         csv: match args.outputs.csv.is_some() {
-            true => csv::of_cut(&forces, &path, flat)?,
+            true => csv::of_cut(&forces, path, flat)?,
             false => Vec::new(),
         },
         svg: match args.outputs.plot.is_some() {
-            true => plot::drawing(&answer, &cut.question.engagement, left.as_ref(), &path),
+            true => plot::drawing(&answer, &cut.question.engagement, left.as_ref(), path),
             false => String::new(),
         },
         failure: None,

@@ -8,6 +8,7 @@ use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
+use crate::robot::arguments::RobotArgs;
 
 /// Job file, model and everything about the program.
 #[derive(Debug, Args)]
@@ -28,7 +29,7 @@ pub(crate) struct RunArgs {
 /// Options of a run along a program, shared by `compensate` and `deflect`.
 #[derive(Debug, Default, Args)]
 pub(crate) struct ProgramArgs {
-    /// G-code program
+    /// Program: G-code, or of a robot (RAPID .mod .prg)
     #[arg(long, short, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Distance of the tool's tip along z of the flange, mm
@@ -69,6 +70,8 @@ pub(crate) struct ProgramArgs {
     pub(crate) below_z_mm: Option<f64>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
     #[command(flatten)]
     pub(crate) expansion: ExpandFlags,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a

@@ -14,6 +14,7 @@ use crate::job::cut_tables::{
 use crate::job::expand_table::ExpandTable;
 use crate::job::source::Source;
 use crate::job::units_word::UnitsWord;
+use crate::robot::table::RobotTable;
 use crate::ui::failure::Failure;
 
 /// The version that is read here.
@@ -54,6 +55,8 @@ pub(crate) struct Job {
     pub measured: Option<Spanned<MeasuredTable>>,
     #[serde(default)]
     pub reading: ReadingTable,
+    /// What a program of a robot does not say itself.
+    pub robot: Option<Spanned<RobotTable>>,
     /// The program is run once and written flat.
     pub expand: Option<Spanned<ExpandTable>>,
     #[serde(default)]

@@ -25,4 +25,4 @@ pub(crate) mod source;
 mod toml_tree;
 mod tools;
 pub(crate) mod units_word;
-mod values;
+pub(crate) mod values;

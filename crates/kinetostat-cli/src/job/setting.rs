@@ -15,6 +15,9 @@ use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, output_paths};
 use crate::job::reading::reading;
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
+use crate::robot::frames::RobotFrames;
+use crate::robot::read_program::read_robot;
+use crate::robot::source::{RobotSource, robot_source};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.
@@ -23,6 +26,8 @@ pub(crate) struct Setting {
     pub(crate) program: Vec<u8>,
     pub(crate) program_name: String,
     pub(crate) program_path: PathBuf,
+    /// A program of a robot; none in G-code.
+    pub(crate) robot: Option<RobotSource>,
     /// Where the lines came from, of a program that was expanded.
     pub(crate) flat: Option<FlatProgram>,
     /// The program and its subprograms, as they were read.
@@ -47,6 +52,15 @@ impl Setting {
             failure.plain = flat.with_sources(&failure.plain);
         }
         failure.within(&self.program_name)
+    }
+
+    /// Tool and work object of a robot's program.
+    pub(crate) fn robot_frames(&self) -> Answer<Option<RobotFrames>> {
+        let Some(source) = &self.robot else {
+            return Ok(None);
+        };
+        let read = read_robot(source).map_err(|failure| self.within(failure))?;
+        Ok(Some(RobotFrames::of(&read)))
     }
 
     /// Where the flat program goes, if it goes anywhere.
@@ -93,6 +107,18 @@ pub(crate) fn setting(
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
+    let named = (path.as_path(), program_name.as_str(), program.as_slice());
+    let robot = robot_source(files, job, &flags.robot, named)?;
+    let robot = robot.map(|(source, read)| {
+        program_files.extend(read);
+        inputs.extend(source.paths.iter().cloned());
+        source
+    });
+    if let (Some(_), Some(_)) = (&robot, &expand) {
+        return Err(Failure::input(
+            "--expand and [expand] are for G-code; a program of a robot is read as it stands, with its routines: leave them out",
+        ));
+    }
     // Where faults of a job are looked for, what follows from one of them is none.
     let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
     let (program, flat) = match expand {
@@ -109,6 +135,7 @@ pub(crate) fn setting(
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
         program_files,
         flat,
+        robot,
         program,
         program_path: path,
         program_name,

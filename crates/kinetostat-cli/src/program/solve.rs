@@ -1,6 +1,5 @@
 //! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
-use kinetostat::Directions;
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
@@ -8,11 +7,11 @@ use kinetostat_machining::{
     Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
     origin_in_metres,
 };
-use kinetostat_program::{Gcode, Path as ToolPath, Program};
+use kinetostat_program::{MachineProgram, Path as ToolPath};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
-use crate::job::program::read_program;
+use crate::job::program::{ReadProgram, read_program};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
@@ -52,6 +51,11 @@ pub(crate) fn forces_of(
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<Option<ForceAlongPath>> {
+    if setting.robot.is_some() && (machine.measured.is_some() || machine.cut.is_some()) {
+        return Err(Failure::input(
+            "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis; of a robot's program state the force under [load]",
+        ));
+    }
     match &machine.measured {
         Some(setup) => measured(setup, setting, path, watch).map(Some),
         None => forces(machine.cut.as_ref(), setting, path, watch),
@@ -63,10 +67,11 @@ pub(crate) fn with_task<R>(
     aim: Aim,
     machine: &MachineSetup,
     setting: &Setting,
-    (program, path): (&Program, &ToolPath),
+    read: &ReadProgram<'_>,
     forces: Option<&ForceAlongPath>,
     work: impl FnOnce(&Task<'_>) -> R,
 ) -> Answer<R> {
+    let path = read.path();
     let tools = tools(machine, forces);
     let load = computed(machine.load, forces);
     let mut run_inputs = machine.run_inputs.clone();
@@ -125,26 +130,24 @@ pub(crate) fn with_task<R>(
             format!("placement {}", run_inputs.placement),
         ];
     }
-    let gcode = Gcode {
-        program,
-        path,
-        reading: &setting.reading,
+    let made = |program: &dyn MachineProgram| {
+        work(&Task {
+            mechanism: &machine.mechanism,
+            program,
+            corrected: read.corrected(),
+            placement: machine.placement,
+            load,
+            tools: &tools,
+            cut: forces,
+            writing,
+            run_inputs,
+            bounds: Bounds {
+                limits: setting.limits,
+                ..machine.bounds.clone()
+            },
+        })
     };
-    Ok(work(&Task {
-        mechanism: &machine.mechanism,
-        program: &gcode,
-        corrected: Directions::POSITION,
-        placement: machine.placement,
-        load,
-        tools: &tools,
-        cut: forces,
-        writing,
-        run_inputs,
-        bounds: Bounds {
-            limits: setting.limits,
-            ..machine.bounds.clone()
-        },
-    }))
+    Ok(read.with(made))
 }
 
 /// Solves the machine along the program.
@@ -154,14 +157,14 @@ pub(crate) fn solve(
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
-    let (program, path) = read_program(setting)?;
+    let read = read_program(setting)?;
+    let path = read.path();
     let progress = Progress::new();
-    let forces = forces_of(machine, setting, &path, &progress)?;
+    let forces = forces_of(machine, setting, path, &progress)?;
     if aim == Aim::Compensate {
         refuse_what_breaks_the_tool(forces.as_ref(), setting)?;
     }
-    let read = (&program, &path);
-    let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
+    let result = with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
         in_threads(threads, || match aim {
             Aim::Analyse => analyse(task, &progress),
             Aim::Compensate => compensate_program(task, &progress),
@@ -171,7 +174,7 @@ pub(crate) fn solve(
     let mut run = result.map_err(|error| {
         let failure = setting.within(Failure::from(error));
         // What is no warning without an answer may be the reason why there is none.
-        match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
+        match origin_in_metres(&machine.mechanism, &machine.placement, path) {
             Some(doubt) => failure.with_reason(&doubt.message),
             None => failure,
         }

@@ -43,6 +43,9 @@ impl PointKind {
 pub struct PointResult {
     /// Line of the input program, from 1.
     pub line: usize,
+    /// Index of its move in the path.
+    #[serde(skip)]
+    pub move_index: usize,
     /// Line of the written program, from 1 (0 if none).
     pub output_line: usize,
     /// Kind of move.

@@ -132,9 +132,8 @@ impl Again {
 
 /// The place of a point inside a block that can be divided.
 fn inside(path: &Path, point: &PointResult) -> Option<Request> {
-    let move_index = path.moves.binary_search_by_key(&point.line, |m| m.line);
-    let move_index = move_index.ok()?;
-    let motion = &path.moves[move_index];
+    let move_index = point.move_index;
+    let motion = path.moves.get(move_index)?;
     let divided = motion.is_known_feed();
     (divided && point.share > 0.0 && point.share < 1.0).then(|| Request {
         move_index,

@@ -212,6 +212,7 @@ fn point(
     };
     PointResult {
         line: site.line,
+        move_index: site.move_index,
         output_line: site.output_line,
         end: site.end,
         kind: site.kind,

@@ -17,6 +17,8 @@ use crate::task::Task;
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     pub line: usize,
+    /// Index of its move in the path.
+    pub move_index: usize,
     pub output_line: usize,
     pub kind: PointKind,
     pub share: f64,
@@ -128,6 +130,7 @@ pub(crate) fn of_path<'a>(
             let desired = motion.point(share);
             Site {
                 line: motion.line,
+                move_index: i,
                 output_line: 0,
                 kind: kind(motion),
                 share,
@@ -196,6 +199,7 @@ pub(crate) fn of_written<'a>(
                         (end, programmed): (bool, bool)| {
             sites.push(Site {
                 line: motion.line,
+                move_index: piece.move_index,
                 output_line: piece.output_line,
                 kind: match piece.corner_step {
                     true if piece.turn.is_some_and(|turn| turn.is_entry(path)) => PointKind::Entry,
