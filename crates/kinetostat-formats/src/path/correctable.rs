@@ -10,6 +10,7 @@ use crate::document::{read, write};
 use crate::error::WriteError;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
+use crate::path::header::{mark_line, with_header};
 use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
@@ -40,8 +41,10 @@ use crate::writing::piece::Piece;
 /// };
 /// // An arm that sags by 0.1 mm a metre further out.
 /// let field = |request: &Request| Ok(Vector3::z() * 1e-4 * request.position_mm.x);
-/// let written = robot.write(&field, &Default::default(), &Unwatched).unwrap();
-/// robot.verify(&written, &Default::default()).unwrap();
+/// let mut writing = kinetostat_program::WriteOptions::default();
+/// writing.header = None;
+/// let written = robot.write(&field, &writing, &Unwatched).unwrap();
+/// robot.verify(&written, &writing).unwrap();
 /// let output = String::from_utf8(written.bytes).unwrap();
 /// assert_eq!(output, text.replace("[[100,0,0]", "[[100,0,0.0100]"));
 /// ```
@@ -165,6 +168,9 @@ impl Correctable<'_> {
     }
 }
 
+/// Longest line of a header: teach pendants show 80 characters or fewer.
+const LINE_BYTES: usize = 80;
+
 /// Relative change of a speed that is not worth writing, as in G-code.
 const SAME_SPEED: f64 = 5e-4;
 
@@ -219,6 +225,12 @@ impl MachineProgram for Correctable<'_> {
         options: &PathWriteOptions,
         monitor: &dyn Monitor,
     ) -> Result<Corrected, PathWriteError> {
+        let main = self.program.files.get(self.path.file);
+        if let Some(line) = main.and_then(mark_line)
+            && !options.again
+        {
+            return Err(PathWriteError::AlreadyCompensated { line });
+        }
         let plan = Plan::new(&self.path.path, field, options, monitor)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
         let planned = plan.moves().iter().enumerate();
@@ -228,6 +240,18 @@ impl MachineProgram for Correctable<'_> {
         let changed: Vec<bool> = pieces.iter().map(|pieces| !pieces.is_empty()).collect();
         let flat: Vec<Piece> = pieces.into_iter().flatten().collect();
         let mut files = write(self.program, &flat, &self.text(options)).map_err(of_text)?;
+        let mut header_lines = 0;
+        if let (Some(texts), Some((_, bytes))) = (&options.header, files.get_mut(self.path.file))
+            && changed.contains(&true)
+        {
+            let language = self.program.language;
+            (*bytes, header_lines) = with_header(
+                language,
+                bytes,
+                texts,
+                options.max_line_bytes.min(LINE_BYTES),
+            );
+        }
         let written = self.written_moves(&plan, &changed, &files)?;
         let bytes = match self.path.file < files.len() {
             true => files.remove(self.path.file).1,
@@ -236,6 +260,7 @@ impl MachineProgram for Correctable<'_> {
         let size = (self.statement_count(), self.bytes().len());
         let mut corrected = plan.corrected(size, &written, bytes);
         corrected.beside = files;
+        corrected.accounting.header_lines = header_lines;
         Ok(corrected)
     }
 

@@ -6,6 +6,7 @@
 pub(crate) mod circle;
 pub(crate) mod correctable;
 pub(crate) mod fault;
+pub(crate) mod header;
 pub(crate) mod of_program;
 pub(crate) mod options;
 pub(crate) mod read_again;
