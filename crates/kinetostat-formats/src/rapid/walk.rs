@@ -198,7 +198,7 @@ impl<'p> Walker<'_, 'p> {
             place = self.statement(statement, place);
             if self.now.left.is_some() {
                 // What is behind a RETURN in a branch runs on a condition.
-                self.now.runs = self.now.runs.max(Runs::OnCondition);
+                self.now.runs = Runs::OnCondition.max(self.now.runs);
             }
         }
         self.now.runs = runs;
@@ -399,7 +399,7 @@ impl<'p> Walker<'_, 'p> {
                 Place::Motion(index) => Some(index),
                 Place::Entry | Place::Unknown => None,
             };
-            followed.motion.runs = followed.motion.runs.max(runs[*routine]);
+            followed.motion.runs = runs[*routine].max(followed.motion.runs);
         }
         Walked {
             motions: self.motions,
