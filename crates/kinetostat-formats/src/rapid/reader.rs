@@ -11,7 +11,7 @@ use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
 use crate::rapid::motion::Followed;
-use crate::rapid::parser::modules_of;
+use crate::rapid::parser::modules::modules_of;
 use crate::rapid::symbols::Symbols;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Module, TokenFile};

@@ -149,3 +149,22 @@ fn pieces_of_an_offset_have_its_configuration() {
         "MoveL RelTool(p1,0,0,-10.100),v20,z1,tool0;"
     );
 }
+
+#[test]
+fn lines_longer_than_allowed_are_refused() {
+    let program = main_with(
+        DATA,
+        "MoveL [[1,2,3],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0;",
+    );
+    let mut options = WriteOptions::default();
+    options.max_line_bytes = Some(74);
+    // The declarations are longer, and stay.
+    assert!(write(&program, &[], &options).is_ok());
+    let error = write(&program, &[at(0, [1.0, 2.0, 3.5])], &options).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("line 5 would be written with 79 bytes, 74 are allowed"),
+        "{error}"
+    );
+}

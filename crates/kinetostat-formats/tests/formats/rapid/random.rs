@@ -289,6 +289,61 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
     Ok((largest(&place), largest(&turn)))
 }
 
+/// Straight motions and circles divided: whether what is written again goes through all places, in their order.
+pub fn divide_and_read(chance: &mut Chance, program: &RobotProgram) -> Result<(), String> {
+    let mut pieces = Vec::new();
+    let mut places = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some(end) = motion
+            .target
+            .pose()
+            .filter(|end| end.position_mm.norm() < 9e5)
+        else {
+            places.push(None);
+            continue;
+        };
+        let divisible = motion.kind != MotionKind::Joint && motion.target.pose().is_some();
+        let count = match chance.below(3) {
+            0 if divisible => 2 + chance.below(3),
+            _ => 0,
+        };
+        let mut own = Vec::new();
+        for step in 1..count {
+            own.push(end.position_mm + Vector3::new(chance.within(5.0), step as f64, 0.0));
+        }
+        own.push(end.position_mm);
+        if count > 0 {
+            pieces.extend(own.iter().map(|place| Piece::to(index, *place)));
+        }
+        places.extend(own.into_iter().map(Some));
+    }
+    let files = match write(program, &pieces, &WriteOptions::default()) {
+        Ok(files) => files,
+        // What cannot be divided says so.
+        Err(WriteError::Motion { .. }) => return Ok(()),
+        Err(error) => return Err(error.to_string()),
+    };
+    let again = read_bytes(&files[0].1).map_err(|errors| format!("divided: {}", errors[0]))?;
+    let found: Vec<Option<Vector3<f64>>> = again
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().map(|pose| pose.position_mm))
+        .collect();
+    let near = |(found, place): (&Option<Vector3<f64>>, &Option<Vector3<f64>>)| match (found, place)
+    {
+        (Some(found), Some(place)) => (found - place).norm() <= PLACE_MM,
+        (found, place) => place.is_none() || found.is_none(),
+    };
+    match found.len() == places.len() && found.iter().zip(&places).all(near) {
+        true => Ok(()),
+        false => Err(format!(
+            "divided: {} motions instead of {}, or elsewhere",
+            found.len(),
+            places.len()
+        )),
+    }
+}
+
 /// One case of the fuzz: whether it was read.
 pub fn check(seed: u64) -> Result<bool, String> {
     let mut chance = Chance::new(seed);
@@ -315,6 +370,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     }
     let pieces = corrections(&mut chance, &program);
     let (place, turn) = write_and_read(&program, &pieces).map_err(at)?;
+    divide_and_read(&mut chance, &program).map_err(at)?;
     match place <= PLACE_MM && turn <= TURN_RAD {
         true => Ok(true),
         false => Err(at(format!("{place} mm and {turn} rad away"))),
