@@ -33,9 +33,16 @@ impl Syntax for RapidSyntax {
         names
     }
 
-    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
-        for number in 2..=taken.len() + 2 {
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        // One of so many is free.
+        for _ in 0..=taken.len() {
             let end = format!("_{number}");
+            *number += 1;
             let kept = near.len().min(LONGEST.checked_sub(end.len())?);
             let name = [&near[..kept], end.as_bytes()].concat();
             if taken.insert(name.to_ascii_uppercase()) {
