@@ -19,6 +19,20 @@ use crate::table::Treatment;
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;
 
+/// Statements that leave the path as it is, and change what deflection depends on.
+const EFFECTS: [(&str, &str); 4] = [
+    ("VelSet", "changes the speeds behind it"),
+    ("SpeedRefresh", "changes the speeds behind it"),
+    (
+        "GripLoad",
+        "changes the load that the controller reckons with",
+    ),
+    (
+        "MechUnitLoad",
+        "changes the load that the controller reckons with",
+    ),
+];
+
 /// What the walk gives: motions in their order, with the external axes at their ends.
 pub(crate) struct Walked {
     pub motions: Vec<Followed>,
@@ -278,7 +292,20 @@ impl<'p> Walker<'_, 'p> {
                     .push(ProgramError::at(file.source, span, reason, remedy));
                 Place::Unknown
             }
-            Some(_) => place,
+            Some(_) => {
+                let name = String::from_utf8_lossy(file.word(tokens.start));
+                let effects = EFFECTS
+                    .iter()
+                    .find(|(word, _)| word.eq_ignore_ascii_case(&name));
+                if let Some((word, effect)) = effects {
+                    self.findings.push(Finding {
+                        file: file.index,
+                        line: file.source.line_of(span.start),
+                        message: format!("{word} {effect}: it is carried, and not followed"),
+                    });
+                }
+                place
+            }
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
                 self.findings.push(Finding {
