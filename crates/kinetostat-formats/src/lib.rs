@@ -37,6 +37,8 @@
 
 mod document;
 mod error;
+#[doc(hidden)]
+pub mod internal;
 mod model;
 mod options;
 mod rapid;
