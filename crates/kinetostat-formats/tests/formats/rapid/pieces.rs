@@ -69,6 +69,19 @@ fn circles_stay_circles_with_a_via_and_become_chords_with_pieces() {
     let expected = "  MoveL [[50.000,50.000,5],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v20, z1, tool0;\n  MoveL p1, v20, z1, tool0;";
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("p2:=[[50,50,5]"));
+    // Without a blank behind the word: found by the fuzz.
+    let program = main_with(
+        DATA,
+        "MoveC[[50,50,5],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],p1,v20,z1,tool0;",
+    );
+    let text = written(
+        &program,
+        &[at(0, [50.0, 50.0, 5.0]), at(0, [100.0, 0.0, 5.0])],
+    );
+    assert!(
+        text.contains("v20,z1,tool0;\nMoveL p1,v20,z1,tool0;"),
+        "{text}"
+    );
 }
 
 #[test]
