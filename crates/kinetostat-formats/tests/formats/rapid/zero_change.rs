@@ -23,6 +23,7 @@ fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
         EVERYTHING.replace('\n', "\r\n").into_bytes(),
         EVERYTHING.trim_end().as_bytes().to_vec(),
         [EVERYTHING.as_bytes(), b"\r\n\t! \xff\xfe after the end"].concat(),
+        [b"\xef\xbb\xbf", EVERYTHING.as_bytes(), b"\x1a"].concat(),
         latin,
     ];
     for bytes in all {
