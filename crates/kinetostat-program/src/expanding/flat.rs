@@ -44,6 +44,11 @@ impl<'o> Flat<'o> {
         }
     }
 
+    /// Blocks so far.
+    pub fn blocks(&self) -> usize {
+        self.origins.len()
+    }
+
     /// Blocks come from a file of this name.
     pub fn name_file(&mut self, file: usize, name: &str) {
         self.files.entry(file).or_insert_with(|| name.to_owned());

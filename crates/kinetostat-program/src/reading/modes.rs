@@ -220,6 +220,11 @@ impl Modes {
         self.units_are_assumed && named.is_some_and(|named| self.units != Some(named))
     }
 
+    /// G93, G94, G95.
+    pub fn feed_mode(&self) -> FeedMode {
+        self.feed_mode
+    }
+
     /// Units in force, where they are named.
     pub fn units(&self) -> Option<Units> {
         self.units

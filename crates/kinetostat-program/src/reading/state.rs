@@ -1,6 +1,6 @@
 //! What a controller would answer about its state, after the last block.
 
-use crate::path::moves::Motion;
+use crate::path::moves::{FeedMode, Motion};
 use crate::path::spindle::SpindleRotation;
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
@@ -55,6 +55,31 @@ impl Interpreter<'_> {
         let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
         let offset = self.work_offset_mm() + self.offset.active_mm;
         (place_mm - offset[axis]) / unit
+    }
+
+    /// G93, G94, G95.
+    pub(crate) fn feed_mode(&self) -> FeedMode {
+        self.modes.feed_mode()
+    }
+
+    /// The F in force, in program units; none where there is none.
+    pub(crate) fn feed_in_units(&self) -> Option<f64> {
+        let feed = self.modes.feed?;
+        let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
+        Some(match feed.mode {
+            FeedMode::InverseTime => feed.value,
+            _ => feed.value / unit,
+        })
+    }
+
+    /// Index of the work coordinate system, 0 for G54.
+    pub(crate) fn work_system(&self) -> usize {
+        self.modes.work_offset
+    }
+
+    /// Whether a tool length is in force along an axis.
+    pub(crate) fn has_tool_length(&self) -> bool {
+        (0..3).any(|axis| self.modes.has_tool_length(axis))
     }
 
     /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.

@@ -59,6 +59,7 @@ impl Runner<'_> {
                 "call it, or take the line out",
             ));
         }
+        self.restore_at_return()?;
         let named = &mut self.shared.named;
         named.insert("_value".to_owned(), value.unwrap_or(0.0));
         named.insert(
@@ -177,6 +178,8 @@ impl Runner<'_> {
                 "end it with endsub",
             )),
             Opened::Repeated(left) => {
+                self.restore_at_return()?;
+                let frame = self.frame();
                 let numbered = frame.numbered;
                 let first = frame.first;
                 match left.checked_sub(1) {

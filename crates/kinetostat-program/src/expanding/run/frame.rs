@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::expanding::run::modal::Context;
+
 /// Numbered parameters that are a subprogram's own: 1 to 30.
 pub(crate) const LOCAL: usize = 30;
 
@@ -54,6 +56,8 @@ pub(crate) struct Frame {
     pub numbered: [f64; LOCAL],
     pub named: BTreeMap<String, f64>,
     pub loops: Vec<Loop>,
+    /// Modes that M70 or M73 have saved.
+    pub context: Option<Context>,
 }
 
 impl Frame {
@@ -67,6 +71,7 @@ impl Frame {
             numbered: [0.0; LOCAL],
             named: BTreeMap::new(),
             loops: Vec::new(),
+            context: None,
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::expanding::flat::Flat;
 use crate::expanding::options::ExpandOptions;
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::run::frame::{Frame, Label, Opened};
+use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
@@ -34,6 +35,10 @@ pub(crate) struct Runner<'o> {
     /// The cycle that bare places repeat.
     pub cycle: Option<Cycle>,
     pub steps: usize,
+    /// What blocks leave in force and the path does not know.
+    pub functions: Functions,
+    /// M72 has put back the modes from before the first F.
+    pub no_feed: bool,
 }
 
 impl<'o> Runner<'o> {
@@ -50,6 +55,8 @@ impl<'o> Runner<'o> {
             radius: Radius::new(options),
             cycle: None,
             steps: 0,
+            functions: Functions::default(),
+            no_feed: false,
         }
     }
 

@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::number::number;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::runner::{Next, Runner};
+use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::source::statement::{Piece, Statement};
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::{cycle, is_cycle};
@@ -115,6 +116,14 @@ impl Runner<'_> {
         if let Some(next) = self.called(text)? {
             return Ok(next);
         }
+        if let Some(saving) = SavingBlock::of(text) {
+            self.add_rest(&saving.before)?;
+            self.save_or_restore(saving.code)?;
+            return match saving.after.is_empty() && !polar.is_there() {
+                true => Ok(Next::Line),
+                false => self.emit(&saving.after, polar),
+            };
+        }
         let block = MotionBlock::of(text, polar);
         let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
         let code = match (block.motion, self.cycle) {
@@ -137,7 +146,7 @@ impl Runner<'_> {
         self.after_block()
     }
 
-    fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
+    pub(super) fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
         let origin = self.origin();
         self.flat
             .name_file(origin.file, &self.sources[origin.file].name);
@@ -145,7 +154,8 @@ impl Runner<'_> {
         added.map_err(|trouble| match trouble {
             Trouble::Block(error) => error,
             Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
-        })
+        })?;
+        self.note_functions(text)
     }
 
     /// What is no motion of a block that is translated.

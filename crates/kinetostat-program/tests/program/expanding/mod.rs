@@ -4,6 +4,7 @@ mod bounds;
 mod control;
 mod cycles;
 mod expressions;
+mod modes;
 mod polar;
 pub mod random;
 
