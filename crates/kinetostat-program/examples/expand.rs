@@ -9,7 +9,7 @@ use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use kinetostat_program::{ExpandOptions, OtherAxes, Subprograms, Units, expand};
+use kinetostat_program::{Dialect, ExpandOptions, OtherAxes, Subprograms, Units, expand};
 use nalgebra::Vector3;
 
 /// Files of subprograms in some folders.
@@ -54,6 +54,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                 options.reading.reference_points_mm = [Some(Vector3::zeros()); 2];
                 options.reading.work_offsets_mm = [Some(Vector3::zeros()); 9];
                 options.reading.other_axes = OtherAxes::StandStill;
+            }
+            "--dialect" => {
+                options.dialect = match arguments.next().ok_or(USAGE)?.as_str() {
+                    "linuxcnc" => Dialect::LinuxCnc,
+                    "fanuc" => Dialect::Fanuc,
+                    _ => return Err(USAGE.into()),
+                }
             }
             "--folder" => folders.push(PathBuf::from(arguments.next().ok_or(USAGE)?)),
             "--into" => into = Some(PathBuf::from(arguments.next().ok_or(USAGE)?)),

@@ -171,7 +171,8 @@ impl Runner<'_> {
             return Err(self.refuse(&reason, remedy));
         }
         self.add_rest(&block.before)?;
-        let made = cycle(code, block, self.cycle, &self.flat.interpreter);
+        let state = (&self.flat.interpreter, self.options.dialect);
+        let made = cycle(code, block, self.cycle, state);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         for text in texts {
             self.add(text.as_bytes())?;

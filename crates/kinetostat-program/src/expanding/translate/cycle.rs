@@ -1,5 +1,6 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
+use crate::expanding::options::Dialect;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
 use crate::expanding::translate::moves::Place;
@@ -37,7 +38,7 @@ pub(crate) fn cycle(
     code: u32,
     block: &MotionBlock,
     before: Option<Cycle>,
-    state: &Interpreter<'_>,
+    (state, dialect): (&Interpreter<'_>, Dialect),
 ) -> Result<(Vec<String>, Cycle), Wrong> {
     let [first, second, normal] = state.plane_axes();
     let letters = [first, second, normal].map(|axis| b"XYZ"[axis]);
@@ -120,14 +121,19 @@ pub(crate) fn cycle(
         texts.extend(place.go("G0", at([a, b], level)));
         (initial, now) = (level, level);
     }
-    let clear = match state.retracts_to_level() {
+    let stated = state.retracts_to_level().or(match dialect {
+        Dialect::LinuxCnc => Some(true),
+        Dialect::Fanuc => Some(false),
+        Dialect::Undecided => None,
+    });
+    let clear = match stated {
         Some(true) => level,
         Some(false) => initial,
         None if initial == level => level,
         None => {
             return wrong(
                 "whether the cycle goes back to its start (G98) or to R (G99) is not stated: LinuxCNC begins with G99, Fanuc with G98",
-                "write G98 or G99 before the cycle",
+                "write G98 or G99 before the cycle, or name the dialect (--dialect)",
             );
         }
     };
