@@ -199,7 +199,7 @@ impl<'o> Radius<'o> {
                 Ok(())
             }
             (State::Without, _) => {
-                words.check_within()?;
+                words.check_within(flat.interpreter.plane_axes())?;
                 flat.add(text, origin).map_err(Trouble::from)
             }
             _ => flat.add(text, origin).map_err(Trouble::from),

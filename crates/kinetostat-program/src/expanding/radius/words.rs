@@ -1,12 +1,12 @@
 //! The words of a block that have to do with cutter radius compensation, and which words may stand while it is on.
 
-use crate::expanding::radius::geometry::Side;
+use crate::expanding::radius::geometry::{Axes, Side};
 use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// G4, the moves, and modes that change nothing about the contour; in tenths.
 const CODES: &[u32] = &[
-    0, 10, 20, 30, 40, 170, 200, 210, 800, 900, 901, 910, 911, 940, 950, 960, 970,
+    0, 10, 20, 30, 40, 200, 210, 800, 900, 901, 910, 911, 940, 950, 960, 970,
 ];
 
 /// Stops, spindle and coolant.
@@ -83,7 +83,7 @@ pub(crate) fn words(text: &[u8]) -> Result<Words, Wrong> {
             b'L' if switches > 0 => {
                 return Err((
                     "L beside G41.1 and G42.1 means the tool of a lathe".to_owned(),
-                    "remove it; the plane must be XY (G17)",
+                    "remove it; the tool is taken to be round about its place",
                 ));
             }
             _ => {}
@@ -125,9 +125,11 @@ impl Words {
     }
 
     /// The first code that may not stand in a contour.
-    pub fn check_within(&self) -> Result<(), Wrong> {
+    pub fn check_within(&self, axes: Axes) -> Result<(), Wrong> {
         let remedy = "write it before G41 and G42, or behind G40 and the move after it";
-        let code = self.g.iter().find(|code| !CODES.contains(code));
+        let plane = [190, 180, 170][axes[2]];
+        let may_be = |code: &u32| CODES.contains(code) || *code == plane;
+        let code = self.g.iter().find(|code| !may_be(code));
         let function = self.m.iter().find(|code| !may_stand(**code));
         let name = match (code, function) {
             (Some(code), _) => format!("G{}", f64::from(*code) / 10.0),

@@ -11,4 +11,5 @@ pub(crate) mod parameters;
 pub(crate) mod runner;
 pub(crate) mod saves;
 pub(crate) mod source;
+pub(crate) mod splines;
 pub(crate) mod steps;

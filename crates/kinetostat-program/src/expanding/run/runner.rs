@@ -13,6 +13,7 @@ use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
 use crate::expanding::translate::cycle::Cycle;
+use crate::expanding::translate::spline::Spline;
 
 /// Subprograms within each other.
 const DEEPEST: usize = 100;
@@ -34,6 +35,8 @@ pub(crate) struct Runner<'o> {
     pub radius: Radius<'o>,
     /// The cycle that bare places repeat.
     pub cycle: Option<Cycle>,
+    /// The spline that bare places go on with.
+    pub spline: Option<Spline>,
     pub steps: usize,
     /// What blocks leave in force and the path does not know.
     pub functions: Functions,
@@ -54,6 +57,7 @@ impl<'o> Runner<'o> {
             flat: Flat::new(options),
             radius: Radius::new(options),
             cycle: None,
+            spline: None,
             steps: 0,
             functions: Functions::default(),
             no_feed: false,

@@ -126,11 +126,19 @@ impl Runner<'_> {
         }
         let block = MotionBlock::of(text, polar);
         let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
+        if let Some(code) = self.code_of_spline(&block) {
+            self.cycle = None;
+            self.spline(code, &block)?;
+            return self.after_block();
+        }
         let code = match (block.motion, self.cycle) {
             (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
             (None, Some(cycle)) if goes_on => Some(cycle.code),
             (None, _) => None,
         };
+        if block.motion.is_some() {
+            self.leave_spline()?;
+        }
         match code {
             Some(code) => self.cycle(code, &block)?,
             None => {
@@ -159,7 +167,7 @@ impl Runner<'_> {
     }
 
     /// What is no motion of a block that is translated.
-    fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
+    pub(super) fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
         match words.trim_ascii() {
             [] => Ok(()),
             words => self.add(words),
