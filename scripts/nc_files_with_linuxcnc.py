@@ -208,6 +208,10 @@ def moves(events):
     """Moves with a length."""
     made, last = [], None
     for kind, end, others, feed, arc in events:
+        if kind == "tap":
+            # Kinetostat writes it as a feed there and back, as fast as the pitch wants it.
+            made += [("feed", end, last[3:], None, None), ("feed", last[:3], last[3:], None, None)]
+            continue
         here = end + others
         if arc is None and last is not None and len(last) == len(here) and max(abs(a - b) for a, b in zip(here, last)) < PLACE_MM:
             continue
@@ -230,7 +234,7 @@ def difference(one, other):
         worst = max(worst, apart)
         if not apart <= PLACE_MM:
             return f"move {index} is {apart:.3e} mm away: {end} {others} {arc}, flat {end2} {others2} {arc2}", worst
-        if abs(feed - feed2) > 1e-9 * max(feed, 1.0):
+        if feed is not None and abs(feed - feed2) > 1e-9 * max(feed, 1.0):
             return f"move {index} has the feed {feed}, flat {feed2}", worst
     if len(one) != len(other):
         return f"{len(one)} moves, {len(other)} flat ones", worst

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
@@ -42,6 +44,16 @@ impl<'o> Flat<'o> {
             comments: OriginComments::Left,
             options: self.options,
         }
+    }
+
+    /// Says something about the last block.
+    pub fn warn(&mut self, text: &str) {
+        self.interpreter.warn(self.origins.len(), text);
+    }
+
+    /// Where the tool's point is at the machine's zero, mm, where that is known.
+    pub fn machine_zero_mm(&self) -> Option<Vector3<f64>> {
+        self.options.reading.machine_zero_mm
     }
 
     /// Blocks so far.

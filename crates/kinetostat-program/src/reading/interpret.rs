@@ -116,7 +116,7 @@ impl<'o> Interpreter<'o> {
         self.moves.last()
     }
 
-    fn warn(&mut self, line: usize, text: &str) {
+    pub(crate) fn warn(&mut self, line: usize, text: &str) {
         self.warnings.push(Warning {
             line,
             text: text.to_owned(),

@@ -1,7 +1,7 @@
 //! What a controller would answer about its state, after the last block.
 
 use crate::path::moves::{FeedMode, Motion};
-use crate::path::spindle::SpindleRotation;
+use crate::path::spindle::{Spindle, SpindleRotation};
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
 
@@ -78,13 +78,23 @@ impl Interpreter<'_> {
     }
 
     /// Whether a tool length is in force along an axis.
+    pub(crate) fn has_tool_length_along(&self, axis: usize) -> bool {
+        self.modes.has_tool_length(axis)
+    }
+
+    /// Whether a tool length is in force.
     pub(crate) fn has_tool_length(&self) -> bool {
-        (0..3).any(|axis| self.modes.has_tool_length(axis))
+        (0..3).any(|axis| self.has_tool_length_along(axis))
     }
 
     /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.
     pub(crate) fn retracts_to_level(&self) -> Option<bool> {
         self.modes.retract_mode.map(|code| code == 990)
+    }
+
+    /// How the spindle turns.
+    pub(crate) fn spindle(&self) -> Spindle {
+        self.spindle.now()
     }
 
     pub(crate) fn spindle_rotation(&self) -> SpindleRotation {

@@ -4,6 +4,7 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::radius::contour::{Contour, Programmed};
 use crate::expanding::radius::geometry::in_plane;
+use crate::expanding::radius::machine::to_machine_place;
 use crate::expanding::radius::motion::{Motion, no_motion};
 use crate::expanding::radius::pending::write;
 use crate::expanding::radius::piece::Shape;
@@ -96,6 +97,12 @@ pub(crate) fn behind(
         flat.add(text, origin)?;
         return Ok(next);
     };
+    if let Some(text) = to_machine_place(text, words, programmed)? {
+        // The programmed run goes there by the words of the program, the flat one by all axes.
+        programmed.add(block.text, origin)?;
+        flat.add(text.as_bytes(), origin)?;
+        return Ok(Next::Together);
+    }
     words.check_behind()?;
     let Some(motion) = Motion::of(text, &programmed.interpreter) else {
         programmed.add(text, origin)?;

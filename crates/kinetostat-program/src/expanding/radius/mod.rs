@@ -21,6 +21,7 @@ mod cutter;
 mod entry;
 mod follow;
 mod geometry;
+mod machine;
 mod meeting;
 mod motion;
 mod pending;

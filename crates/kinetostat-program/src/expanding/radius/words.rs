@@ -176,6 +176,12 @@ impl Words {
         CHANGES.iter().any(|code| self.m.contains(code))
     }
 
+    /// G53, with nothing else that asks where the tool is.
+    pub fn is_in_machine_coordinates(&self) -> bool {
+        let others = |code: &u32| ASKING.contains(code) && *code != 530;
+        self.g.contains(&530) && !self.g.iter().any(others) && !self.has_other_axes
+    }
+
     /// Codes that ask where the tool is cannot stand between G40 and the next move.
     pub fn check_behind(&self) -> Result<(), Wrong> {
         let asks = self.g.iter().any(|code| ASKING.contains(code)) || self.has_other_axes;

@@ -13,3 +13,4 @@ pub(crate) mod saves;
 pub(crate) mod source;
 pub(crate) mod splines;
 pub(crate) mod steps;
+pub(crate) mod taps;

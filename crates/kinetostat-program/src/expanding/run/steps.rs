@@ -2,6 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::number::number;
+use crate::expanding::options::Dialect;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
@@ -129,6 +130,12 @@ impl Runner<'_> {
         if let Some(code) = self.code_of_spline(&block) {
             self.cycle = None;
             self.spline(code, &block)?;
+            return self.after_block();
+        }
+        if block.motion == Some(331) && self.options.dialect != Dialect::Fanuc {
+            self.cycle = None;
+            self.leave_spline()?;
+            self.rigid_tap(&block)?;
             return self.after_block();
         }
         let code = match (block.motion, self.cycle) {
