@@ -193,6 +193,11 @@ impl Modes {
         }
     }
 
+    /// The table of tools has changed: the next G43 may bring another length.
+    pub fn forget_length_number(&mut self) {
+        self.length_number = None;
+    }
+
     /// Whether a tool offset is in force along an axis.
     pub fn has_tool_length(&self, axis: usize) -> bool {
         self.tool_length_on[axis]

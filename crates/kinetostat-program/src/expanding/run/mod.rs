@@ -7,6 +7,7 @@ pub(crate) mod control;
 pub(crate) mod frame;
 pub(crate) mod loops;
 pub(crate) mod modal;
+pub(crate) mod offsets;
 pub(crate) mod parameters;
 pub(crate) mod runner;
 pub(crate) mod saves;

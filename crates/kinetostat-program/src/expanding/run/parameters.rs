@@ -38,7 +38,11 @@ impl Parameters for Seen<'_, '_> {
             5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
             n if n as usize <= LOCAL => Ok(self.frame.numbered[n as usize - 1]),
             n if n < NUMBERS => match self.state.numbered_state(n) {
-                Some(of_state) => of_state,
+                // Where the state does not know it, the user may.
+                Some(of_state) => of_state.or_else(|reason| {
+                    let given = self.shared.numbered.get(&n);
+                    given.copied().ok_or(reason)
+                }),
                 // As a controller has it that nobody has told a value.
                 None => Ok(self.shared.numbered.get(&n).copied().unwrap_or(0.0)),
             },

@@ -33,6 +33,12 @@ impl Runner<'_> {
                 "write G40 and a move before it",
             ));
         }
+        if block.motion.is_none() && code != 52 {
+            return Err(self.refuse(
+                "a spline goes on without its code: LinuxCNC wants G5 and G5.1 in each block",
+                "write the code into the block",
+            ));
+        }
         self.add_rest(&block.before)?;
         let state = &self.flat.interpreter;
         if state.plane_axes() != [0, 1, 2] {

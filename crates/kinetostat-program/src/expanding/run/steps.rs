@@ -125,6 +125,12 @@ impl Runner<'_> {
                 false => self.emit(&saving.after, polar),
             };
         }
+        if let Some(texts) = self.offsets(text)? {
+            for text in texts {
+                self.add(text.as_bytes())?;
+            }
+            return self.after_block();
+        }
         let block = MotionBlock::of(text, polar);
         let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
         if let Some(code) = self.code_of_spline(&block) {

@@ -5,8 +5,10 @@ mod control;
 mod cycles;
 mod expressions;
 mod modes;
+mod offsets;
 mod polar;
 pub mod random;
+mod splines;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};
 
