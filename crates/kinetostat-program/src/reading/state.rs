@@ -1,5 +1,7 @@
 //! What a controller would answer about its state, after the last block.
 
+use nalgebra::Vector3;
+
 use crate::path::moves::{FeedMode, Motion};
 use crate::path::spindle::{Spindle, SpindleRotation};
 use crate::reading::interpret::Interpreter;
@@ -90,6 +92,16 @@ impl Interpreter<'_> {
     /// The offset of G92 along an axis, mm; none where only the machine knows it.
     pub(crate) fn position_offset_mm(&self, axis: usize) -> Option<f64> {
         (!self.shifts.now[axis]).then_some(self.offset.active_mm[axis])
+    }
+
+    /// Where the origin of the program's coordinates is, mm, part frame.
+    pub(crate) fn origin_mm(&self) -> Vector3<f64> {
+        self.work_offset_mm() + self.offset.active_mm
+    }
+
+    /// The program counts from another place now; the tool stands still.
+    pub(crate) fn stand_at(&mut self, place_mm: Vector3<f64>) {
+        self.places.position = place_mm;
     }
 
     /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.

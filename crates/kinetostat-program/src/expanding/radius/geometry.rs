@@ -69,6 +69,13 @@ pub(crate) enum Sense {
 }
 
 impl Sense {
+    pub fn other(self) -> Self {
+        match self {
+            Self::CounterClockwise => Self::Clockwise,
+            Self::Clockwise => Self::CounterClockwise,
+        }
+    }
+
     /// 1 for counter-clockwise.
     pub fn sign(self) -> f64 {
         match self {

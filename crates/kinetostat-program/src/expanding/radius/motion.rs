@@ -77,6 +77,11 @@ impl Motion {
         }
     }
 
+    /// Which of X, Y, Z it names.
+    pub fn states(&self) -> [bool; 3] {
+        self.has
+    }
+
     /// Runs the block where it is programmed; gives its motion.
     pub fn run(
         &self,

@@ -98,6 +98,28 @@ pub(crate) fn words(text: &[u8]) -> Result<Words, Wrong> {
     Ok(found)
 }
 
+/// The switch of a block with its D word, and the rest.
+pub(crate) fn divided(text: &[u8]) -> Result<(Vec<u8>, Vec<u8>), Wrong> {
+    let found = words(text)?;
+    if found.switch.is_none() {
+        return Ok((Vec::new(), text.to_vec()));
+    }
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(text, &mut tokens);
+    let pieces = tokens.iter().filter(|one| match one.token {
+        Token::Word { letter, value, .. } => {
+            letter == b'D' || letter == b'G' && switch_of(tenths(value)).is_some()
+        }
+        _ => false,
+    });
+    let mut switch = Vec::new();
+    for piece in pieces {
+        switch.extend_from_slice(&text[piece.span.clone()]);
+        switch.push(b' ');
+    }
+    Ok((switch.trim_ascii_end().to_vec(), found.rest))
+}
+
 fn tenths(value: f64) -> u32 {
     (10.0 * value).round() as u32
 }

@@ -65,7 +65,7 @@ impl Functions {
                 (b'G', code @ (610 | 611)) => self.path_mode = Some((code, None, None)),
                 (b'G', 640) => self.path_mode = Some((640, of(b'P'), of(b'Q'))),
                 (b'G', code @ (960 | 970)) => self.constant_surface = code == 960,
-                (b'G', 520 | 920 | 923) => self.shifted = Some(true),
+                (b'G', 920 | 923) => self.shifted = Some(true),
                 (b'G', 921 | 922) => self.shifted = Some(false),
                 (b'M', 190) => is_angle = true,
                 (b'M', 70) => self.mist = true,
@@ -84,6 +84,11 @@ impl Functions {
         if let (Some(speed), false) = (of(b'S'), is_time || is_angle) {
             self.speed = speed;
         }
+    }
+
+    /// Whether an offset of G92 is in force.
+    pub fn is_shifted(&self) -> bool {
+        self.shifted == Some(true)
     }
 
     fn overrides(&self) -> &'static str {

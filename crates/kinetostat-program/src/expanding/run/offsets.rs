@@ -86,7 +86,7 @@ impl Runner<'_> {
                 "write them in two blocks; only the origins of X, Y and Z are followed",
             ));
         }
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let active = 1 + state.work_system();
         let system = match words.value(b'P') {
             Some(0.0) if self.options.dialect == Dialect::LinuxCnc => active,
@@ -133,7 +133,7 @@ impl Runner<'_> {
 
     /// The origin, in machine coordinates and program units, that gives the tool's place a coordinate.
     fn origin_for(&self, axis: usize, coordinate: f64) -> Result<f64, ProgramError> {
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let unit = state.units().map_or(1.0, Units::mm_per_unit);
         let zero = self.options.reading.machine_zero_mm;
         match (zero, state.place_mm(axis), state.position_offset_mm(axis)) {
@@ -152,7 +152,7 @@ impl Runner<'_> {
 
     /// G10 L1 P R: the radius of a tool.
     fn tool_radius(&mut self, words: &Words) {
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let unit = state.units().map_or(1.0, Units::mm_per_unit);
         let tool = words
             .value(b'P')
@@ -164,8 +164,15 @@ impl Runner<'_> {
 
     /// G52.
     fn local(&mut self, words: &Words) -> Result<Option<Vec<String>>, ProgramError> {
-        if self.options.dialect != Dialect::LinuxCnc {
-            return Ok(None);
+        match (self.options.dialect, self.functions.is_shifted()) {
+            (Dialect::LinuxCnc, _) => {}
+            (Dialect::Undecided, true) => {
+                return Err(self.refuse(
+                    "G52 while G92 is in force: LinuxCNC has one offset for both, so that G52 takes its place; Fanuc adds them",
+                    "write G92.1 before it, or name the dialect (--dialect linuxcnc or fanuc)",
+                ));
+            }
+            _ => return Ok(None),
         }
         if !words.only(52.0, b"XYZ") {
             return Err(self.refuse(
@@ -173,7 +180,7 @@ impl Runner<'_> {
                 "write them in two blocks; only X, Y and Z are followed",
             ));
         }
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let mut made = "G92".to_owned();
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(shift) = words.value(letter) else {

@@ -1,6 +1,7 @@
 //! A program while it runs, and what its statements ask of it.
 
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
+use crate::expanding::coordinates::stage::Coordinates;
 use crate::expanding::expanded::Origin;
 use crate::expanding::expression::evaluate::whole;
 use crate::expanding::expression::tree::{Expression, Parameter};
@@ -14,6 +15,7 @@ use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
 use crate::expanding::translate::cycle::Cycle;
 use crate::expanding::translate::spline::Spline;
+use crate::reading::interpret::Interpreter;
 
 /// Subprograms within each other.
 const DEEPEST: usize = 100;
@@ -33,6 +35,7 @@ pub(crate) struct Runner<'o> {
     pub shared: Shared,
     pub flat: Flat<'o>,
     pub radius: Radius<'o>,
+    pub coordinates: Coordinates<'o>,
     /// The cycle that bare places repeat.
     pub cycle: Option<Cycle>,
     /// The spline that bare places go on with.
@@ -56,12 +59,19 @@ impl<'o> Runner<'o> {
             shared,
             flat: Flat::new(options),
             radius: Radius::new(options),
+            coordinates: Coordinates::default(),
             cycle: None,
             spline: None,
             steps: 0,
             functions: Functions::default(),
             no_feed: false,
         }
+    }
+
+    /// The run that knows the modes and the programmed places.
+    pub fn state(&self) -> &Interpreter<'o> {
+        let own = self.coordinates.interpreter();
+        own.unwrap_or_else(|| self.radius.interpreter(&self.flat))
     }
 
     pub fn frame(&self) -> &Frame {
@@ -115,7 +125,7 @@ impl<'o> Runner<'o> {
         let seen = Seen {
             shared: &self.shared,
             frame: self.frame(),
-            state: self.radius.interpreter(&self.flat),
+            state: self.state(),
             place_is_hidden: self.radius.hides_the_place(),
             depth: self.frames.len() - 1,
         };

@@ -70,7 +70,7 @@ impl Runner<'_> {
                 }
             },
             code => {
-                let state = self.radius.interpreter(&self.flat);
+                let state = self.state();
                 let saved = Saved::of(state, self.functions);
                 let at_return = code == 730;
                 // M73 of a subprogram holds on when M70 saves once more.
@@ -119,7 +119,7 @@ impl Runner<'_> {
     }
 
     fn state_to_save(&self) -> Saved {
-        Saved::of(self.radius.interpreter(&self.flat), self.functions)
+        Saved::of(self.state(), self.functions)
     }
 
     /// Keeps what a block leaves in force; a feed motion after M72 has put back "no feed" is refused, as LinuxCNC does.

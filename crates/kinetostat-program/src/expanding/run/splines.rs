@@ -40,7 +40,7 @@ impl Runner<'_> {
             ));
         }
         self.add_rest(&block.before)?;
-        let state = &self.flat.interpreter;
+        let state = self.state();
         if state.plane_axes() != [0, 1, 2] {
             return Err(self.refuse("a spline outside the plane XY", "write G17 before it"));
         }

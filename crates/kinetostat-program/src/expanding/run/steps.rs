@@ -171,7 +171,10 @@ impl Runner<'_> {
         let origin = self.origin();
         self.flat
             .name_file(origin.file, &self.sources[origin.file].name);
-        let added = self.radius.block(text, origin, &mut self.flat);
+        let below = (&mut self.radius, &mut self.flat);
+        let added = self
+            .coordinates
+            .block(text, origin, below, self.options.dialect);
         added.map_err(|trouble| match trouble {
             Trouble::Block(error) => error,
             Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
@@ -188,11 +191,13 @@ impl Runner<'_> {
     }
 
     fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
-        if let Some((reason, remedy)) = self.radius.refuses_cycles() {
+        let refused = self.radius.refuses_cycles();
+        let refused = refused.or_else(|| self.coordinates.refuses_cycles());
+        if let Some((reason, remedy)) = refused {
             return Err(self.refuse(&reason, remedy));
         }
         self.add_rest(&block.before)?;
-        let state = (&self.flat.interpreter, self.options.dialect);
+        let state = (self.state(), self.options.dialect);
         let made = cycle(code, block, self.cycle, state);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         for text in texts {
@@ -209,7 +214,7 @@ impl Runner<'_> {
             return Err(self.refuse("X or Y beside polar words", remedy));
         }
         self.add_rest(&block.before)?;
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
             (Ok(x), Ok(y)) => (x, y),
             (Err(reason), _) | (_, Err(reason)) => {

@@ -21,7 +21,7 @@ impl Runner<'_> {
             ));
         }
         self.add_rest(&block.before)?;
-        let state = &self.flat.interpreter;
+        let state = self.state();
         let spindle = state.spindle();
         let [own, other] = match spindle.rotation {
             SpindleRotation::Clockwise => ["M3", "M4"],
