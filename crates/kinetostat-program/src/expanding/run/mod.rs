@@ -6,6 +6,7 @@ pub(crate) mod calls;
 pub(crate) mod control;
 pub(crate) mod frame;
 pub(crate) mod loops;
+pub(crate) mod macros;
 pub(crate) mod modal;
 pub(crate) mod offsets;
 pub(crate) mod parameters;

@@ -6,9 +6,9 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::expression::evaluate::whole;
 use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
-use crate::expanding::options::ExpandOptions;
+use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::stage::Radius;
-use crate::expanding::run::frame::{Frame, Label, Opened};
+use crate::expanding::run::frame::{Frame, Label, Locals, Opened, Rules};
 use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
@@ -47,6 +47,18 @@ pub(crate) struct Runner<'o> {
     pub no_feed: bool,
 }
 
+/// The frame of the program itself.
+fn program_frame(dialect: Dialect) -> Frame {
+    let rules = match dialect {
+        Dialect::Fanuc => Rules::Fanuc,
+        Dialect::LinuxCnc | Dialect::Undecided => Rules::LinuxCnc,
+    };
+    Frame {
+        numbered: Locals::new(rules),
+        ..Frame::new(0, 0, Opened::Program)
+    }
+}
+
 impl<'o> Runner<'o> {
     pub fn new(bytes: Vec<u8>, options: &'o ExpandOptions, library: &'o dyn Subprograms) -> Self {
         let mut shared = Shared::default();
@@ -55,7 +67,7 @@ impl<'o> Runner<'o> {
             options,
             library,
             sources: vec![Source::new(String::new(), bytes)],
-            frames: vec![Frame::new(0, 0, Opened::Program)],
+            frames: vec![program_frame(options.dialect)],
             shared,
             flat: Flat::new(options),
             radius: Radius::new(options),
@@ -122,15 +134,24 @@ impl<'o> Runner<'o> {
 
     /// The value of an expression at the line that runs.
     pub fn value(&self, of: &Expression) -> Result<f64, ProgramError> {
-        let seen = Seen {
+        let found = of.value(&self.seen());
+        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+    }
+
+    /// Whether an expression is a parameter without a value (Fanuc).
+    pub fn is_vacant(&self, of: &Expression) -> Result<bool, ProgramError> {
+        let found = of.is_vacant(&self.seen());
+        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+    }
+
+    fn seen(&self) -> Seen<'_, 'o> {
+        Seen {
             shared: &self.shared,
             frame: self.frame(),
             state: self.state(),
             place_is_hidden: self.radius.hides_the_place(),
             depth: self.frames.len() - 1,
-        };
-        let found = of.value(&seen);
-        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+        }
     }
 
     pub fn whole(&self, of: &Expression, what: &str) -> Result<u32, ProgramError> {

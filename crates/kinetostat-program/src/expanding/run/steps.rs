@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::source::statement::{Piece, Statement};
@@ -77,11 +78,15 @@ impl Runner<'_> {
         let mut text = Vec::new();
         let mut polar = Polar::default();
         let mut assignments = Vec::new();
+        let fanuc = self.frame().numbered.rules == Rules::Fanuc;
+        let mut assigns = false;
         for piece in pieces {
             match piece {
                 Piece::Text(range) => {
                     text.extend_from_slice(&self.sources[file].text(index)[range.clone()]);
                 }
+                // A word without a value is as if it were not there (Fanuc).
+                Piece::Word(_, of, _) if fanuc && self.is_vacant(of)? => {}
                 Piece::Word(letter, of, _) => {
                     let value = self.value(of)?;
                     match letter {
@@ -93,13 +98,21 @@ impl Runner<'_> {
                         }
                     }
                 }
+                Piece::Assignment(to, of) if fanuc => {
+                    // At once, and from left to right.
+                    match of.is_number_zero() {
+                        true => self.vacate(to)?,
+                        false => self.assign_value(to, of)?,
+                    }
+                    assigns = true;
+                }
                 Piece::Assignment(to, of) => {
                     let value = self.value(of)?;
                     assignments.push((to, self.number_of(to)?, value));
                 }
             }
         }
-        let text = match assignments.is_empty() {
+        let text = match assignments.is_empty() && !assigns {
             true => text.trim_ascii_end(),
             false => text.trim_ascii(),
         };
@@ -116,6 +129,9 @@ impl Runner<'_> {
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
         if let Some(next) = self.called(text)? {
             return Ok(next);
+        }
+        if self.macro_call(text)? {
+            return Ok(Next::Line);
         }
         if let Some(saving) = SavingBlock::of(text) {
             self.add_rest(&saving.before)?;

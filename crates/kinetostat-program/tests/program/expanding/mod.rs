@@ -2,8 +2,10 @@
 
 mod bounds;
 mod control;
+mod coordinates;
 mod cycles;
 mod expressions;
+mod fanuc;
 mod modes;
 mod offsets;
 mod polar;
