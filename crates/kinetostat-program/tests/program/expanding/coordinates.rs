@@ -125,7 +125,7 @@ fn coordinates_that_cannot_be_followed_are_refused() {
         ("G52 X1\nG92 X0\n", "G92"),
         ("G51 X0 Y0 P2.\nG0 X1 Y1\nG81 X1 Z-1 R1\n", "cycle"),
         ("G68 X0 Y0 R30\nG81 X1 Y1 Z-1 R1\n", "cycle"),
-        ("G1 X9 G41.1 D2\nX20\nG68 X0 Y0 R1\n", "G68"),
+        ("G1 X9 G41.1 D2\nX20\nG68 X0 Y0 R1\n", "radius compensation"),
         ("G50 S2000\n", "lathe"),
     ] {
         let error = run(text).unwrap_err();

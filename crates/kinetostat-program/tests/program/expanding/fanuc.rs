@@ -75,7 +75,7 @@ fn what_dialects_disagree_on_is_refused_with_both_readings() {
     let row = "G99 G81 X1 Z-3 R1\nG91 X2\n";
     for (text, dialect, needles) in [
         (
-            "M3\nG76 X1 Z-1 R1 Q1\n",
+            "G98 M3\nG76 X1 Z-1 R1 Q1\n",
             Dialect::Undecided,
             ["thread", "boring"],
         ),
