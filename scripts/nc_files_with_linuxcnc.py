@@ -309,7 +309,25 @@ def known_classes():
         return {row["file"]: row for row in csv.DictReader(table)}
 
 
-COLUMNS = ["file", "class", "kinetostat", "reason", "without_options", "linuxcnc"]
+COLUMNS = ["file", "class", "kinetostat", "reason", "because", "without_options", "linuxcnc"]
+
+# Reasons that docs/linuxcnc.md, section 13, names.
+DOCUMENTED = [
+    (r"the file defines .* nothing is run", "library: nothing is run, 13.1"),
+    (r"probing", "probing, 13.2"),
+    (r"lathe cycles", "lathe cycle, 13.3"),
+    (r"threading", "motion tied to the spindle, 13.4"),
+    (r"#<_hal\[", "values of a running machine, 13.5"),
+]
+
+
+def because(row):
+    """Why a refusal is right."""
+    if row["kinetostat"] != "refused":
+        return ""
+    if row["linuxcnc"].startswith("refused"):
+        return "LinuxCNC refuses it too"
+    return next((text for pattern, text in DOCUMENTED if re.search(pattern, row["reason"])), "")
 
 
 def survey(tree, linuxcnc, expand, folder, write):
@@ -321,7 +339,7 @@ def survey(tree, linuxcnc, expand, folder, write):
         name = str(path.relative_to(tree))
         row = dict(file=name, **{"class": known.get(name, {}).get("class", "?")})
         if path.suffix.lower() not in PROGRAMS:
-            row.update({"class": "no program", "kinetostat": "no program", "reason": "not G-code: " + (path.suffix or "no ending")})
+            row.update({"class": "no program", "kinetostat": "no program", "reason": "not G-code: " + (path.suffix or "no ending"), "because": "", "without_options": "", "linuxcnc": ""})
             rows.append(row)
             continue
         bare, full, theirs, what, count, worst = compare(linuxcnc, expand, path, folder)
@@ -329,6 +347,9 @@ def survey(tree, linuxcnc, expand, folder, write):
         row["reason"] = full or ""
         row["without_options"] = bare and "refused" or "taken"
         row["linuxcnc"] = verdict(theirs) if theirs else known.get(name, {}).get("linuxcnc", "")
+        row["because"] = because(row)
+        if full and not row["because"]:
+            wrong.append(f"{name}: refused without a reason that LinuxCNC shares or the documentation names: {full}")
         compared, largest = compared + count, max(largest, worst)
         if what is not None:
             wrong.append(f"{name}: {what}")
@@ -349,7 +370,7 @@ def survey(tree, linuxcnc, expand, folder, write):
         if not write and row["file"] not in known:
             wrong.append(f"{row['file']} is not in {TABLE.name}")
         elif not write:
-            for column in ("kinetostat", "reason", "without_options"):
+            for column in ("kinetostat", "reason", "because", "without_options"):
                 if known[row["file"]][column] != row.get(column, ""):
                     wrong.append(f"{row['file']}: {column} is '{row.get(column, '')}', the table says '{known[row['file']][column]}'")
     if write:

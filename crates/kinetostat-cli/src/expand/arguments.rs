@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Args};
+use clap::{ArgAction, Args, ValueEnum};
+use kinetostat_program::Dialect;
 
 use crate::job::arguments::ReadingArgs;
 
@@ -29,6 +30,9 @@ pub(crate) struct ExpandArgs {
     /// Value of a numbered parameter before the program, as in 100=2.5 (repeat for more)
     #[arg(long, value_name = "NUMBER=VALUE", action = ArgAction::Append)]
     pub(crate) parameter: Vec<String>,
+    /// Controller that the program is written for; what controllers read differently is refused without it
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub(crate) dialect: Option<DialectArg>,
     /// Leave out the comments that say the line of each block
     #[arg(long)]
     pub(crate) no_comments: bool,
@@ -37,6 +41,25 @@ pub(crate) struct ExpandArgs {
     pub(crate) force_overwrite: bool,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+}
+
+/// Controllers whose readings are followed.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum DialectArg {
+    /// LinuxCNC 2.9
+    #[value(name = "linuxcnc")]
+    LinuxCnc,
+    /// Fanuc's milling controllers, and those that follow them
+    Fanuc,
+}
+
+impl DialectArg {
+    pub(crate) fn dialect(self) -> Dialect {
+        match self {
+            Self::LinuxCnc => Dialect::LinuxCnc,
+            Self::Fanuc => Dialect::Fanuc,
+        }
+    }
 }
 
 const HELP: &str = "\

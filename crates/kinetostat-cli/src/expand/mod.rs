@@ -11,7 +11,7 @@ use std::io::Write;
 use kinetostat_machining::number::counted;
 use kinetostat_program::{ExpandOptions, Expanded, OriginComments, Subprograms, expand};
 
-use crate::expand::arguments::ExpandArgs;
+use crate::expand::arguments::{DialectArg, ExpandArgs};
 use crate::expand::folders::Folders;
 use crate::expand::values::numbered;
 use crate::files::input_files::InputFiles;
@@ -27,6 +27,7 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     options.reading = reading(None, &args.reading)?;
     options.tool_diameters_mm = numbered("--tool-diameter-mm", &args.tool_diameter_mm)?;
     options.parameters = numbered("--parameter", &args.parameter)?;
+    options.dialect = args.dialect.map(DialectArg::dialect).unwrap_or_default();
     options.origin_comments = match args.no_comments {
         true => OriginComments::Left,
         false => OriginComments::Written,
