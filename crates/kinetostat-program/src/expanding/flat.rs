@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
-use crate::path::moves::Path;
+use crate::path::moves::{Path, Warning};
 use crate::reading::interpret::Interpreter;
 use crate::text::program::{Program, Reader};
 
@@ -19,6 +19,8 @@ pub(crate) struct Flat<'o> {
     /// Names of the files that blocks came from, by their index.
     files: BTreeMap<usize, String>,
     comments: OriginComments,
+    /// What the path does not say.
+    warnings: Vec<Warning>,
     options: &'o ExpandOptions,
 }
 
@@ -30,6 +32,7 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: options.origin_comments,
+            warnings: Vec::new(),
             options,
         }
     }
@@ -42,13 +45,17 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: OriginComments::Left,
+            warnings: Vec::new(),
             options: self.options,
         }
     }
 
     /// Says something about the last block.
     pub fn warn(&mut self, text: &str) {
-        self.interpreter.warn(self.origins.len(), text);
+        self.warnings.push(Warning {
+            line: self.origins.len(),
+            text: text.to_owned(),
+        });
     }
 
     /// Where the tool's point is at the machine's zero, mm, where that is known.
@@ -104,7 +111,7 @@ impl<'o> Flat<'o> {
         }
     }
 
-    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>), ProgramError> {
+    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>, Vec<Warning>), ProgramError> {
         let program = self.reader.into_program();
         let origins = self.origins;
         let path = self.interpreter.finish(&program).map_err(|error| {
@@ -114,7 +121,7 @@ impl<'o> Flat<'o> {
                 ..error
             }
         })?;
-        Ok((program, path, origins))
+        Ok((program, path, origins, self.warnings))
     }
 }
 

@@ -121,7 +121,7 @@ impl<'o> Interpreter<'o> {
         self.moves.last()
     }
 
-    pub(crate) fn warn(&mut self, line: usize, text: &str) {
+    fn warn(&mut self, line: usize, text: &str) {
         self.warnings.push(Warning {
             line,
             text: text.to_owned(),

@@ -105,9 +105,9 @@ fn a_rigid_tap_is_a_feed_and_a_return_with_the_spindle_reversed() {
     let text = format!("{begin}G33.1 Z-8 K1.5 I2\n");
     let made = expand(text, &ExpandOptions::default(), &NoSubprograms).unwrap();
     assert!(
-        made.path.warnings.iter().any(|w| w.text.contains("float")),
+        made.warnings.iter().any(|w| w.text.contains("float")),
         "{:?}",
-        made.path.warnings
+        made.warnings
     );
     let last = made.path.moves.last().unwrap();
     assert_eq!(last.feed.unwrap().value, 900.0);
