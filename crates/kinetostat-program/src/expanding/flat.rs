@@ -63,6 +63,11 @@ impl<'o> Flat<'o> {
         self.options.reading.machine_zero_mm
     }
 
+    /// Whether the closing tape mark is behind us.
+    pub fn is_closed(&self) -> bool {
+        self.reader.is_closed()
+    }
+
     /// Blocks so far.
     pub fn blocks(&self) -> usize {
         self.origins.len()

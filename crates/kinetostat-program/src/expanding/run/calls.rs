@@ -72,6 +72,13 @@ impl Runner<'_> {
 
     /// Runs on where the file of a subprogram, or the program, ends.
     pub fn end_of_file(&mut self) -> Result<Next, ProgramError> {
+        if let Some(open) = self.frame().loops.last().map(|open| open.line) {
+            self.frame_mut().next = open + 1;
+            return Err(self.refuse(
+                "the loop does not end before its file does",
+                "write its end: endwhile, endrepeat, or while behind do",
+            ));
+        }
         match self.frame().opened {
             Opened::Program => Ok(Next::End),
             Opened::Call => Err(self.refuse("a subprogram does not end", "write its endsub")),

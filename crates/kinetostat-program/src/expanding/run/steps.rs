@@ -47,6 +47,12 @@ impl Runner<'_> {
     }
 
     fn step(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
+        if self.flat.is_closed() {
+            // Text for people: nothing of it is run.
+            let text = self.sources[file].text(index).to_vec();
+            self.flat.add(&text, self.origin())?;
+            return Ok(Next::Line);
+        }
         if let Some(fault) = self.sources[file]
             .faults
             .iter()

@@ -1,6 +1,7 @@
 //! Programs that are run once and written flat.
 
 mod bounds;
+mod broken;
 mod control;
 mod coordinates;
 mod cycles;
