@@ -61,7 +61,7 @@ pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
 pub use expanding::expand::expand;
 pub use expanding::expanded::{Expanded, Origin};
-pub use expanding::options::{ExpandOptions, OriginComments};
+pub use expanding::options::{Dialect, ExpandOptions, OriginComments};
 pub use expanding::run::source::{NoSubprograms, Subprograms};
 pub use field::correction::Correction;
 pub use field::map::CorrectionMap;

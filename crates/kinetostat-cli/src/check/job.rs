@@ -132,6 +132,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let forces = forces.as_ref();
     let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
     warnings.extend(along::warnings(forces));
+    warnings.extend(setting.of_expansion());
     let is_refused = !refused.is_empty() || along::breaks_the_tool(forces).is_some();
     warnings.extend(refused);
     warnings.extend(unusual);

@@ -66,7 +66,7 @@ fn summary(name: &str, done: &Flattened) -> String {
         ),
         0,
     );
-    for warning in &expanded.path.warnings {
+    for warning in expanded.path.warnings.iter().chain(&expanded.warnings) {
         let found = format!("line {}: {}", warning.line, warning.text);
         text.push_str(&item(&done.flat.with_sources(&found)));
     }

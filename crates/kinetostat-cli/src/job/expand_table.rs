@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
+use crate::job::expansion::arguments::DialectWord;
+
 /// That the program is expanded, and how.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,6 +18,8 @@ pub(crate) struct ExpandTable {
     pub subprograms: Vec<Spanned<String>>,
     /// Values of numbered parameters before the program.
     pub parameters: Option<NumberedTable>,
+    /// Controller that the program is written for.
+    pub dialect: Option<DialectWord>,
     /// Whether flat blocks say the line that they came from.
     pub comments: Option<bool>,
 }

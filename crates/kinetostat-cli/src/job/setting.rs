@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{FileRead, FlatProgram, Limits};
-use kinetostat_program::{ReadOptions, WriteOptions};
+use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
+use kinetostat_program::{ReadOptions, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
@@ -30,6 +30,8 @@ pub(crate) struct Setting {
     pub(crate) robot: Option<RobotSource>,
     /// Where the lines came from, of a program that was expanded.
     pub(crate) flat: Option<FlatProgram>,
+    /// What was found while it was expanded, by lines of the flat program.
+    pub(crate) expansion_warnings: Vec<Warning>,
     /// The program and its subprograms, as they were read.
     pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
@@ -52,6 +54,14 @@ impl Setting {
             failure.plain = flat.with_sources(&failure.plain);
         }
         failure.within(&self.program_name)
+    }
+
+    /// Warnings of the expansion of the program.
+    pub(crate) fn of_expansion(&self) -> impl Iterator<Item = kinetostat_machining::Warning> + '_ {
+        let found = self.expansion_warnings.iter();
+        found.map(|w| {
+            kinetostat_machining::Warning::at_line(WarningCode::Program, w.line, w.text.clone())
+        })
     }
 
     /// Tool and work object of a robot's program.
@@ -121,11 +131,13 @@ pub(crate) fn setting(
     }
     // Where faults of a job are looked for, what follows from one of them is none.
     let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
+    let mut expansion_warnings = Vec::new();
     let (program, flat) = match expand {
         Some(expand) => {
             let done = flattened(program, (&path, &program_name), &expand)?;
             program_files.extend(done.read);
             inputs.extend(done.paths);
+            expansion_warnings = done.expanded.warnings;
             (done.expanded.program.bytes().to_vec(), Some(done.flat))
         }
         None => (program, None),
@@ -135,6 +147,7 @@ pub(crate) fn setting(
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
         program_files,
         flat,
+        expansion_warnings,
         robot,
         program,
         program_path: path,

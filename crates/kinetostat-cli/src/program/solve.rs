@@ -180,6 +180,7 @@ pub(crate) fn solve(
         }
     })?;
     run.result.warnings.extend(warnings(forces.as_ref()));
+    run.result.warnings.extend(setting.of_expansion());
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second
         && most > limit

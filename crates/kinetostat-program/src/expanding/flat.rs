@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
-use crate::path::moves::Path;
+use crate::path::moves::{Path, Warning};
 use crate::reading::interpret::Interpreter;
 use crate::text::program::{Program, Reader};
 
@@ -17,6 +19,8 @@ pub(crate) struct Flat<'o> {
     /// Names of the files that blocks came from, by their index.
     files: BTreeMap<usize, String>,
     comments: OriginComments,
+    /// What the path does not say.
+    warnings: Vec<Warning>,
     options: &'o ExpandOptions,
 }
 
@@ -28,6 +32,7 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: options.origin_comments,
+            warnings: Vec::new(),
             options,
         }
     }
@@ -40,8 +45,32 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: OriginComments::Left,
+            warnings: Vec::new(),
             options: self.options,
         }
+    }
+
+    /// Says something about the last block.
+    pub fn warn(&mut self, text: &str) {
+        self.warnings.push(Warning {
+            line: self.origins.len(),
+            text: text.to_owned(),
+        });
+    }
+
+    /// Where the tool's point is at the machine's zero, mm, where that is known.
+    pub fn machine_zero_mm(&self) -> Option<Vector3<f64>> {
+        self.options.reading.machine_zero_mm
+    }
+
+    /// Whether the closing tape mark is behind us.
+    pub fn is_closed(&self) -> bool {
+        self.reader.is_closed()
+    }
+
+    /// Blocks so far.
+    pub fn blocks(&self) -> usize {
+        self.origins.len()
     }
 
     /// Blocks come from a file of this name.
@@ -85,7 +114,7 @@ impl<'o> Flat<'o> {
         }
     }
 
-    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>), ProgramError> {
+    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>, Vec<Warning>), ProgramError> {
         let program = self.reader.into_program();
         let (origins, files) = (self.origins, self.files);
         let path = self.interpreter.finish(&program).map_err(|error| {
@@ -97,7 +126,7 @@ impl<'o> Flat<'o> {
                 None => error,
             }
         })?;
-        Ok((program, path, origins))
+        Ok((program, path, origins, self.warnings))
     }
 }
 

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Args};
+use clap::{ArgAction, Args, ValueEnum};
+use kinetostat_program::Dialect;
+use serde::Deserialize;
 
 /// What a program does not say and its expansion needs.
 #[derive(Clone, Debug, Default, Args)]
@@ -16,9 +18,32 @@ pub(crate) struct ExpansionArgs {
     /// Value of a numbered parameter before the program, as in 100=2.5 (repeat for more)
     #[arg(long, value_name = "NUMBER=VALUE", action = ArgAction::Append, help_heading = "Expansion")]
     pub(crate) parameter: Vec<String>,
+    /// Controller that the program is written for; what controllers read differently is refused without it
+    #[arg(long, value_enum, value_name = "NAME", help_heading = "Expansion")]
+    pub(crate) dialect: Option<DialectWord>,
     /// Leave out the comments that say the line of each flat block
     #[arg(long, help_heading = "Expansion")]
     pub(crate) no_comments: bool,
+}
+
+/// Controllers whose readings are followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum DialectWord {
+    /// LinuxCNC 2.9
+    #[value(name = "linuxcnc")]
+    LinuxCnc,
+    /// Fanuc's milling controllers, and those that follow them
+    Fanuc,
+}
+
+impl DialectWord {
+    pub(crate) fn dialect(self) -> Dialect {
+        match self {
+            Self::LinuxCnc => Dialect::LinuxCnc,
+            Self::Fanuc => Dialect::Fanuc,
+        }
+    }
 }
 
 impl ExpansionArgs {
@@ -28,6 +53,7 @@ impl ExpansionArgs {
             ("--subprograms", !self.subprograms.is_empty()),
             ("--tool-diameter-mm", !self.tool_diameter_mm.is_empty()),
             ("--parameter", !self.parameter.is_empty()),
+            ("--dialect", self.dialect.is_some()),
             ("--no-comments", self.no_comments),
         ];
         all.into_iter()

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use kinetostat_program::{ExpandOptions, OriginComments, ReadOptions};
+use kinetostat_program::{Dialect, ExpandOptions, OriginComments, ReadOptions};
 
-use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
+use crate::job::expansion::arguments::{DialectWord, ExpandFlags, ExpansionArgs};
 use crate::job::expansion::values::{any, diameter, of_options, of_table};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -56,6 +56,9 @@ pub(crate) fn settings(
     options.reading.tools = None;
     let table = job.and_then(|j| Some((j, j.job.expand.as_ref()?.get_ref())));
     let mut comments = !args.no_comments;
+    let in_job = table.and_then(|(_, table)| table.dialect);
+    let dialect = args.dialect.or(in_job).map(DialectWord::dialect);
+    options.dialect = dialect.unwrap_or_default();
     let mut folders = args.subprograms.clone();
     for folder in &folders {
         if !folder.is_dir() {
@@ -94,6 +97,14 @@ pub(crate) fn settings(
     })
 }
 
+fn dialect_name(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::LinuxCnc => "LinuxCNC",
+        Dialect::Fanuc => "Fanuc",
+        _ => "",
+    }
+}
+
 fn no_folder(folder: &Path) -> String {
     format!("'{}' is no folder", folder.display())
 }
@@ -118,6 +129,7 @@ fn words(options: &ExpandOptions, folders: &[PathBuf]) -> Vec<String> {
             listed(&options.tool_diameters_mm, "T", " mm"),
         ),
         ("parameters", listed(&options.parameters, "#", "")),
+        ("dialect", dialect_name(options.dialect).to_owned()),
     ] {
         if !text.is_empty() {
             words.push(format!("{what}: {text}"));

@@ -2,6 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
+use crate::expanding::options::Dialect;
 use crate::expanding::run::frame::{Label, LoopKind};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::source::statement::{Statement, Structure};
@@ -86,6 +87,24 @@ impl Runner<'_> {
     /// The N word to go on at: behind the line, then from the beginning.
     fn go_to(&mut self, to: &Expression) -> Result<(), ProgramError> {
         let number = self.whole(to, "a block")?;
+        self.go_to_block(number)
+    }
+
+    /// M99 P: back in the program that has called.
+    pub fn go_on_at(&mut self, number: f64) -> Result<(), ProgramError> {
+        if self.options.dialect == Dialect::LinuxCnc {
+            return Ok(());
+        }
+        match number.fract() == 0.0 && (0.0..1e9).contains(&number) {
+            true => self.go_to_block(number as u32),
+            false => Err(self.refuse(
+                "M99 P goes on at a block of the program that has called",
+                "write the whole number of its N word",
+            )),
+        }
+    }
+
+    fn go_to_block(&mut self, number: u32) -> Result<(), ProgramError> {
         let line = self.running();
         let frame = self.frame();
         let lines = &self.sources[frame.file].lines;
