@@ -3,7 +3,6 @@
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::path::moves::Motion;
 use crate::reading::dialect::{Treatment, lookup};
-use crate::reading::settings;
 use crate::text::line::{Line, LineKind, Word};
 use crate::text::program::Program;
 
@@ -254,7 +253,7 @@ impl<'p> Block<'p> {
             dropped.extend(b"XYZIJK");
         }
         if self.codes.sets {
-            dropped.extend(settings::LETTERS);
+            dropped.extend(b"XYZABCUVWRPIJQLKD");
         }
         if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");

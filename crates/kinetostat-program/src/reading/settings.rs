@@ -106,9 +106,6 @@ pub(crate) fn setting(
     })
 }
 
-/// Letters that are parameters of G10.
-pub(crate) const LETTERS: &[u8] = b"XYZABCUVWRPIJQLKD";
-
 /// Whether a block states origins of other axes.
 pub(crate) fn has_other_axes(block: &Block<'_>) -> bool {
     let mut words = block.words.iter();

@@ -2,7 +2,6 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
-use crate::expanding::options::Dialect;
 use crate::expanding::run::frame::{Label, LoopKind};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::source::statement::{Statement, Structure};
@@ -88,37 +87,5 @@ impl Runner<'_> {
     fn go_to(&mut self, to: &Expression) -> Result<(), ProgramError> {
         let number = self.whole(to, "a block")?;
         self.go_to_block(number)
-    }
-
-    /// M99 P: back in the program that has called.
-    pub fn go_on_at(&mut self, number: f64) -> Result<(), ProgramError> {
-        if self.options.dialect == Dialect::LinuxCnc {
-            return Ok(());
-        }
-        match number.fract() == 0.0 && (0.0..1e9).contains(&number) {
-            true => self.go_to_block(number as u32),
-            false => Err(self.refuse(
-                "M99 P goes on at a block of the program that has called",
-                "write the whole number of its N word",
-            )),
-        }
-    }
-
-    fn go_to_block(&mut self, number: u32) -> Result<(), ProgramError> {
-        let line = self.running();
-        let frame = self.frame();
-        let lines = &self.sources[frame.file].lines;
-        let is = |i: &usize| lines[*i].label == Some(number);
-        let mut from_here = (line + 1..lines.len()).chain(frame.first..=line);
-        match from_here.find(is) {
-            Some(found) => {
-                self.frame_mut().next = found;
-                Ok(())
-            }
-            None => Err(self.refuse(
-                &format!("GOTO {number}: there is no block N{number}"),
-                "give the block that is meant this number",
-            )),
-        }
     }
 }

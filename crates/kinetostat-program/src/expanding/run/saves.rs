@@ -3,7 +3,6 @@
 use crate::error::ProgramError;
 use crate::expanding::run::modal::{Context, Saved};
 use crate::expanding::run::runner::Runner;
-use crate::path::moves::MoveKind;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// What to do about modes that cannot be put back.
@@ -120,23 +119,5 @@ impl Runner<'_> {
 
     fn state_to_save(&self) -> Saved {
         Saved::of(self.state(), self.functions)
-    }
-
-    /// Keeps what a block leaves in force; a feed motion after M72 has put back "no feed" is refused, as LinuxCNC does.
-    pub fn note_functions(&mut self, text: &[u8]) -> Result<(), ProgramError> {
-        let mut tokens: Vec<Spanned> = Vec::new();
-        tokens_of(text, &mut tokens);
-        self.functions.note(&tokens);
-        let is_f = |one: &Spanned| matches!(one.token, Token::Word { letter: b'F', .. });
-        self.no_feed &= !tokens.iter().any(is_f);
-        let last = self.flat.interpreter.last_move();
-        let is_new = last.is_some_and(|last| last.line == self.flat.blocks());
-        match self.no_feed && is_new && last.is_some_and(|last| last.kind == MoveKind::Feed) {
-            true => Err(self.refuse(
-                "the modes that were put back are from before the first F: there is no feed",
-                "write F before this block",
-            )),
-            false => Ok(()),
-        }
     }
 }

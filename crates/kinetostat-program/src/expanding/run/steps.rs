@@ -3,7 +3,6 @@
 use crate::error::ProgramError;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
-use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
@@ -187,29 +186,6 @@ impl Runner<'_> {
             }
         }
         self.after_block()
-    }
-
-    pub(super) fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
-        let origin = self.origin();
-        self.flat
-            .name_file(origin.file, &self.sources[origin.file].name);
-        let below = (&mut self.radius, &mut self.flat);
-        let added = self
-            .coordinates
-            .block(text, origin, below, self.options.dialect);
-        added.map_err(|trouble| match trouble {
-            Trouble::Block(error) => error,
-            Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
-        })?;
-        self.note_functions(text)
-    }
-
-    /// What is no motion of a block that is translated.
-    pub(super) fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
-        match words.trim_ascii() {
-            [] => Ok(()),
-            words => self.add(words),
-        }
     }
 
     fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {

@@ -191,7 +191,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     options.most_blocks = 500;
     options.tool_diameters_mm.insert(1, 1.5);
     options.dialect = [Dialect::Undecided, Dialect::LinuxCnc, Dialect::Fanuc][(seed % 3) as usize];
-    if seed % 2 == 0 {
+    if seed.is_multiple_of(2) {
         options.reading.machine_zero_mm = Some(Vector3::new(10.0, 20.0, 30.0));
         options.reading.work_offsets_mm[0] = Some(Vector3::new(1.0, 2.0, 3.0));
     }
