@@ -6,9 +6,9 @@ use clap::{ArgAction, Args};
 
 use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
+use crate::job::robot_arguments::RobotArgs;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
-use crate::robot::arguments::RobotArgs;
 
 /// Job file, model and everything about the program.
 #[derive(Debug, Args)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::expansion::arguments::DialectWord;
+use crate::job::dialect_word::DialectWord;
 
 /// That the program is expanded, and how.
 #[derive(Clone, Debug, Default, Deserialize)]

@@ -12,9 +12,9 @@ use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::expand_table::ExpandTable;
+use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
 use crate::job::units_word::UnitsWord;
-use crate::robot::table::RobotTable;
 use crate::ui::failure::Failure;
 
 /// The version that is read here.

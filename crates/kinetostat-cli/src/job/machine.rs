@@ -15,12 +15,12 @@ use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_s
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
+use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::machine::{placement_of_robot, tool_of_robot};
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
-use crate::robot::frames::RobotFrames;
-use crate::robot::machine::{placement_of_robot, tool_of_robot};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 

@@ -4,8 +4,8 @@ use kinetostat::Directions;
 use kinetostat_program::{Gcode, MachineProgram, Path as ToolPath, Program, faults, interpret};
 
 use crate::job::expansion::advice::advice;
+use crate::job::robot::read_program::{RobotRead, read_robot};
 use crate::job::setting::Setting;
-use crate::robot::read_program::{RobotRead, read_robot};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 

@@ -14,10 +14,10 @@ use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, output_paths};
 use crate::job::reading::reading;
+use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::read_program::read_robot;
+use crate::job::robot::source::{RobotSource, robot_source};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
-use crate::robot::frames::RobotFrames;
-use crate::robot::read_program::read_robot;
-use crate::robot::source::{RobotSource, robot_source};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.

@@ -10,6 +10,7 @@ use crate::document::{read, write};
 use crate::error::WriteError;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
+use crate::path::fault::broken;
 use crate::path::header::{mark_line, with_header};
 use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
@@ -173,14 +174,6 @@ const LINE_BYTES: usize = 80;
 
 /// Relative change of a speed that is not worth writing, as in G-code.
 const SAME_SPEED: f64 = 5e-4;
-
-pub(crate) fn broken(line: usize, output_line: usize, what: String) -> PathWriteError {
-    PathWriteError::Verification {
-        line,
-        output_line,
-        what,
-    }
-}
 
 fn unreadable<E: std::fmt::Display>(errors: Vec<E>) -> PathWriteError {
     let first = errors.first().map(E::to_string).unwrap_or_default();

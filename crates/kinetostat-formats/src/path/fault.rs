@@ -1,5 +1,6 @@
-//! Why a program that was read has no path of its own.
+//! Why a program that was read has no path of its own, and why a written one is none.
 
+use kinetostat_program::WriteError as PathWriteError;
 use thiserror::Error;
 
 /// Why no path can be made of a program that was read.
@@ -15,4 +16,13 @@ pub struct PathError {
     pub reason: String,
     /// What the user can do about it.
     pub remedy: String,
+}
+
+/// A promise that a written program breaks.
+pub(crate) fn broken(line: usize, output_line: usize, what: String) -> PathWriteError {
+    PathWriteError::Verification {
+        line,
+        output_line,
+        what,
+    }
 }

@@ -5,7 +5,7 @@ use kinetostat_program::{
 };
 
 use crate::model::program::RobotProgram;
-use crate::path::correctable::broken;
+use crate::path::fault::broken;
 use crate::path::of_program::RobotPath;
 
 /// Seed of the places that are looked at: neither that of the division nor those of other checks.
@@ -106,7 +106,9 @@ fn one(
                 "it is {distance:.4} mm from the path of the input, {allowed:.4} mm are allowed"
             ));
         }
-        found.largest_distance_mm = found.largest_distance_mm.max(distance);
+        if distance > found.largest_distance_mm {
+            found.largest_distance_mm = distance;
+        }
     }
     speed(input, again, (index, piece), found).map_or(Ok(()), fail)
 }
@@ -137,7 +139,10 @@ fn speed(
     if piece.feed_limited && is <= wanted * 1e6 {
         return None;
     }
-    found.largest_speed_error = found.largest_speed_error.max(error);
+    // What is no number is refused below.
+    if error > found.largest_speed_error {
+        found.largest_speed_error = error;
+    }
     (error.is_nan() || error > SPEED)
         .then(|| format!("the speed along the part is {:.2} % off", 100.0 * error))
 }

@@ -6,6 +6,7 @@ pub(crate) mod crossing;
 pub(crate) mod curve;
 pub(crate) mod feed;
 pub(crate) mod moves;
+pub(crate) mod orientation;
 pub(crate) mod pause;
 pub(crate) mod pauses;
 pub(crate) mod position_offset;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Args, ValueEnum};
-use kinetostat_program::Dialect;
-use serde::Deserialize;
+use clap::{ArgAction, Args};
+
+use crate::job::dialect_word::DialectWord;
 
 /// What a program does not say and its expansion needs.
 #[derive(Clone, Debug, Default, Args)]
@@ -24,26 +24,6 @@ pub(crate) struct ExpansionArgs {
     /// Leave out the comments that say the line of each flat block
     #[arg(long, help_heading = "Expansion")]
     pub(crate) no_comments: bool,
-}
-
-/// Controllers whose readings are followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum DialectWord {
-    /// LinuxCNC 2.9
-    #[value(name = "linuxcnc")]
-    LinuxCnc,
-    /// Fanuc's milling controllers, and those that follow them
-    Fanuc,
-}
-
-impl DialectWord {
-    pub(crate) fn dialect(self) -> Dialect {
-        match self {
-            Self::LinuxCnc => Dialect::LinuxCnc,
-            Self::Fanuc => Dialect::Fanuc,
-        }
-    }
 }
 
 impl ExpansionArgs {

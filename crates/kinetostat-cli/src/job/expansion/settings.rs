@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_program::{Dialect, ExpandOptions, OriginComments, ReadOptions};
 
-use crate::job::expansion::arguments::{DialectWord, ExpandFlags, ExpansionArgs};
+use crate::job::dialect_word::DialectWord;
+use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
 use crate::job::expansion::values::{any, diameter, of_options, of_table};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};

@@ -6,7 +6,7 @@ use kinetostat_model::schema::{Axis, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::robot::arguments::CorrectWord;
+use crate::job::robot_arguments::CorrectWord;
 
 /// What a program of a robot does not say itself.
 #[derive(Clone, Debug, Default, Deserialize)]

@@ -9,9 +9,9 @@ use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
+use crate::job::robot_arguments::{CorrectWord, RobotArgs};
+use crate::job::robot_table::{ExternalAxesWord, RobotTable, UnknownTargetsWord};
 use crate::job::values::{above_zero, chosen};
-use crate::robot::arguments::{CorrectWord, RobotArgs};
-use crate::robot::table::{ExternalAxesWord, RobotTable, UnknownTargetsWord};
 use crate::ui::failure::Answer;
 
 /// How a robot's program is read and written.

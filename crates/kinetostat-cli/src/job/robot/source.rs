@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::job_file::JobFile;
-use crate::robot::arguments::RobotArgs;
-use crate::robot::settings::{RobotSettings, settings};
+use crate::job::robot::settings::{RobotSettings, settings};
+use crate::job::robot_arguments::RobotArgs;
 use crate::ui::failure::{Answer, Failure};
 
 /// A program of a robot as it lies on disk, and how it is to be read.

@@ -5,7 +5,7 @@ use kinetostat_machining::Placement;
 
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
-use crate::robot::frames::RobotFrames;
+use crate::job::robot::frames::RobotFrames;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{short, triple};
 

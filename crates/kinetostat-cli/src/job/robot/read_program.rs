@@ -3,8 +3,8 @@
 use kinetostat::Directions;
 use kinetostat_formats::{Correctable, RobotPath, RobotProgram, path_of, read};
 
-use crate::robot::settings::RobotSettings;
-use crate::robot::source::RobotSource;
+use crate::job::robot::settings::RobotSettings;
+use crate::job::robot::source::RobotSource;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 

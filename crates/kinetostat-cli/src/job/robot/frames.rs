@@ -4,7 +4,7 @@ use kinetostat::Pose;
 use kinetostat_formats::FrameUse;
 use nalgebra::Isometry3;
 
-use crate::robot::read_program::RobotRead;
+use crate::job::robot::read_program::RobotRead;
 
 /// What the program states of tool and work object.
 #[derive(Clone, Debug)]

@@ -3,10 +3,8 @@
 //! [`source`] finds the files, [`read_program`] reads them and makes their path, [`frames`] are the tool and the work object
 //! that the program states, for the machine of the run.
 
-pub(crate) mod arguments;
 pub(crate) mod frames;
 pub(crate) mod machine;
 pub(crate) mod read_program;
 pub(crate) mod settings;
 pub(crate) mod source;
-pub(crate) mod table;
