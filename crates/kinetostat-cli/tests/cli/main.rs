@@ -44,6 +44,7 @@ mod plausibility_checks;
 mod programs;
 mod refusals;
 mod reproduce;
+mod robot_programs;
 mod same_figures;
 mod sensible_numbers;
 mod smallest_stiffness;
