@@ -1,6 +1,8 @@
 //! Reading and writing by language.
 
 use crate::error::{ProgramError, WriteError};
+use crate::ls::reader::read_ls;
+use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::rapid::reader::read_rapid;
@@ -30,6 +32,7 @@ pub fn read(
 ) -> Result<RobotProgram, Vec<ProgramError>> {
     match language {
         Language::Rapid => read_rapid(files, options),
+        Language::FanucLs => read_ls(files, options),
     }
 }
 
@@ -66,5 +69,6 @@ pub fn write(
 ) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
     match program.language {
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
+        Language::FanucLs => write_ls(program, pieces, options),
     }
 }

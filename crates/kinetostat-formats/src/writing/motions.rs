@@ -9,7 +9,7 @@ use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::Width;
-use crate::writing::declared::Demands;
+use crate::writing::declared::{Demands, Names};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;
@@ -37,6 +37,7 @@ pub(crate) fn write_with(
         syntax,
         edits: program.files.iter().map(|_| Edits::default()).collect(),
         demands: Demands::default(),
+        names: Names::default(),
     };
     for (index, motion) in program.motions.iter().enumerate() {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
@@ -49,12 +50,15 @@ pub(crate) fn write_with(
         })?;
     }
     let Writer {
-        mut edits, demands, ..
+        mut edits,
+        demands,
+        mut names,
+        ..
     } = writer;
     let overlap = |file: usize| WriteError::Overlap {
         file: program.files[file].name().to_owned(),
     };
-    (demands.write(program, syntax, &mut edits)).ok_or_else(|| overlap(0))?;
+    (demands.write(program, syntax, &mut names, &mut edits)).ok_or_else(|| overlap(0))?;
     (edits.into_iter().enumerate())
         .map(|(index, edits)| {
             let file = &program.files[index];
@@ -72,6 +76,11 @@ const NO_END: Reason = (
     "leave its pieces out",
 );
 
+const NO_NAME: Reason = (
+    "no name or number is free for a further pose",
+    "give fewer pieces, or divide the program",
+);
+
 struct Writer<'a> {
     program: &'a RobotProgram,
     options: &'a WriteOptions,
@@ -79,6 +88,7 @@ struct Writer<'a> {
     /// One for each file.
     edits: Vec<Edits>,
     demands: Demands,
+    names: Names,
 }
 
 impl Writer<'_> {
@@ -112,6 +122,7 @@ impl Writer<'_> {
                 .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
+        (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
         if let Some((speed, text)) = speed_of(motion, last)? {
             self.edits[motion.file].replace(speed.span.clone(), text);
         }
@@ -135,7 +146,7 @@ impl Writer<'_> {
             self.syntax.straighten(self.program, motion, edits);
         }
         let file = &self.program.files[motion.file];
-        let text = self.text_of(&motion.site.target).ok_or(NO_END)?;
+        let text = text_of(self.program, &motion.site.target).ok_or(NO_END)?;
         let mut inserted = Vec::new();
         for piece in before {
             let wanted = Wanted {
@@ -144,6 +155,16 @@ impl Writer<'_> {
             };
             let home = &self.program.files[text.file];
             let literal = literal_of(home, text, &wanted, self.options).ok_or(NO_END)?;
+            let literal = match (self.syntax.declares_pieces(), &motion.site.target) {
+                (true, TargetSite::Declared { declaration, .. }) => {
+                    let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
+                    let (program, syntax) = (self.program, self.syntax);
+                    (self.names)
+                        .declare(program, syntax, declared, &literal, &mut self.edits)
+                        .ok_or(NO_NAME)?
+                }
+                _ => literal,
+            };
             let speed = speed_of(motion, piece)?.map(|(_, text)| text);
             let (program, options) = (self.program, self.options);
             let statement = self
@@ -155,18 +176,6 @@ impl Writer<'_> {
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
         Ok(())
-    }
-
-    /// The literal that says the configuration of an end.
-    fn text_of<'s>(&'s self, site: &'s TargetSite) -> Option<&'s PoseText> {
-        match site {
-            TargetSite::Literal(text) => Some(text),
-            TargetSite::Declared { declaration, .. } => {
-                Some(&self.program.declarations.get(*declaration)?.text)
-            }
-            TargetSite::Offset { literal, .. } => Some(literal),
-            TargetSite::Fixed(_) => None,
-        }
     }
 
     /// Writes one pose of a motion; without a wanted one it stays, which other uses of its declaration must know.
@@ -224,6 +233,18 @@ impl Writer<'_> {
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }
         Ok(())
+    }
+}
+
+/// The literal that says the configuration of an end.
+fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s PoseText> {
+    match site {
+        TargetSite::Literal(text) => Some(text),
+        TargetSite::Declared { declaration, .. } => {
+            Some(&program.declarations.get(*declaration)?.text)
+        }
+        TargetSite::Offset { literal, .. } => Some(literal),
+        TargetSite::Fixed(_) => None,
     }
 }
 
