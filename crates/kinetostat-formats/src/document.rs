@@ -1,5 +1,7 @@
 //! Reading and writing by language.
 
+use crate::apt::reader::read_apt;
+use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
 use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
@@ -33,6 +35,7 @@ pub fn read(
     match language {
         Language::Rapid => read_rapid(files, options),
         Language::FanucLs => read_ls(files, options),
+        Language::Apt => read_apt(files, options),
     }
 }
 
@@ -70,5 +73,6 @@ pub fn write(
     match program.language {
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
         Language::FanucLs => write_ls(program, pieces, options),
+        Language::Apt => write_apt(program, pieces, options),
     }
 }

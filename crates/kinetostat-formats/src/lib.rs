@@ -35,6 +35,7 @@
 //! assert!(output.contains("MoveJ Offs(p1,0,0,50),v500,z10,tool0;\nMoveL p1_2,v20,fine,tool0;"));
 //! ```
 
+mod apt;
 mod document;
 mod error;
 mod ls;
@@ -45,6 +46,8 @@ mod table;
 mod text;
 mod writing;
 
+pub use apt::reader::read_apt;
+pub use apt::table::APT_STATEMENTS;
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
 pub use ls::reader::read_ls;
@@ -53,7 +56,9 @@ pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};
 pub use model::target::{Configuration, PoseTarget, Target};
-pub use options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
+pub use options::{
+    CutterCompensation, ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions,
+};
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};

@@ -89,7 +89,11 @@ impl Program {
             match &self.steps[at] {
                 Step::Label(number) => {
                     if self.labels.insert(*number, at).is_some() {
-                        let fault = (at, "there is a label of this number above", "number it otherwise");
+                        let fault = (
+                            at,
+                            "there is a label of this number above",
+                            "number it otherwise",
+                        );
                         self.faults.push(fault);
                     }
                 }
@@ -101,7 +105,10 @@ impl Program {
                             self.faults.push((at, ALONE.0, ALONE.1));
                         }
                         // IF leads behind ELSE or to ENDIF; ELSE, reached from above, to ENDIF.
-                        self.other.entry(from).or_default().push(at + usize::from(is_else));
+                        self.other
+                            .entry(from)
+                            .or_default()
+                            .push(at + usize::from(is_else));
                         marks.add(from + 1, at, Runs::OnCondition);
                         if is_else {
                             open.push((at, true));

@@ -190,9 +190,7 @@ impl Layout {
 
 /// The digits before the colon with which an instruction begins, and where its text begins.
 fn prefix(line: &[u8]) -> Option<(Range<usize>, usize)> {
-    let from = line
-        .iter()
-        .position(|byte| !matches!(byte, b' ' | b'\t'))?;
+    let from = line.iter().position(|byte| !matches!(byte, b' ' | b'\t'))?;
     let digits = line[from..]
         .iter()
         .take_while(|byte| byte.is_ascii_digit())

@@ -90,11 +90,11 @@ impl Positions {
                         found.faults.push((span, twice, "number it otherwise"));
                     }
                 }
-                None => found.faults.push((
-                    start..start + head,
-                    "the position has no number",
-                    GIVE,
-                )),
+                None => {
+                    found
+                        .faults
+                        .push((start..start + head, "the position has no number", GIVE))
+                }
             }
             at = end;
         }
@@ -185,7 +185,11 @@ impl Parts {
             self.wrong = Some("it is not taught: it holds no numbers");
             return until;
         };
-        let start = from + text.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(0);
+        let start = from
+            + text
+                .iter()
+                .position(|b| !b.is_ascii_whitespace())
+                .unwrap_or(0);
         // Columns stay, with one blank behind the sign.
         let span = (from + 1).min(start)..start + first.len();
         self.number(name, unit, NumberText { span, value });
@@ -263,7 +267,9 @@ impl Parts {
                     None => Held::Nothing("its angles are not numbers"),
                 }
             }
-            (None, _) => Held::Nothing("it is not taught: it holds neither X to R nor joints of group 1"),
+            (None, _) => {
+                Held::Nothing("it is not taught: it holds neither X to R nor joints of group 1")
+            }
         };
         Position {
             span,

@@ -238,7 +238,10 @@ impl Reader<'_> {
         for (index, layout) in layouts.iter().enumerate() {
             let name = files[index].part(&layout.name).to_ascii_uppercase();
             if names.contains_key(&name) {
-                let (reason, remedy) = ("another file holds a program of this name", "give one of them");
+                let (reason, remedy) = (
+                    "another file holds a program of this name",
+                    "give one of them",
+                );
                 self.fault(&files[index], layout.name.clone(), reason, remedy);
             } else {
                 names.insert(name, index);
@@ -346,7 +349,10 @@ impl Reader<'_> {
         }
         let (target, site) = match (&position.held, displaced) {
             (Held::Nothing(reason), _) => {
-                return Err((format!("P[{number}]: {reason}"), "teach it, or take the motion out"));
+                return Err((
+                    format!("P[{number}]: {reason}"),
+                    "teach it, or take the motion out",
+                ));
             }
             (_, Some(reason)) if self.options.unknown_targets == UnknownTargets::Refused => {
                 return Err(reason);

@@ -123,9 +123,12 @@ fn perhaps(bytes: &[u8], span: &Range<usize>, depth: usize) -> Step {
                 let step = inner(bytes, at + 1 + blanks..span.end, depth + 1);
                 return match step {
                     Step::Refused(_) | Step::Carried | Step::Perhaps(_) | Step::Run => step,
-                    Step::If | Step::Else | Step::EndIf | Step::For | Step::EndFor | Step::Label(_) => {
-                        Step::Refused(UNKNOWN)
-                    }
+                    Step::If
+                    | Step::Else
+                    | Step::EndIf
+                    | Step::For
+                    | Step::EndFor
+                    | Step::Label(_) => Step::Refused(UNKNOWN),
                     step => Step::Perhaps(Box::new(step)),
                 };
             }

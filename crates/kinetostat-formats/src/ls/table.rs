@@ -141,8 +141,7 @@ pub(crate) fn row(text: &[u8]) -> Option<&'static StatementRow> {
     let begins = |row: &&StatementRow| {
         let name = row.name.as_bytes();
         text.starts_with(name)
-            && !(name.last().is_some_and(is_part)
-                && text.get(name.len()).is_some_and(is_part))
+            && !(name.last().is_some_and(is_part) && text.get(name.len()).is_some_and(is_part))
     };
     LS_STATEMENTS
         .iter()
@@ -190,7 +189,8 @@ const fn option(name: &'static str, follows: Follows, effect: Effect) -> OptionR
 
 const OFFSET: Effect =
     Effect::Displaced("it is offset by a register, whose value is not in the text");
-const COORDINATED: Effect = Effect::Refused("it is coordinated with another group that moves the part");
+const COORDINATED: Effect =
+    Effect::Refused("it is coordinated with another group that moves the part");
 
 /// All options that are known.
 #[rustfmt::skip]

@@ -70,7 +70,10 @@ fn numbered(bytes: &[u8], layout: &Layout, added: f64) -> Option<Vec<u8>> {
                 .rev()
                 .take_while(|byte| **byte == b' ')
                 .count();
-            edits.replace(line.number.start - longer.min(blanks)..line.number.end, text);
+            edits.replace(
+                line.number.start - longer.min(blanks)..line.number.end,
+                text,
+            );
         }
     }
     edits.applied_to(bytes)

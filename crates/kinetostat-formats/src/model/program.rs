@@ -12,6 +12,8 @@ pub enum Language {
     Rapid,
     /// FANUC TP programs as text.
     FanucLs,
+    /// APT and CLDATA.
+    Apt,
 }
 
 /// Something that a person should know of a program that was taken.

@@ -55,7 +55,8 @@ impl Demands {
             let mut new: BTreeMap<&[u8], Vec<u8>> = BTreeMap::new();
             for demand in demands.iter().filter(|demand| demand.literal != kept) {
                 if !new.contains_key(demand.literal.as_slice()) {
-                    let name = names.declare(program, syntax, declaration, &demand.literal, edits)?;
+                    let name =
+                        names.declare(program, syntax, declaration, &demand.literal, edits)?;
                     new.insert(&demand.literal, name);
                 }
                 let name = new.get(demand.literal.as_slice())?;

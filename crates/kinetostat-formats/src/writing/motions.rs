@@ -102,7 +102,10 @@ impl Writer<'_> {
         };
         let end = motion.target.pose().ok_or(NO_END)?;
         check(pieces)?;
-        let is_circle = matches!(motion.kind, MotionKind::Circular { .. });
+        let is_circle = matches!(
+            motion.kind,
+            MotionKind::Circular { .. } | MotionKind::Arc { .. }
+        );
         if is_circle && before.is_empty() {
             let via = last.via_mm.ok_or((
                 "one piece of a circle states no place between its start and its end",
