@@ -104,6 +104,20 @@ pub enum WriteError {
         /// Number of motions.
         motions: usize,
     },
+    /// A line would be longer than the options allow.
+    #[error(
+        "{file}: line {line} would be written with {bytes} bytes, {limit} are allowed; write its statement on several lines"
+    )]
+    LineTooLong {
+        /// Name of the file.
+        file: String,
+        /// Line of the written file, counted from 1.
+        line: usize,
+        /// Bytes the line would have, without its line ending.
+        bytes: usize,
+        /// `WriteOptions::max_line_bytes`.
+        limit: usize,
+    },
     /// Two changes want the same bytes: a fault of this library.
     #[error("two changes of {file} overlap; nothing was written, please report this")]
     Overlap {

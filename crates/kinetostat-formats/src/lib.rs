@@ -7,7 +7,7 @@
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
 //!    taken for stands in a table ([`RAPID_STATEMENTS`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
-//! 3. [`write`] changes the numbers of the text that must change, and nothing else.
+//! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
 //! This crate knows no robot. It reads and writes bytes in memory; files are the caller's. Lengths are in mm; poses are in the
 //! axes of the motion's work object; lines are counted from 1.
@@ -38,6 +38,8 @@
 mod apt;
 mod document;
 mod error;
+#[doc(hidden)]
+pub mod internal;
 mod ls;
 mod model;
 mod options;

@@ -134,7 +134,12 @@ impl Syntax for AptSyntax {
         BTreeSet::new()
     }
 
-    fn free_name(&self, _near: &[u8], _taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
+    fn free_name(
+        &self,
+        _near: &[u8],
+        _number: &mut usize,
+        _taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
         None
     }
 

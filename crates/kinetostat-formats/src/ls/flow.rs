@@ -88,14 +88,10 @@ impl Program {
         for at in 0..self.steps.len() {
             match &self.steps[at] {
                 Step::Label(number) => {
-                    if self.labels.insert(*number, at).is_some() {
-                        let fault = (
-                            at,
-                            "there is a label of this number above",
-                            "number it otherwise",
-                        );
-                        self.faults.push(fault);
-                    }
+                    let before = self.labels.insert(*number, at);
+                    let twice = "there is a label of this number above";
+                    let fault = before.map(|_| (at, twice, "number it otherwise"));
+                    self.faults.extend(fault);
                 }
                 Step::If | Step::For => open.push((at, false)),
                 Step::Else | Step::EndIf => match open.pop() {

@@ -54,7 +54,7 @@ impl Layout {
             let line = bytes[at..next].trim_ascii_end();
             let is_header = line.first() == Some(&b'/')
                 && line.get(1).is_some_and(u8::is_ascii_uppercase)
-                && !(section == Section::Before && !line.starts_with(b"/PROG"));
+                && (section != Section::Before || line.starts_with(b"/PROG"));
             if is_header {
                 layout.close(&mut open, bytes);
                 section = layout.header(line, at, next);

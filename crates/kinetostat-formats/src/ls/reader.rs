@@ -237,14 +237,15 @@ impl Reader<'_> {
         let mut names: BTreeMap<Vec<u8>, usize> = BTreeMap::new();
         for (index, layout) in layouts.iter().enumerate() {
             let name = files[index].part(&layout.name).to_ascii_uppercase();
-            if names.contains_key(&name) {
-                let (reason, remedy) = (
-                    "another file holds a program of this name",
+            let first = *names.entry(name).or_insert(index);
+            if first != index {
+                let reason = "another file holds a program of this name";
+                self.fault(
+                    &files[index],
+                    layout.name.clone(),
+                    reason,
                     "give one of them",
                 );
-                self.fault(&files[index], layout.name.clone(), reason, remedy);
-            } else {
-                names.insert(name, index);
             }
         }
         for (index, program) in programs.iter_mut().enumerate() {

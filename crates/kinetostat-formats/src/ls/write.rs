@@ -104,7 +104,12 @@ impl Syntax for LsSyntax {
         names
     }
 
-    fn free_name(&self, _near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
+    fn free_name(
+        &self,
+        _near: &[u8],
+        _number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
         let last = taken
             .last()
             .map_or(Some(0), |last| std::str::from_utf8(last).ok()?.parse().ok())?;

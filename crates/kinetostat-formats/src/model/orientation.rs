@@ -4,8 +4,7 @@ use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 /// What the numbers of an orientation mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(dead_code, reason = "each language constructs its own")]
-pub(crate) enum OrientationText {
+pub enum OrientationText {
     /// w, x, y, z (RAPID).
     Quaternion,
     /// A about Z, B about the new Y, C about the new X, degrees (KRL).
@@ -23,7 +22,8 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 
 impl OrientationText {
     /// The rotation that numbers mean; none where they mean none.
-    pub(crate) fn rotation_of(self, numbers: &[f64]) -> Option<UnitQuaternion<f64>> {
+    #[must_use]
+    pub fn rotation_of(self, numbers: &[f64]) -> Option<UnitQuaternion<f64>> {
         match (self, numbers) {
             (Self::Quaternion, &[w, x, y, z]) => {
                 let quaternion = Quaternion::new(w, x, y, z);
@@ -51,7 +51,8 @@ impl OrientationText {
 
     /// The numbers of a rotation, of those that mean the same the nearest to `near`: signs of quaternions and turns of
     /// angles stay as they were written.
-    pub(crate) fn numbers_of(self, rotation: &UnitQuaternion<f64>, near: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn numbers_of(self, rotation: &UnitQuaternion<f64>, near: &[f64]) -> Vec<f64> {
         match self {
             Self::Quaternion => {
                 let q = rotation.quaternion();
@@ -66,7 +67,7 @@ impl OrientationText {
             Self::Abc => angles(rotation, &[at(near, 0), at(near, 1), at(near, 2)]).to_vec(),
             Self::Wpr => {
                 let [a, b, c] = angles(rotation, &[at(near, 2), at(near, 1), at(near, 0)]);
-                vec![c, b, a]
+                [c, b, a].map(within_half_a_turn).to_vec()
             }
             Self::Axis => (rotation * Unit::new_unchecked(Vector3::z()))
                 .as_slice()
@@ -78,6 +79,14 @@ impl OrientationText {
 
 fn at(numbers: &[f64], index: usize) -> f64 {
     numbers.get(index).copied().unwrap_or(0.0)
+}
+
+/// An angle in degrees from -180 to 180: FANUC controllers take no other.
+fn within_half_a_turn(angle: f64) -> f64 {
+    match angle.abs() > 180.0 {
+        true => angle - 360.0 * (angle / 360.0).round(),
+        false => angle,
+    }
 }
 
 /// An angle in degrees turned whole turns next to another.

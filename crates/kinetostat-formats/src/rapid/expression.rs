@@ -107,7 +107,9 @@ impl Reader<'_, '_> {
                         value,
                     });
                     // A bracket that nothing opened.
-                    self.at = self.at.max(start + 1);
+                    if self.at == start {
+                        self.at += 1;
+                    }
                 }
             }
         }

@@ -7,6 +7,7 @@ use crate::error::ProgramError;
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
 use crate::options::{ReadOptions, UnknownTargets};
+use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
 use crate::rapid::name::Name;
@@ -18,40 +19,19 @@ use crate::table::Treatment;
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;
 
-/// Where the tool is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
-    /// Where it was as the routine was called.
-    Entry,
-    /// At the end of a motion.
-    Motion(usize),
-    /// Not known from the text.
-    Unknown,
-}
-
-fn merge(one: Place, other: Place) -> Place {
-    match one == other {
-        true => one,
-        false => Place::Unknown,
-    }
-}
-
-/// What a routine is found to do.
-#[derive(Debug, Clone, Default)]
-struct Summary {
-    /// None while it is walked or was not.
-    leaves: Option<Place>,
-    begun: bool,
-    calls: Vec<Call>,
-    recursive: bool,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Call {
-    from: usize,
-    at: Place,
-    runs: Runs,
-}
+/// Statements that leave the path as it is, and change what deflection depends on.
+const EFFECTS: [(&str, &str); 4] = [
+    ("VelSet", "changes the speeds behind it"),
+    ("SpeedRefresh", "changes the speeds behind it"),
+    (
+        "GripLoad",
+        "changes the load that the controller reckons with",
+    ),
+    (
+        "MechUnitLoad",
+        "changes the load that the controller reckons with",
+    ),
+];
 
 /// What the walk gives: motions in their order, with the external axes at their ends.
 pub(crate) struct Walked {
@@ -198,7 +178,7 @@ impl<'p> Walker<'_, 'p> {
             place = self.statement(statement, place);
             if self.now.left.is_some() {
                 // What is behind a RETURN in a branch runs on a condition.
-                self.now.runs = self.now.runs.max(Runs::OnCondition);
+                self.now.runs = Runs::OnCondition.max(self.now.runs);
             }
         }
         self.now.runs = runs;
@@ -312,7 +292,20 @@ impl<'p> Walker<'_, 'p> {
                     .push(ProgramError::at(file.source, span, reason, remedy));
                 Place::Unknown
             }
-            Some(_) => place,
+            Some(_) => {
+                let name = String::from_utf8_lossy(file.word(tokens.start));
+                let effects = EFFECTS
+                    .iter()
+                    .find(|(word, _)| word.eq_ignore_ascii_case(&name));
+                if let Some((word, effect)) = effects {
+                    self.findings.push(Finding {
+                        file: file.index,
+                        line: file.source.line_of(span.start),
+                        message: format!("{word} {effect}: it is carried, and not followed"),
+                    });
+                }
+                place
+            }
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
                 self.findings.push(Finding {
@@ -362,34 +355,7 @@ impl<'p> Walker<'_, 'p> {
 
     /// Fills in what depends on the calls of each routine.
     fn resolve(mut self, main: Option<usize>) -> Walked {
-        let count = self.summaries.len();
-        let mut runs = vec![Runs::Elsewhere; count];
-        let mut entry = vec![Place::Unknown; count];
-        // Callers first.
-        for routine in self.finished.iter().rev().copied() {
-            let summary = &self.summaries[routine];
-            let from = |call: &Call| match call.at {
-                Place::Entry => entry[call.from],
-                place => place,
-            };
-            let reached = summary
-                .calls
-                .iter()
-                .filter(|call| runs[call.from] != Runs::Elsewhere);
-            let mut reached = reached.map(|call| runs[call.from].max(call.runs));
-            runs[routine] = match (reached.next(), reached.next()) {
-                _ if summary.recursive => Runs::Repeatedly,
-                (None, _) if Some(routine) == main => Runs::Once,
-                (None, _) => Runs::Elsewhere,
-                (Some(once), None) => once,
-                (Some(_), Some(_)) => Runs::Repeatedly,
-            };
-            let mut places = summary.calls.iter().map(from);
-            entry[routine] = match (Some(routine) == main || summary.recursive, places.next()) {
-                (false, Some(first)) => places.fold(first, merge),
-                _ => Place::Unknown,
-            };
-        }
+        let (runs, entry) = of_calls(&self.summaries, &self.finished, main);
         for (followed, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
             let place = match place {
                 Place::Entry => entry[*routine],
@@ -399,7 +365,7 @@ impl<'p> Walker<'_, 'p> {
                 Place::Motion(index) => Some(index),
                 Place::Entry | Place::Unknown => None,
             };
-            followed.motion.runs = followed.motion.runs.max(runs[*routine]);
+            followed.motion.runs = runs[*routine].max(followed.motion.runs);
         }
         Walked {
             motions: self.motions,

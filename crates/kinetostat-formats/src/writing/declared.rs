@@ -53,10 +53,17 @@ impl Demands {
                 edits[home].replace(declaration.text.whole.clone(), kept);
             }
             let mut new: BTreeMap<&[u8], Vec<u8>> = BTreeMap::new();
+            let mut number = 2;
             for demand in demands.iter().filter(|demand| demand.literal != kept) {
                 if !new.contains_key(demand.literal.as_slice()) {
-                    let name =
-                        names.declare(program, syntax, declaration, &demand.literal, edits)?;
+                    let name = names.declare(
+                        program,
+                        syntax,
+                        declaration,
+                        &demand.literal,
+                        &mut number,
+                        edits,
+                    )?;
                     new.insert(&demand.literal, name);
                 }
                 let name = new.get(demand.literal.as_slice())?;
@@ -79,11 +86,12 @@ impl Names {
         syntax: &dyn Syntax,
         declaration: &Declaration,
         literal: &[u8],
+        number: &mut usize,
         edits: &mut [Edits],
     ) -> Option<Vec<u8>> {
         let file = program.files.get(declaration.text.file)?;
         let taken = self.0.get_or_insert_with(|| syntax.names(program));
-        let name = syntax.free_name(file.part(&declaration.name), taken)?;
+        let name = syntax.free_name(file.part(&declaration.name), number, taken)?;
         let text = further(program, declaration, &name, literal)?;
         let at = syntax.copies_at(program, declaration);
         edits[declaration.text.file].replace(at..at, text);

@@ -1,6 +1,6 @@
 //! From pieces of motions to edits of files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::WriteError;
 use crate::model::motion::{Motion, MotionKind};
@@ -9,6 +9,7 @@ use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::Width;
+use crate::text::source::SourceFile;
 use crate::writing::declared::{Demands, Names};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
@@ -63,9 +64,36 @@ pub(crate) fn write_with(
         .map(|(index, edits)| {
             let file = &program.files[index];
             let bytes = edits.applied_to(file.bytes());
-            Ok((file.name().to_owned(), bytes.ok_or_else(|| overlap(index))?))
+            let bytes = bytes.ok_or_else(|| overlap(index))?;
+            check_lines(file, &bytes, options)?;
+            Ok((file.name().to_owned(), bytes))
         })
         .collect()
+}
+
+/// No line that changed is longer than allowed.
+fn check_lines(
+    file: &SourceFile,
+    written: &[u8],
+    options: &WriteOptions,
+) -> Result<(), WriteError> {
+    let Some(limit) = options.max_line_bytes else {
+        return Ok(());
+    };
+    let old = file.bytes().split(|byte| *byte == b'\n');
+    let old: BTreeSet<&[u8]> = old.filter(|line| line.len() > limit).collect();
+    for (index, line) in written.split(|byte| *byte == b'\n').enumerate() {
+        let bytes = line.strip_suffix(b"\r").unwrap_or(line).len();
+        if bytes > limit && !old.contains(line) {
+            return Err(WriteError::LineTooLong {
+                file: file.name().to_owned(),
+                line: index + 1,
+                bytes,
+                limit,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Why a motion cannot be written, and what to do.
@@ -163,7 +191,7 @@ impl Writer<'_> {
                     let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
                     let (program, syntax) = (self.program, self.syntax);
                     (self.names)
-                        .declare(program, syntax, declared, &literal, &mut self.edits)
+                        .declare(program, syntax, declared, &literal, &mut 2, &mut self.edits)
                         .ok_or(NO_NAME)?
                 }
                 _ => literal,

@@ -13,8 +13,13 @@ pub(crate) trait Syntax {
     /// All names of the program, as the language compares them.
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>>;
 
-    /// A name like `near` that is not taken, and takes it.
-    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>>;
+    /// A name like `near` with a number, from this one on, that is not taken; it is taken then, and the number is the next.
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>>;
 
     /// Whether the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
     fn declares_pieces(&self) -> bool {

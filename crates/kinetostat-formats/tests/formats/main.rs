@@ -8,5 +8,7 @@
     reason = "a failing test may panic"
 )]
 
+mod numbers;
+mod orientations;
 mod rapid;
 mod real_files;
