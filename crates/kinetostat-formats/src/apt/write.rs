@@ -38,7 +38,13 @@ pub(crate) fn write_apt(
     }
     let mut all = pieces.to_vec();
     for (index, motion) in program.motions.iter().enumerate() {
-        let starts_elsewhere = motion.follows.is_some_and(|from| ends.contains_key(&from));
+        let starts_elsewhere = motion.follows.is_some_and(|from| {
+            let before = program.motions.get(from).and_then(|m| m.target.pose());
+            let (Some(piece), Some(before)) = (ends.get(&from), before) else {
+                return false;
+            };
+            (piece.position_mm - before.position_mm).norm() > SAME_MM
+        });
         if ends.contains_key(&index) || !starts_elsewhere {
             continue;
         }
@@ -82,6 +88,9 @@ fn is_step(program: &RobotProgram, motion: &Motion) -> bool {
     let word = program.files[motion.file].part(&motion.site.keyword);
     word.eq_ignore_ascii_case(b"GODLTA")
 }
+
+/// Least change of a place that counts, mm.
+const SAME_MM: f64 = 1e-6;
 
 /// Least change of an axis that is written, rad.
 const SAME_RAD: f64 = 1e-9;

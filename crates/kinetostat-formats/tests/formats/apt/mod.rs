@@ -1,0 +1,4 @@
+//! APT and CLDATA.
+
+mod properties;
+mod random;

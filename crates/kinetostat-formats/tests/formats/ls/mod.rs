@@ -1,0 +1,4 @@
+//! FANUC TP programs.
+
+mod properties;
+mod random;
