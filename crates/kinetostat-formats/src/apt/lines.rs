@@ -13,6 +13,8 @@ pub(crate) struct Statement {
     pub span: Range<usize>,
     /// From the beginning of its first line behind its last line end.
     pub lines: Range<usize>,
+    /// A slash stands behind the word.
+    pub slash: bool,
     /// `NAME = ...`: geometry and numbers.
     pub assigns: bool,
 }
@@ -64,6 +66,7 @@ pub(crate) fn statements_of(bytes: &[u8]) -> Vec<Statement> {
             (None, _) => end..end,
         };
         statements.push(Statement {
+            slash: sign == Some(b'/'),
             assigns: sign == Some(b'=') && !is_text,
             word,
             arguments,

@@ -170,6 +170,12 @@ impl Reader<'_, '_> {
         if !is_motion {
             self.end_circle();
         }
+        let understood = row(&word).is_some_and(|row| row.treatment == Treatment::Understood);
+        if understood && !statement.slash && !statement.arguments.is_empty() && word != b"TLON" {
+            let remedy = "write it as WORD/arguments";
+            self.state.place = None;
+            return self.fault(span, "no slash stands behind the word", remedy);
+        }
         match &word[..] {
             b"GOTO" => self.goto(statement),
             b"GODLTA" => self.step(statement),

@@ -208,6 +208,9 @@ impl Parts {
                 if unit != Some(wanted) {
                     self.wrong = Some("X, Y, Z are in mm, and W, P, R in deg");
                 }
+                if number.value.abs() > 360.0 && wanted == b"deg" {
+                    self.wrong = Some("W, P, R are from -360 to 360 deg");
+                }
                 self.numbers.insert(letter, number);
             }
             (None, Some(b'J')) if numbered && self.group <= 1 => self.joints.push(number.value),

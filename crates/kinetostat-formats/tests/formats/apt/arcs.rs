@@ -91,8 +91,11 @@ fn an_arc_is_not_bent_by_its_end_or_its_start() {
         .iter()
         .position(|motion| matches!(motion.kind, MotionKind::Arc { .. }))
         .unwrap();
+    // The arc behind it goes on from its end.
+    let next = &program.motions[arc + 1];
+    let kept = Piece::to(arc + 1, next.target.pose().unwrap().position_mm);
     let refused = |piece: Piece| {
-        write(&program, &[piece], &WriteOptions::default())
+        write(&program, &[piece, kept.clone()], &WriteOptions::default())
             .unwrap_err()
             .to_string()
     };

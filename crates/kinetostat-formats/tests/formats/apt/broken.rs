@@ -20,6 +20,7 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "a place has 3 or 6 numbers, here are 2; let the CAM system write points",
         ),
         ("GOTO/1,2,3,0,0,1,7", "here are 7"),
+        ("GOTO.5,2,3", "no slash stands behind the word"),
         ("GOTO/P1", "a place is stated by other than numbers"),
         ("GOTO/1,2,x3", "a place is stated by other than numbers"),
         ("GOTO/1,2,3,0,0,2", "the tool's axis has not the length 1"),
@@ -86,7 +87,7 @@ fn circles_that_fit_nothing_are_refused() {
         ),
         (
             "GOTO/1.,0,0\nCIRCLE/0,0,0,0,0,1.,5.\nGOTO/0,1.,0",
-            "and 5 is stated",
+            "and 5.0000 is stated",
         ),
         (
             "GOTO/1.,0,0\nCIRCLE/0,0,0,0,0,3.\nGOTO/0,1.,0",

@@ -41,7 +41,8 @@ fn each_kind_is_recognised() {
 
 #[test]
 fn texts_and_comments_are_never_words() {
-    let text = "PARTNO GOTO/1,2,3 $\nPPRINT GOTO/4,5,6 $$\n$$ GOTO/7,8,9\nGOTO/1,2,$ GOTO/0,0,0\n 3 $$ GOTO/9,9,9\n";
+    let text =
+        "PARTNO GOTO/1,2,3 $\nPPRINT GOTO/4,5,6 $$\n$$ GOTO/7,8,9\nGOTO/1,2,$\n 3 $$ GOTO/9,9,9\n";
     let program = program(text);
     assert_eq!(program.motions.len(), 1);
     assert_eq!(place(&program, 0), [1.0, 2.0, 3.0]);

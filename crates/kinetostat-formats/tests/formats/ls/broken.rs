@@ -181,6 +181,11 @@ fn files_and_positions_that_are_not_whole_are_refused() {
             "X, Y, Z are in mm",
         ),
         (
+            whole.replacen("180.000 deg", "180.E9 deg", 1),
+            5,
+            "W, P, R are from -360 to 360 deg",
+        ),
+        (
             whole.replacen("P[1]{", "P[x]{", 1),
             5,
             "position P[1] is not in /POS",
