@@ -41,12 +41,14 @@ fn macros(minutes: &str, seed: &str) -> Result<()> {
 /// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED`.
 fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
     let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
-    example(
-        "fuzz of RAPID programs",
-        "kinetostat-formats",
-        "fuzz_rapid",
-        &[&minutes, seed],
-    )
+    for (what, name) in [
+        ("fuzz of RAPID programs", "fuzz_rapid"),
+        ("fuzz of TP programs", "fuzz_ls"),
+        ("fuzz of APT files", "fuzz_apt"),
+    ] {
+        example(what, "kinetostat-formats", name, &[&minutes, seed])?;
+    }
+    Ok(())
 }
 
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.

@@ -1,6 +1,10 @@
 //! Reading and writing by language.
 
+use crate::apt::reader::read_apt;
+use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
+use crate::ls::reader::read_ls;
+use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::rapid::reader::read_rapid;
@@ -30,6 +34,8 @@ pub fn read(
 ) -> Result<RobotProgram, Vec<ProgramError>> {
     match language {
         Language::Rapid => read_rapid(files, options),
+        Language::FanucLs => read_ls(files, options),
+        Language::Apt => read_apt(files, options),
     }
 }
 
@@ -66,5 +72,7 @@ pub fn write(
 ) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
     match program.language {
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
+        Language::FanucLs => write_ls(program, pieces, options),
+        Language::Apt => write_apt(program, pieces, options),
     }
 }

@@ -35,11 +35,13 @@
 //! assert!(output.contains("MoveJ Offs(p1,0,0,50),v500,z10,tool0;\nMoveL p1_2,v20,fine,tool0;"));
 //! ```
 
+mod apt;
 mod document;
 mod error;
 #[doc(hidden)]
 pub mod internal;
 mod language;
+mod ls;
 mod model;
 mod options;
 mod path;
@@ -48,14 +50,20 @@ mod table;
 mod text;
 mod writing;
 
+pub use apt::reader::read_apt;
+pub use apt::table::APT_STATEMENTS;
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
 pub use language::language_of;
+pub use ls::reader::read_ls;
+pub use ls::table::LS_STATEMENTS;
 pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};
 pub use model::target::{Configuration, PoseTarget, Target};
-pub use options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
+pub use options::{
+    CutterCompensation, ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions,
+};
 pub use path::correctable::Correctable;
 pub use path::fault::PathError;
 pub use path::of_program::{RobotPath, path_of};

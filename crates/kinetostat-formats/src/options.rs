@@ -24,6 +24,16 @@ pub enum ExternalAxes {
     Carried,
 }
 
+/// What becomes of a path that the controller moves aside by the tool's radius (APT: `CUTCOM`, `TLCOMP`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CutterCompensation {
+    /// It is refused with its line.
+    #[default]
+    Refused,
+    /// The places are those of the tool's centre: the controller's radius is zero, or only the wear.
+    CentrePath,
+}
+
 /// How a program is read.
 ///
 /// ```
@@ -46,6 +56,8 @@ pub struct ReadOptions {
     pub unknown_targets: UnknownTargets,
     /// External axes that move.
     pub external_axes: ExternalAxes,
+    /// Paths that the controller moves aside.
+    pub cutter_compensation: CutterCompensation,
 }
 
 /// Where a motion that is written as several pieces stops, if it stops at its end.

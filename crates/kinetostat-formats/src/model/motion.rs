@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::model::frame::FrameUse;
 use crate::model::site::MotionSite;
@@ -19,6 +19,15 @@ pub enum MotionKind {
     Circular {
         /// Between start and end.
         via: Target,
+    },
+    /// On an arc about a stated centre, or a helix with an even rise: for languages that state centre and axis.
+    Arc {
+        /// In the axes of the work object, mm.
+        centre_mm: Vector3<f64>,
+        /// Of length 1.
+        axis: Vector3<f64>,
+        /// By which the tool goes around the axis, right-handed, rad; a whole turn where the start is the end.
+        angle_rad: f64,
     },
 }
 

@@ -67,7 +67,7 @@ impl OrientationText {
             Self::Abc => angles(rotation, &[at(near, 0), at(near, 1), at(near, 2)]).to_vec(),
             Self::Wpr => {
                 let [a, b, c] = angles(rotation, &[at(near, 2), at(near, 1), at(near, 0)]);
-                vec![c, b, a]
+                [c, b, a].map(within_half_a_turn).to_vec()
             }
             Self::Axis => (rotation * Unit::new_unchecked(Vector3::z()))
                 .as_slice()
@@ -79,6 +79,14 @@ impl OrientationText {
 
 fn at(numbers: &[f64], index: usize) -> f64 {
     numbers.get(index).copied().unwrap_or(0.0)
+}
+
+/// An angle in degrees from -180 to 180: FANUC controllers take no other.
+fn within_half_a_turn(angle: f64) -> f64 {
+    match angle.abs() > 180.0 {
+        true => angle - 360.0 * (angle / 360.0).round(),
+        false => angle,
+    }
 }
 
 /// An angle in degrees turned whole turns next to another.

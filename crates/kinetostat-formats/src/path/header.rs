@@ -2,6 +2,7 @@
 
 use kinetostat_program::COMPENSATED_MARK;
 
+use crate::ls::write::numbered_again;
 use crate::model::program::Language;
 use crate::text::source::SourceFile;
 
@@ -22,6 +23,15 @@ fn comments(language: Language) -> Comments {
         Language::Rapid => Comments {
             opens: "! ",
             below: Some("MODULE"),
+        },
+        Language::Apt => Comments {
+            opens: "$$ ",
+            below: None,
+        },
+        // A remark has 32 characters: the mark alone is written.
+        Language::FanucLs => Comments {
+            opens: "   1:  !",
+            below: Some("/MN"),
         },
     }
 }
@@ -63,13 +73,21 @@ pub(crate) fn with_header(
     };
     let mut header = Vec::new();
     let mut count = 0;
+    let closes: &[u8] = match language {
+        Language::FanucLs => b" ;",
+        _ => b"",
+    };
     let mut write = |text: &str| {
-        for part in [opens.as_bytes(), text.as_bytes(), ending] {
+        for part in [opens.as_bytes(), text.as_bytes(), closes, ending] {
             header.extend_from_slice(part);
         }
         count += 1;
     };
     write(COMPENSATED_MARK);
+    if language == Language::FanucLs {
+        let bytes = [&bytes[..at], &header, &bytes[at..]].concat();
+        return (numbered_again(&bytes).unwrap_or(bytes), 1);
+    }
     let room = max_line_bytes
         .saturating_sub(opens.len() + PREFIX.len())
         .max(20);

@@ -4,7 +4,7 @@ use kinetostat_program::{
     Corrected, Knowledge, Piece, Verification, WriteError, WriteOptions, irregular,
 };
 
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 use crate::path::fault::broken;
 use crate::path::of_program::RobotPath;
 
@@ -177,7 +177,8 @@ fn untouched(
             if touched.contains(&(number + 1)) {
                 continue;
             }
-            if !output.any(|(_, written)| written == line) {
+            let wanted = without_number(program.language, line);
+            if !output.any(|(_, written)| without_number(program.language, written) == wanted) {
                 return Err(broken(
                     number + 1,
                     0,
@@ -187,4 +188,17 @@ fn untouched(
         }
     }
     Ok(())
+}
+
+/// A line without what is counted anew where lines are added: its number and the count of lines.
+fn without_number(language: Language, line: &[u8]) -> &[u8] {
+    if language != Language::FanucLs {
+        return line;
+    }
+    if line.starts_with(b"LINE_COUNT") {
+        return b"";
+    }
+    let colon = line.iter().position(|byte| *byte == b':');
+    let number = |at: &usize| line[..*at].iter().all(|b| *b == b' ' || b.is_ascii_digit());
+    colon.filter(number).map_or(line, |at| &line[at..])
 }

@@ -113,7 +113,7 @@ pub fn read_rapid(
         let (file, line) = (motion.file, motion.line);
         let via = match &motion.kind {
             MotionKind::Circular { via } => Some(via),
-            MotionKind::Joint | MotionKind::Linear => None,
+            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
         };
         for target in via.into_iter().chain([&motion.target]) {
             if let Target::Unknown { reason } = target {

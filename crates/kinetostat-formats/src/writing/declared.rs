@@ -36,9 +36,9 @@ impl Demands {
         self,
         program: &RobotProgram,
         syntax: &dyn Syntax,
+        names: &mut Names,
         edits: &mut [Edits],
     ) -> Option<()> {
-        let mut taken: Option<BTreeSet<Vec<u8>>> = None;
         for (index, demands) in self.0 {
             let declaration = program.declarations.get(index)?;
             let home = declaration.text.file;
@@ -56,13 +56,14 @@ impl Demands {
             let mut number = 2;
             for demand in demands.iter().filter(|demand| demand.literal != kept) {
                 if !new.contains_key(demand.literal.as_slice()) {
-                    let taken = taken.get_or_insert_with(|| syntax.names(program));
-                    let name =
-                        syntax.free_name(file.part(&declaration.name), &mut number, taken)?;
-                    let text = further(program, declaration, &name, &demand.literal)?;
-                    // Before it: what stands behind it on its line may be a comment on it.
-                    let start = declaration.statement.start;
-                    edits[home].replace(start..start, text);
+                    let name = names.declare(
+                        program,
+                        syntax,
+                        declaration,
+                        &demand.literal,
+                        &mut number,
+                        edits,
+                    )?;
                     new.insert(&demand.literal, name);
                 }
                 let name = new.get(demand.literal.as_slice())?;
@@ -70,6 +71,31 @@ impl Demands {
             }
         }
         Some(())
+    }
+}
+
+/// The names that are taken, once they are asked for.
+#[derive(Debug, Default)]
+pub(crate) struct Names(Option<BTreeSet<Vec<u8>>>);
+
+impl Names {
+    /// Declares a pose like another under a free name, and gives that name.
+    pub(crate) fn declare(
+        &mut self,
+        program: &RobotProgram,
+        syntax: &dyn Syntax,
+        declaration: &Declaration,
+        literal: &[u8],
+        number: &mut usize,
+        edits: &mut [Edits],
+    ) -> Option<Vec<u8>> {
+        let file = program.files.get(declaration.text.file)?;
+        let taken = self.0.get_or_insert_with(|| syntax.names(program));
+        let name = syntax.free_name(file.part(&declaration.name), number, taken)?;
+        let text = further(program, declaration, &name, literal)?;
+        let at = syntax.copies_at(program, declaration);
+        edits[declaration.text.file].replace(at..at, text);
+        Some(name)
     }
 }
 

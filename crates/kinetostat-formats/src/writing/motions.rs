@@ -10,7 +10,7 @@ use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
-use crate::writing::declared::Demands;
+use crate::writing::declared::{Demands, Names};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;
@@ -38,6 +38,7 @@ pub(crate) fn write_with(
         syntax,
         edits: program.files.iter().map(|_| Edits::default()).collect(),
         demands: Demands::default(),
+        names: Names::default(),
     };
     for (index, motion) in program.motions.iter().enumerate() {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
@@ -50,12 +51,15 @@ pub(crate) fn write_with(
         })?;
     }
     let Writer {
-        mut edits, demands, ..
+        mut edits,
+        demands,
+        mut names,
+        ..
     } = writer;
     let overlap = |file: usize| WriteError::Overlap {
         file: program.files[file].name().to_owned(),
     };
-    (demands.write(program, syntax, &mut edits)).ok_or_else(|| overlap(0))?;
+    (demands.write(program, syntax, &mut names, &mut edits)).ok_or_else(|| overlap(0))?;
     (edits.into_iter().enumerate())
         .map(|(index, edits)| {
             let file = &program.files[index];
@@ -100,6 +104,11 @@ const NO_END: Reason = (
     "leave its pieces out",
 );
 
+const NO_NAME: Reason = (
+    "no name or number is free for a further pose",
+    "give fewer pieces, or divide the program",
+);
+
 struct Writer<'a> {
     program: &'a RobotProgram,
     options: &'a WriteOptions,
@@ -107,6 +116,7 @@ struct Writer<'a> {
     /// One for each file.
     edits: Vec<Edits>,
     demands: Demands,
+    names: Names,
 }
 
 impl Writer<'_> {
@@ -120,7 +130,10 @@ impl Writer<'_> {
         };
         let end = motion.target.pose().ok_or(NO_END)?;
         check(pieces)?;
-        let is_circle = matches!(motion.kind, MotionKind::Circular { .. });
+        let is_circle = matches!(
+            motion.kind,
+            MotionKind::Circular { .. } | MotionKind::Arc { .. }
+        );
         if is_circle && before.is_empty() {
             let via = last.via_mm.ok_or((
                 "one piece of a circle states no place between its start and its end",
@@ -140,6 +153,7 @@ impl Writer<'_> {
                 .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
+        (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
         if let Some((speed, text)) = speed_of(motion, last)? {
             self.edits[motion.file].replace(speed.span.clone(), text);
         }
@@ -163,7 +177,7 @@ impl Writer<'_> {
             self.syntax.straighten(self.program, motion, edits);
         }
         let file = &self.program.files[motion.file];
-        let text = self.text_of(&motion.site.target).ok_or(NO_END)?;
+        let text = text_of(self.program, &motion.site.target).ok_or(NO_END)?;
         let mut inserted = Vec::new();
         for piece in before {
             let wanted = Wanted {
@@ -172,6 +186,16 @@ impl Writer<'_> {
             };
             let home = &self.program.files[text.file];
             let literal = literal_of(home, text, &wanted, self.options).ok_or(NO_END)?;
+            let literal = match (self.syntax.declares_pieces(), &motion.site.target) {
+                (true, TargetSite::Declared { declaration, .. }) => {
+                    let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
+                    let (program, syntax) = (self.program, self.syntax);
+                    (self.names)
+                        .declare(program, syntax, declared, &literal, &mut 2, &mut self.edits)
+                        .ok_or(NO_NAME)?
+                }
+                _ => literal,
+            };
             let speed = speed_of(motion, piece)?.map(|(_, text)| text);
             let (program, options) = (self.program, self.options);
             let statement = self
@@ -183,18 +207,6 @@ impl Writer<'_> {
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
         Ok(())
-    }
-
-    /// The literal that says the configuration of an end.
-    fn text_of<'s>(&'s self, site: &'s TargetSite) -> Option<&'s PoseText> {
-        match site {
-            TargetSite::Literal(text) => Some(text),
-            TargetSite::Declared { declaration, .. } => {
-                Some(&self.program.declarations.get(*declaration)?.text)
-            }
-            TargetSite::Offset { literal, .. } => Some(literal),
-            TargetSite::Fixed(_) => None,
-        }
     }
 
     /// Writes one pose of a motion; without a wanted one it stays, which other uses of its declaration must know.
@@ -252,6 +264,18 @@ impl Writer<'_> {
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }
         Ok(())
+    }
+}
+
+/// The literal that says the configuration of an end.
+fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s PoseText> {
+    match site {
+        TargetSite::Literal(text) => Some(text),
+        TargetSite::Declared { declaration, .. } => {
+            Some(&program.declarations.get(*declaration)?.text)
+        }
+        TargetSite::Offset { literal, .. } => Some(literal),
+        TargetSite::Fixed(_) => None,
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
+use crate::model::site::Declaration;
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 
@@ -20,8 +21,22 @@ pub(crate) trait Syntax {
         taken: &mut BTreeSet<Vec<u8>>,
     ) -> Option<Vec<u8>>;
 
+    /// Whether the pieces of a motion to a declared end get declared ends of their own: the statement has no literals.
+    fn declares_pieces(&self) -> bool {
+        false
+    }
+
+    /// Where a further declaration like one that is there is inserted, in that one's file.
+    fn copies_at(&self, _program: &RobotProgram, declaration: &Declaration) -> usize {
+        // Before it: what stands behind it on its line may be a comment on it.
+        declaration.statement.start
+    }
+
+    /// Changes in a motion statement whose end gets another pose, besides its numbers.
+    fn moved(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
+
     /// A statement that goes straight to a pose (its literal) before the end of a motion, as that motion is written
-    /// otherwise; without line ending.
+    /// otherwise; without line ending. Where pieces are declared, `literal` is the declared name.
     fn piece(
         &self,
         program: &RobotProgram,

@@ -8,6 +8,9 @@
     reason = "a failing test may panic"
 )]
 
+mod apt;
+mod harness;
+mod ls;
 mod numbers;
 mod orientations;
 mod rapid;

@@ -151,3 +151,159 @@ fn corrected_rapid_programs_are_read_again_at_the_corrected_places() {
     // Those of `READ` and one on a track.
     assert!(all.is_empty() || corrected == READ.len() + 1, "{corrected}");
 }
+
+/// What is stated for programs that are not wholly known from their text.
+fn stated() -> ReadOptions {
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    options.external_axes = ExternalAxes::Carried;
+    options.cutter_compensation = CutterCompensation::CentrePath;
+    options
+}
+
+/// FANUC TP programs that are read with the options as they are, and their motions.
+const READ_LS: [(&str, usize); 8] = [
+    ("calib_sph.ls", 15),
+    ("fixtures_invalid_AI_MISMATCH.LS", 0),
+    ("fixtures_valid_AI_VALID.LS", 0),
+    ("fanucPrograms_home.ls", 1),
+    ("fanucPrograms_iverson.ls", 0),
+    ("BEND.LS", 0),
+    ("END_PART.LS", 0),
+    ("tpe_ros.ls", 0),
+];
+
+/// TP programs that are refused whatever is stated, and why.
+const REFUSED_LS: [(&str, &str); 3] = [
+    ("cub_2.ls", "coordinated with another group"),
+    ("layer_1.ls", "coordinated with another group"),
+    ("SEARCH.LS", "the block that it belongs to is not whole"),
+];
+
+/// APT files that are read with the options as they are, and their motions.
+const READ_APT: [(&str, usize); 6] = [
+    ("TORETC_250_BOK.cls", 10),
+    ("1_KONTUR_NAR_40_N2.cls", 46),
+    ("3_PAZ_125_N2.cls", 640),
+    ("4_SVERL_63_N2.cls", 90),
+    ("ust_a.cls", 546),
+    ("DEMO1.txt", 11),
+];
+
+/// APT files that are refused whatever is stated, and why.
+const REFUSED_APT: [(&str, &str); 3] = [
+    ("DEMO3.txt", "it turns the table or the head"),
+    ("DEMO4.txt", "the word is not known"),
+    ("rybakov25__test.apt", "the word is not known"),
+];
+
+/// Reads the programs of a folder as they are and with all stated; what is read comes back byte for byte, and with all
+/// places moved is read again there.
+fn come_back(folder: &str, language: Language, plain: &[(&str, usize)], refused: &[(&str, &str)]) {
+    let all = programs(folder);
+    let (mut read_plain, mut left) = (Vec::new(), 0);
+    for (name, bytes) in &all {
+        let file = || vec![SourceFile::new(name.clone(), bytes.clone())];
+        if let Ok(program) = read(language, file(), &ReadOptions::default()) {
+            read_plain.push((name.as_str(), program.motions.len()));
+        }
+        let program = match read(language, file(), &stated()) {
+            Ok(program) => program,
+            Err(errors) => {
+                let known = refused.iter().find(|(end, _)| name.ends_with(end));
+                let (_, reason) = known.unwrap_or_else(|| panic!("{name}: {}", errors[0]));
+                assert!(errors[0].reason.contains(reason), "{name}: {}", errors[0]);
+                continue;
+            }
+        };
+        let files = write(&program, &[], &WriteOptions::default()).unwrap();
+        assert!(files[0].1 == *bytes, "{name}");
+        moved(name, &program);
+        left += 1;
+    }
+    if all.is_empty() {
+        return;
+    }
+    assert_eq!(left, all.len() - refused.len());
+    assert!(left >= 8);
+    assert_eq!(read_plain.len(), plain.len(), "{read_plain:?}");
+    for (end, motions) in plain {
+        let found = |(name, count): &(&str, usize)| name.ends_with(end) && count == motions;
+        assert!(read_plain.iter().any(found), "{end}: {read_plain:?}");
+    }
+    let _ = writeln!(
+        std::io::stderr(),
+        "{} of {} files in {folder} are read, {left} with what is unknown left",
+        read_plain.len(),
+        all.len()
+    );
+}
+
+/// Writes a program with all its places moved (arcs divided) and reads it again.
+fn moved(name: &str, program: &RobotProgram) {
+    let wave = |place: Vector3<f64>| 0.1 * (place / 70.0).map(f64::sin);
+    let mut pieces = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some(end) = motion.target.pose() else {
+            continue;
+        };
+        // A helix whose way is not followed begins where it began.
+        let next = program.motions.get(index + 1);
+        if next.is_some_and(|next| matches!(next.target, Target::Unknown { .. })) {
+            continue;
+        }
+        let place = end.position_mm + wave(end.position_mm);
+        if matches!(motion.kind, MotionKind::Arc { .. }) {
+            pieces.push(Piece::to(index, place + Vector3::new(0.0, 0.0, 1.0)));
+        }
+        pieces.push(Piece::to(index, place));
+    }
+    // An arc that begins where something changed is divided, too.
+    let changed: Vec<usize> = pieces.iter().map(|piece| piece.motion).collect();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let starts = motion.follows.is_some_and(|from| changed.contains(&from));
+        if let (MotionKind::Arc { .. }, true, false) =
+            (&motion.kind, starts, changed.contains(&index))
+        {
+            let end = motion.target.pose().unwrap().position_mm;
+            pieces.push(Piece::to(index, end + Vector3::new(0.0, 0.0, 1.0)));
+            pieces.push(Piece::to(index, end));
+        }
+    }
+    pieces.sort_by_key(|piece| piece.motion);
+    let files = write(program, &pieces, &WriteOptions::default())
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    let files = (files.into_iter())
+        .map(|(name, bytes)| SourceFile::new(name, bytes))
+        .collect();
+    let again = read(program.language, files, &stated())
+        .unwrap_or_else(|errors| panic!("{name}: {}", errors[0]));
+    let mut places = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let own: Vec<_> = pieces
+            .iter()
+            .filter(|piece| piece.motion == index)
+            .collect();
+        match own.is_empty() {
+            true => places.push(motion.target.pose().map(|end| end.position_mm)),
+            false => places.extend(own.iter().map(|piece| Some(piece.position_mm))),
+        }
+    }
+    assert_eq!(again.motions.len(), places.len(), "{name}");
+    for (motion, place) in again.motions.iter().zip(places) {
+        if let (Some(found), Some(place)) = (motion.target.pose(), place) {
+            let away = (found.position_mm - place).norm();
+            assert!(away <= 1e-3, "{name}, line {}: {away} mm", motion.line);
+        }
+    }
+}
+
+#[test]
+fn fanuc_programs_come_back_byte_for_byte() {
+    come_back("ls", Language::FanucLs, &READ_LS, &REFUSED_LS);
+}
+
+#[test]
+fn apt_files_come_back_byte_for_byte() {
+    come_back("apt", Language::Apt, &READ_APT, &REFUSED_APT);
+}

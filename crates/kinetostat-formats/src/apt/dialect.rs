@@ -1,0 +1,62 @@
+//! Which system wrote a file, by its first statements.
+
+use crate::apt::lines::Statement;
+use crate::text::source::SourceFile;
+
+/// Files that differ in what the same words mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    /// SOLIDWORKS CAM, CAMWorks: `CIRCLE` with six numbers, right-handed about its axis.
+    SolidworksCam,
+    /// Siemens NX: `TOOL PATH`, `MSYS`; `CIRCLE` with eleven numbers, left-handed about its axis.
+    Nx,
+    /// CATIA V5: arcs as `TLON`.
+    Catia,
+    /// Any other.
+    Other,
+}
+
+/// Statements that are looked at.
+const FIRST: usize = 64;
+
+impl Dialect {
+    /// Of a file.
+    pub(crate) fn of(file: &SourceFile, statements: &[Statement]) -> Self {
+        let first = statements.iter().take(FIRST);
+        let words: Vec<&[u8]> = first.map(|statement| file.part(&statement.word)).collect();
+        let has = |names: &[&[u8]]| {
+            words
+                .iter()
+                .any(|word| names.iter().any(|name| word.eq_ignore_ascii_case(name)))
+        };
+        let head = &file.bytes()[..file.bytes().len().min(2000)];
+        match () {
+            () if has(&[b"TOOL PATH", b"MSYS", b"TLDATA", b"PAINT"]) => Self::Nx,
+            () if has(&[b"TRNTYP", b"CSYS", b"CSI_SET_FLUTE_LENGTH"]) => Self::SolidworksCam,
+            () if head.windows(5).any(|part| part == b"CATIA") => Self::Catia,
+            () => Self::Other,
+        }
+    }
+
+    /// The system's name.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::SolidworksCam => "SOLIDWORKS CAM",
+            Self::Nx => "Siemens NX",
+            Self::Catia => "CATIA",
+            Self::Other => "no system that is known by its words",
+        }
+    }
+
+    /// How an arc turns about the axis that `CIRCLE` states: 1 right-handed, -1 left-handed; none where it is not known.
+    ///
+    /// SOLIDWORKS CAM: 1605 arcs of 8 public files fit no other sense. NX: its manual, CLSF, `CIRCLE`, says "the axis vector
+    /// (assuming a clockwise direction)", and 327 arcs of 3 public files fit no other.
+    pub(crate) fn sense(self) -> Option<f64> {
+        match self {
+            Self::SolidworksCam => Some(1.0),
+            Self::Nx => Some(-1.0),
+            Self::Catia | Self::Other => None,
+        }
+    }
+}

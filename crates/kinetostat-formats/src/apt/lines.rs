@@ -1,0 +1,113 @@
+//! The statements of a file: a word, its arguments behind a slash, over several lines where `$` ends one.
+
+use std::ops::Range;
+
+/// A statement.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Statement {
+    /// Its first word, as written.
+    pub word: Range<usize>,
+    /// Behind the slash or comma; empty where there are none.
+    pub arguments: Range<usize>,
+    /// From the word to the last argument.
+    pub span: Range<usize>,
+    /// From the beginning of its first line behind its last line end.
+    pub lines: Range<usize>,
+    /// A slash stands behind the word.
+    pub slash: bool,
+    /// `NAME = ...`: geometry and numbers.
+    pub assigns: bool,
+}
+
+/// Words whose arguments are text for people: never parsed.
+const TEXTS: [&[u8]; 9] = [
+    b"PARTNO", b"PPRINT", b"TPRINT", b"INSERT", b"REMARK", b"TITLES", b"LETTER", b"MACHIN",
+    b"DISPLY",
+];
+
+/// The statements of a file in their order; comments and empty lines are none.
+pub(crate) fn statements_of(bytes: &[u8]) -> Vec<Statement> {
+    let mut statements = Vec::with_capacity(bytes.len() / 24);
+    let mut at = 0;
+    while at < bytes.len() {
+        let first = at;
+        let mut next = next_line(bytes, at);
+        let Some(start) = (at..next).find(|at| !bytes[*at].is_ascii_whitespace()) else {
+            at = next;
+            continue;
+        };
+        let length = word_length(&bytes[start..next]);
+        let word = start..start + length;
+        let is_text = TEXTS
+            .iter()
+            .any(|text| bytes[word.clone()].eq_ignore_ascii_case(text));
+        let mut end = start + bytes[start..next].trim_ascii_end().len();
+        if !is_text {
+            let mut from = start;
+            loop {
+                let (until, goes_on) = content(bytes, from..next);
+                end = until;
+                if !goes_on || next >= bytes.len() {
+                    break;
+                }
+                from = next;
+                next = next_line(bytes, next);
+            }
+        }
+        at = next;
+        if end <= start {
+            continue;
+        }
+        let behind = (word.end..end).find(|at| !bytes[*at].is_ascii_whitespace());
+        let sign = behind.map(|at| bytes[at]);
+        let arguments = match (behind, sign) {
+            (Some(at), Some(b'/' | b',')) => at + 1..end,
+            (Some(at), _) => at..end,
+            (None, _) => end..end,
+        };
+        statements.push(Statement {
+            slash: sign == Some(b'/'),
+            assigns: sign == Some(b'=') && !is_text,
+            word,
+            arguments,
+            span: start..end,
+            lines: first..next,
+        });
+    }
+    statements
+}
+
+fn next_line(bytes: &[u8], at: usize) -> usize {
+    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
+    end.map_or(bytes.len(), |end| at + end + 1)
+}
+
+/// `TOOL PATH` is one word.
+fn word_length(line: &[u8]) -> usize {
+    let is_part = |byte: &&u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-');
+    let length = line.iter().take_while(is_part).count();
+    match line
+        .get(..9)
+        .is_some_and(|start| start.eq_ignore_ascii_case(b"TOOL PATH"))
+    {
+        true => 9,
+        false => length,
+    }
+}
+
+/// Where what a line says ends, before its comment; and whether it goes on in the next line.
+fn content(bytes: &[u8], line: Range<usize>) -> (usize, bool) {
+    let mut quoted = false;
+    for at in line.clone() {
+        match bytes[at] {
+            b'\'' => quoted = !quoted,
+            b'$' if !quoted => {
+                let goes_on = bytes.get(at + 1) != Some(&b'$');
+                let said = line.start + bytes[line.start..at].trim_ascii_end().len();
+                return (said, goes_on);
+            }
+            _ => {}
+        }
+    }
+    (line.start + bytes[line].trim_ascii_end().len(), false)
+}

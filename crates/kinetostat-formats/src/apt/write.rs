@@ -1,0 +1,191 @@
+//! What the writer must know of APT.
+//!
+//! A piece of a motion is a `GOTO` before it, with a `RAPID` behind where the motion has one: RAPID holds for the next
+//! `GOTO` alone. A divided arc loses its `CIRCLE`. A `GODLTA` whose end or start changes becomes a `GOTO`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::apt::lines::statements_of;
+use crate::apt::state::unit_of;
+use crate::error::WriteError;
+use crate::model::motion::Motion;
+use crate::model::orientation::OrientationText;
+use crate::model::program::RobotProgram;
+use crate::model::site::TargetSite;
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+use crate::writing::motions::write_with;
+use crate::writing::piece::Piece;
+use crate::writing::syntax::Syntax;
+
+/// The files of a program with pieces in place of its motions.
+pub(crate) fn write_apt(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    if pieces.is_empty() {
+        return write_with(program, pieces, options, &AptSyntax);
+    }
+    let units: Vec<f64> = program
+        .files
+        .iter()
+        .map(|file| unit_of(file, &statements_of(file.bytes())).0.unwrap_or(1.0))
+        .collect();
+    let mut ends: BTreeMap<usize, &Piece> = BTreeMap::new();
+    for piece in pieces {
+        ends.insert(piece.motion, piece);
+    }
+    let mut all = pieces.to_vec();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let starts_elsewhere = motion.follows.is_some_and(|from| {
+            let before = program.motions.get(from).and_then(|m| m.target.pose());
+            let (Some(piece), Some(before)) = (ends.get(&from), before) else {
+                return false;
+            };
+            (piece.position_mm - before.position_mm).norm() > SAME_MM
+        });
+        if ends.contains_key(&index) || !starts_elsewhere {
+            continue;
+        }
+        if motion.site.via.is_some() {
+            return Err(refused(
+                program,
+                motion,
+                "the arc begins at a place that changes, and is then none about its written centre",
+                "divide it into straight pieces, too, or keep its start",
+            ));
+        }
+        if let (true, Some(end)) = (is_step(program, motion), motion.target.pose()) {
+            all.push(Piece::to(index, end.position_mm));
+        }
+    }
+    axes(program, &ends)?;
+    for piece in &mut all {
+        if let Some(motion) = program.motions.get(piece.motion) {
+            piece.position_mm /= units[motion.file];
+        }
+    }
+    let mut options = options.clone();
+    if units.contains(&25.4) {
+        // As fine in inches.
+        options.position_decimals += 2;
+    }
+    write_with(program, &all, &options, &AptSyntax)
+}
+
+fn refused(program: &RobotProgram, motion: &Motion, reason: &str, remedy: &str) -> WriteError {
+    WriteError::Motion {
+        file: program.files[motion.file].name().to_owned(),
+        line: motion.line,
+        reason: reason.to_owned(),
+        remedy: remedy.to_owned(),
+    }
+}
+
+/// Whether it is `GODLTA`.
+fn is_step(program: &RobotProgram, motion: &Motion) -> bool {
+    let word = program.files[motion.file].part(&motion.site.keyword);
+    word.eq_ignore_ascii_case(b"GODLTA")
+}
+
+/// Least change of a place that counts, mm.
+const SAME_MM: f64 = 1e-6;
+
+/// Least change of an axis that is written, rad.
+const SAME_RAD: f64 = 1e-9;
+
+/// Checks that no GOTO without an axis of its own gets another: the axis holds until the next one.
+fn axes(program: &RobotProgram, ends: &BTreeMap<usize, &Piece>) -> Result<(), WriteError> {
+    let mut turned: Option<usize> = None;
+    for (index, motion) in program.motions.iter().enumerate() {
+        let own = match &motion.site.target {
+            TargetSite::Literal(text) => text.convention == OrientationText::Axis,
+            _ => false,
+        };
+        if own || turned.is_some_and(|file| file != motion.file) {
+            turned = None;
+        } else if turned.is_some() {
+            return Err(refused(
+                program,
+                motion,
+                "its axis is that of a GOTO before it, which changes",
+                "let the CAM system write the axis into every GOTO, or correct places alone",
+            ));
+        }
+        let wanted = ends.get(&index).and_then(|piece| piece.orientation);
+        let (Some(wanted), Some(pose)) = (wanted, motion.target.pose()) else {
+            continue;
+        };
+        let z = nalgebra::Vector3::z_axis();
+        let differs = (wanted * z).angle(&(pose.orientation * z)) > SAME_RAD;
+        match (differs, own) {
+            (true, true) => turned = Some(motion.file),
+            (true, false) => {
+                return Err(refused(
+                    program,
+                    motion,
+                    "it states no axis that could be turned",
+                    "let the CAM system write the axis into every GOTO, or correct places alone",
+                ));
+            }
+            (false, _) => {}
+        }
+    }
+    Ok(())
+}
+
+/// APT.
+struct AptSyntax;
+
+impl Syntax for AptSyntax {
+    fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
+        BTreeSet::new()
+    }
+
+    fn free_name(
+        &self,
+        _near: &[u8],
+        _number: &mut usize,
+        _taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn moved(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {
+        if is_step(program, motion) {
+            edits.replace(motion.site.keyword.clone(), "GOTO");
+        }
+    }
+
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literal: &[u8],
+        _speed: Option<&[u8]>,
+        _options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let file = program.files.get(motion.file)?;
+        let site = &motion.site;
+        let mut edits = Edits::default();
+        // GODLTA and GOHOME, too, go to the end by a GOTO.
+        if !file.part(&site.keyword).eq_ignore_ascii_case(b"GOTO") {
+            edits.replace(site.keyword.clone(), "GOTO");
+        }
+        edits.replace(site.target_span.clone(), literal);
+        let mut text = edits.applied_to_part(file.bytes(), &motion.span)?;
+        let rapid = motion.speed.text.as_bytes();
+        if rapid.len() >= 5 && rapid[..5].eq_ignore_ascii_case(b"RAPID") {
+            text.extend_from_slice(file.line_ending());
+            text.extend_from_slice(rapid);
+        }
+        Some(text)
+    }
+
+    fn straighten(&self, _program: &RobotProgram, motion: &Motion, edits: &mut Edits) {
+        if let Some((lines, _)) = &motion.site.via {
+            edits.replace(lines.clone(), "");
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! The sections of a program, and the lines of its instructions.
+
+use std::ops::Range;
+
+use crate::text::number::NumberText;
+
+/// What is wrong with a line: where, why, what to do.
+pub(crate) type Fault = (Range<usize>, &'static str, &'static str);
+
+/// An instruction with its number.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Line {
+    /// The digits of its number; empty where it has none.
+    pub number: Range<usize>,
+    /// Between colon and semicolon; with line ends where it goes over several lines.
+    pub text: Range<usize>,
+    /// From the number to the semicolon.
+    pub whole: Range<usize>,
+}
+
+/// Where the parts of a program stand.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Layout {
+    /// Behind `/PROG`.
+    pub name: Range<usize>,
+    /// Behind `LINE_COUNT =`.
+    pub line_count: Option<NumberText>,
+    pub lines: Vec<Line>,
+    /// From the line behind `/POS` to the next section.
+    pub positions: Option<Range<usize>>,
+    pub has_instructions: bool,
+    pub has_end: bool,
+    pub faults: Vec<Fault>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Section {
+    Before,
+    Attributes,
+    Instructions,
+    Positions,
+    Other,
+}
+
+impl Layout {
+    /// Of the bytes of a file.
+    pub(crate) fn of(bytes: &[u8]) -> Self {
+        let mut layout = Self::default();
+        let mut section = Section::Before;
+        let mut open: Option<Line> = None;
+        let mut at = 0;
+        while at < bytes.len() {
+            let next = next_line(bytes, at);
+            let line = bytes[at..next].trim_ascii_end();
+            let is_header = line.first() == Some(&b'/')
+                && line.get(1).is_some_and(u8::is_ascii_uppercase)
+                && (section != Section::Before || line.starts_with(b"/PROG"));
+            if is_header {
+                layout.close(&mut open, bytes);
+                section = layout.header(line, at, next);
+            } else {
+                match section {
+                    Section::Attributes => layout.attribute(bytes, at..at + line.len()),
+                    Section::Instructions => {
+                        layout.instruction(bytes, at..at + line.len(), &mut open);
+                    }
+                    Section::Positions => {
+                        if let Some(positions) = &mut layout.positions {
+                            positions.end = next;
+                        }
+                    }
+                    Section::Before | Section::Other => {}
+                }
+            }
+            at = next;
+        }
+        layout.close(&mut open, bytes);
+        layout
+    }
+
+    fn header(&mut self, line: &[u8], at: usize, next: usize) -> Section {
+        let name = line
+            .split(|byte| byte.is_ascii_whitespace())
+            .next()
+            .unwrap_or_default();
+        match name {
+            b"/PROG" => {
+                let rest = &line[name.len()..];
+                let blanks = rest.len() - rest.trim_ascii_start().len();
+                let from = at + name.len() + blanks;
+                let word = rest
+                    .trim_ascii_start()
+                    .split(|byte| byte.is_ascii_whitespace());
+                self.name = from..from + word.map(<[u8]>::len).next().unwrap_or(0);
+                Section::Other
+            }
+            b"/ATTR" => Section::Attributes,
+            b"/MN" => {
+                self.has_instructions = true;
+                Section::Instructions
+            }
+            b"/POS" => {
+                self.positions = Some(next..next);
+                Section::Positions
+            }
+            b"/END" => {
+                self.has_end = true;
+                Section::Other
+            }
+            _ => Section::Other,
+        }
+    }
+
+    fn attribute(&mut self, bytes: &[u8], span: Range<usize>) {
+        let line = &bytes[span.clone()];
+        if !line.trim_ascii_start().starts_with(b"LINE_COUNT") {
+            return;
+        }
+        let digit = |at: &usize| line[*at].is_ascii_digit();
+        let Some(from) = (0..line.len()).find(digit) else {
+            return;
+        };
+        let to = (from..line.len())
+            .find(|at| !digit(at))
+            .unwrap_or(line.len());
+        if let Some(value) = number_of(&line[from..to]) {
+            let span = span.start + from..span.start + to;
+            self.line_count = Some(NumberText { span, value });
+        }
+    }
+
+    fn instruction(&mut self, bytes: &[u8], span: Range<usize>, open: &mut Option<Line>) {
+        let line = &bytes[span.clone()];
+        let Some((digits, text)) = prefix(line) else {
+            if !line.trim_ascii().is_empty() {
+                self.close(open, bytes);
+                self.faults.push((
+                    span,
+                    "the line begins with neither a number nor a colon",
+                    "give the program as the controller prints it",
+                ));
+            }
+            return;
+        };
+        let number = span.start + digits.start..span.start + digits.end;
+        let text = span.start + text..span.end;
+        let continued = number.is_empty() && open.is_some();
+        if !continued {
+            self.close(open, bytes);
+        }
+        let start = match number.is_empty() {
+            true => text.start - 1,
+            false => number.start,
+        };
+        let mut line = match open.take() {
+            Some(before) => Line {
+                text: before.text.start..text.end,
+                whole: before.whole.start..text.end,
+                ..before
+            },
+            None => Line {
+                number,
+                whole: start..text.end,
+                text,
+            },
+        };
+        if bytes[line.text.clone()].ends_with(b";") {
+            line.text.end -= 1;
+            self.lines.push(line);
+        } else {
+            *open = Some(line);
+        }
+    }
+
+    /// Ends an instruction that no semicolon ends: only an empty one may.
+    fn close(&mut self, open: &mut Option<Line>, bytes: &[u8]) {
+        let Some(line) = open.take() else {
+            return;
+        };
+        if !bytes[line.text.clone()].trim_ascii().is_empty() {
+            self.faults.push((
+                line.whole.clone(),
+                "no `;` ends the instruction",
+                "give the program as the controller prints it",
+            ));
+        }
+        self.lines.push(line);
+    }
+}
+
+/// The digits before the colon with which an instruction begins, and where its text begins.
+fn prefix(line: &[u8]) -> Option<(Range<usize>, usize)> {
+    let from = line.iter().position(|byte| !matches!(byte, b' ' | b'\t'))?;
+    let digits = line[from..]
+        .iter()
+        .take_while(|byte| byte.is_ascii_digit())
+        .count();
+    (line.get(from + digits) == Some(&b':')).then_some((from..from + digits, from + digits + 1))
+}
+
+/// Where the line behind the one of a byte begins.
+pub(crate) fn next_line(bytes: &[u8], at: usize) -> usize {
+    let end = bytes[at..].iter().position(|byte| *byte == b'\n');
+    end.map_or(bytes.len(), |end| at + end + 1)
+}
+
+/// The value of digits.
+pub(crate) fn number_of(text: &[u8]) -> Option<f64> {
+    let value: f64 = std::str::from_utf8(text).ok()?.parse().ok()?;
+    value.is_finite().then_some(value)
+}

@@ -1,0 +1,265 @@
+//! The parts of a motion instruction.
+
+use std::ops::Range;
+
+use crate::ls::table::{Effect, Follows, MOTION_OPTIONS};
+use crate::ls::words::{Kind, Word, index_of, words_of};
+use crate::model::motion::{Speed, Zone};
+use crate::model::site::SpeedSite;
+
+/// On which way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Way {
+    Joint,
+    Linear,
+    Circular,
+}
+
+/// Where it ends.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum End {
+    /// A position of the program: its number and where that stands.
+    Position(u32, Range<usize>),
+    /// Only the run knows it, and why.
+    Register(&'static str),
+}
+
+/// A motion as it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionText {
+    pub way: Way,
+    pub keyword: Range<usize>,
+    /// Whole, with `P` and brackets.
+    pub via: Option<(Range<usize>, End)>,
+    pub target_span: Range<usize>,
+    pub target: End,
+    pub speed: Speed,
+    pub speed_site: Option<SpeedSite>,
+    pub zone: Zone,
+    pub zone_span: Option<Range<usize>>,
+    /// Why the end is not where its position says.
+    pub displaced: Option<&'static str>,
+    pub indivisible: Option<&'static str>,
+}
+
+/// Why a motion is refused, and what to do.
+pub(crate) type Reason = (&'static str, &'static str);
+
+const FORM: Reason = (
+    "a motion is J, L or C, a position, a speed, and FINE or CNT",
+    "write it as the controller prints it",
+);
+
+struct Reader<'b> {
+    bytes: &'b [u8],
+    words: Vec<Word>,
+    at: usize,
+}
+
+/// The motion that the text of an instruction says.
+pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText, Reason> {
+    let mut reader = Reader {
+        bytes,
+        words: words_of(bytes, text),
+        at: 0,
+    };
+    let keyword = reader.letters().ok_or(FORM)?;
+    let way = match &bytes[keyword.clone()] {
+        b"J" => Way::Joint,
+        b"L" => Way::Linear,
+        b"C" => Way::Circular,
+        _ => return Err(FORM),
+    };
+    let first = reader.end()?;
+    let (via, (target_span, target)) = match way {
+        Way::Circular => (Some(first), reader.end()?),
+        Way::Joint | Way::Linear => (None, first),
+    };
+    let (speed, speed_site, is_duration) = reader.speed().ok_or(FORM)?;
+    let (zone, zone_span) = reader.zone().ok_or(FORM)?;
+    let mut motion = MotionText {
+        way,
+        keyword,
+        via,
+        target_span,
+        target,
+        speed,
+        speed_site,
+        zone,
+        zone_span: Some(zone_span),
+        displaced: None,
+        indivisible: is_duration.then_some("its speed is a time, which each piece would take"),
+    };
+    reader.options(&mut motion)?;
+    Ok(motion)
+}
+
+impl Reader<'_> {
+    fn kind(&self) -> Option<Kind> {
+        self.words.get(self.at).map(|word| word.kind)
+    }
+
+    fn text(&self) -> &[u8] {
+        let word = self.words.get(self.at);
+        word.map_or(&[], |word| &self.bytes[word.span.clone()])
+    }
+
+    fn takes(&mut self, kind: Kind) -> bool {
+        let found = self.kind() == Some(kind);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn next(&mut self, kind: Kind) -> Option<Range<usize>> {
+        let found = self.words.get(self.at).filter(|word| word.kind == kind)?;
+        self.at += 1;
+        Some(found.span.clone())
+    }
+
+    fn letters(&mut self) -> Option<Range<usize>> {
+        self.next(Kind::Letters)
+    }
+
+    fn end(&mut self) -> Result<(Range<usize>, End), Reason> {
+        let name = self.letters().ok_or(FORM)?;
+        let is_register = match &self.bytes[name.clone()] {
+            b"P" => false,
+            b"PR" => true,
+            _ => return Err(FORM),
+        };
+        let bracket = self.next(Kind::Bracket).ok_or(FORM)?;
+        let span = name.start..bracket.end;
+        let end = match (is_register, index_of(self.bytes, &bracket)) {
+            (true, _) => {
+                End::Register("its end is in a position register, whose value is not in the text")
+            }
+            (false, Some((number, digits))) => End::Position(number, digits),
+            (false, None) => End::Register("which position it goes to, a register says"),
+        };
+        Ok((span, end))
+    }
+
+    /// A number, or a register; with its value where the text says it.
+    fn value(&mut self) -> Option<(Option<f64>, Range<usize>)> {
+        let word = self.words.get(self.at)?.clone();
+        match word.kind {
+            Kind::Number(value) => {
+                self.at += 1;
+                Some((Some(value), word.span))
+            }
+            Kind::Letters if matches!(self.text(), b"R" | b"AR") => {
+                self.at += 1;
+                let bracket = self.next(Kind::Bracket)?;
+                Some((None, word.span.start..bracket.end))
+            }
+            _ => None,
+        }
+    }
+
+    /// The speed, where another can be written, and whether it is a time.
+    fn speed(&mut self) -> Option<(Speed, Option<SpeedSite>, bool)> {
+        if self.text().eq_ignore_ascii_case(b"WELD_SPEED") {
+            let span = self.letters()?;
+            return Some((self.speed_text(&span, None), None, false));
+        }
+        let (value, from) = self.value()?;
+        let unit = self.words.get(self.at)?.clone();
+        self.at += 1;
+        let divided = self.takes(Kind::Symbol(b'/'));
+        let (per, end) = match divided {
+            true => {
+                let per = self.letters()?;
+                (self.bytes[per.clone()].to_vec(), per.end)
+            }
+            false => (Vec::new(), unit.span.end),
+        };
+        let mm_per_s = match (&self.bytes[unit.span], per.as_slice()) {
+            (b"%", b"") | (b"deg", b"sec") => None,
+            (b"sec" | b"msec", b"") => {
+                return Some((self.speed_text(&(from.start..end), None), None, true));
+            }
+            (b"mm", b"sec") => value,
+            (b"cm", b"min") => value.map(|value| value / 6.0),
+            (b"inch", b"min") => value.map(|value| value * 25.4 / 60.0),
+            _ => return None,
+        };
+        let span = from.start..end;
+        let site = mm_per_s.map(|_| SpeedSite {
+            span: span.clone(),
+            before: String::new(),
+            after: "mm/sec".to_owned(),
+        });
+        Some((self.speed_text(&span, mm_per_s), site, false))
+    }
+
+    fn speed_text(&self, span: &Range<usize>, mm_per_s: Option<f64>) -> Speed {
+        Speed {
+            mm_per_s,
+            text: String::from_utf8_lossy(&self.bytes[span.clone()]).into_owned(),
+        }
+    }
+
+    fn zone(&mut self) -> Option<(Zone, Range<usize>)> {
+        let word = self.letters()?;
+        match &self.bytes[word.clone()] {
+            b"FINE" => Some((Zone::Exact, word)),
+            name @ (b"CNT" | b"CD") => {
+                let is_percent = name == b"CNT";
+                let (value, span) = self.value()?;
+                let zone = match (value, is_percent) {
+                    (Some(value), true) => Zone::Percent(value),
+                    (Some(value), false) => Zone::Radius(value),
+                    (None, _) => Zone::Unstated,
+                };
+                Some((zone, word.start..span.end))
+            }
+            _ => None,
+        }
+    }
+
+    fn options(&mut self, motion: &mut MotionText) -> Result<(), Reason> {
+        while self.at < self.words.len() {
+            let row = MOTION_OPTIONS
+                .iter()
+                .find(|row| row.name.as_bytes() == self.text());
+            let Some(row) = row else {
+                return Err((
+                    "an option of the motion is not known",
+                    "take the option out, or this motion into a program of its own",
+                ));
+            };
+            self.at += 1;
+            match row.follows {
+                Follows::Nothing => {
+                    // COORD[LDR], CNT's own.
+                    self.takes(Kind::Bracket);
+                }
+                Follows::Value => {
+                    self.value().ok_or(FORM)?;
+                    let unit = self.takes(Kind::Symbol(b'%'));
+                    if !unit && self.text() == b"mm" {
+                        self.at += 1;
+                    }
+                }
+                Follows::Register => {
+                    if self.takes(Kind::Symbol(b',')) {
+                        self.letters().ok_or(FORM)?;
+                        self.next(Kind::Bracket).ok_or(FORM)?;
+                    }
+                }
+                Follows::Event => {
+                    self.at = self.words.len();
+                    motion.indivisible = Some("what its option starts would start at each piece");
+                }
+            }
+            match row.effect {
+                Effect::None => {}
+                Effect::Displaced(reason) => motion.displaced = Some(reason),
+                Effect::Refused(reason) => {
+                    return Err((reason, "take this motion into a program of its own"));
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,612 @@
+//! The reader of FANUC TP programs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::Isometry3;
+
+use crate::error::ProgramError;
+use crate::ls::flow::{Flow, Last, Place, Program};
+use crate::ls::lines::Layout;
+use crate::ls::motion::{End, MotionText, Way};
+use crate::ls::positions::{Held, Positions};
+use crate::ls::step::{Step, positions_read, step_of};
+use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::site::{Declaration, MotionSite, TargetSite};
+use crate::model::target::Target;
+use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
+use crate::text::source::SourceFile;
+
+/// Most bytes of a file.
+const MOST_BYTES: usize = 1 << 28;
+
+/// Reads FANUC TP programs as text (`.ls`): one, or the first and those that it calls.
+///
+/// The frames and tools of positions are checked against `UFRAME_NUM` and `UTOOL_NUM` where these are known from the
+/// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange). Motions to
+/// position registers, offset by registers or ended by signals are refused, or stay as written with
+/// [`UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
+///
+/// ```
+/// use kinetostat_formats::{ReadOptions, SourceFile, read_ls};
+/// use nalgebra::Isometry3;
+///
+/// let text = "/PROG GROOVE\n/ATTR\nLINE_COUNT = 3;\n/MN\n\
+///    1:  UFRAME_NUM=2 ;\n   2:  UTOOL_NUM=1 ;\n   3:L P[1] 20mm/sec FINE ;\n\
+/// /POS\nP[1]{\n   GP1:\n\tUF : 2, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',\n\
+/// \tX =   100.000  mm,\tY =      .000  mm,\tZ =     5.000  mm,\n\
+/// \tW =   180.000 deg,\tP =      .000 deg,\tR =      .000 deg\n};\n/END\n";
+/// let mut options = ReadOptions::default();
+/// options.frames.insert("UF:2".into(), Isometry3::translation(0.0, 0.0, 100.0));
+/// let program = read_ls(vec![SourceFile::new("GROOVE.LS", text)], &options).unwrap();
+/// let motion = &program.motions[0];
+/// assert_eq!(motion.speed.mm_per_s, Some(20.0));
+/// assert_eq!(motion.base_pose().unwrap().translation.z, 105.0);
+/// assert_eq!(motion.target.pose().unwrap().configuration.text, "N U T, 0, 0, 0");
+/// ```
+///
+/// # Errors
+/// All that is refused, in the order of files and lines.
+pub fn read_ls(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<RobotProgram, Vec<ProgramError>> {
+    let mut reader = Reader {
+        options,
+        faults: Vec::new(),
+        findings: Vec::new(),
+        motions: Vec::new(),
+        external: Vec::new(),
+        declarations: Vec::new(),
+        frames: BTreeMap::new(),
+    };
+    let (mut layouts, mut positions, mut programs) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, file) in files.iter().enumerate() {
+        let layout = reader.layout(file);
+        let section = layout.positions.clone().unwrap_or_default();
+        let found = Positions::of(file.bytes(), section, index, &mut reader.declarations);
+        for (span, reason, remedy) in layout.faults.iter().chain(&found.faults) {
+            reader.fault(file, span.clone(), *reason, *remedy);
+        }
+        programs.push(reader.program(file, index, &layout, &found));
+        layouts.push(layout);
+        positions.push(found);
+    }
+    reader.link(&files, &layouts, &mut programs);
+    let flow = Flow::of(&programs);
+    let order = Order::of(&programs);
+    let mut indices: BTreeMap<Place, usize> = BTreeMap::new();
+    for (program, at) in &order.motions {
+        let Step::Motion(motion) = &programs[*program].steps[*at] else {
+            continue;
+        };
+        let site = MotionPlace {
+            file: &files[*program],
+            index: *program,
+            line: &layouts[*program].lines[*at],
+            positions: &positions[*program],
+            before: flow.before[*program][*at],
+        };
+        let Some((mut motion, external)) = reader.motion(motion, &site) else {
+            continue;
+        };
+        motion.runs = programs[*program].runs[*at].max(order.runs[*program]);
+        let last = site.before.map(|state| match state.last {
+            Last::Entry => flow.entry[*program].unwrap_or(Last::Unknown),
+            last => last,
+        });
+        motion.follows = match last {
+            Some(Last::Motion(place)) => indices.get(&place).copied(),
+            _ => None,
+        };
+        indices.insert((*program, *at), reader.motions.len());
+        reader.motions.push(motion);
+        reader.external.push(external);
+    }
+    reader.finish(files)
+}
+
+/// Where a motion stands.
+struct MotionPlace<'a> {
+    file: &'a SourceFile,
+    index: usize,
+    line: &'a crate::ls::lines::Line,
+    positions: &'a Positions,
+    before: Option<crate::ls::flow::State>,
+}
+
+struct Reader<'o> {
+    options: &'o ReadOptions,
+    faults: Vec<ProgramError>,
+    findings: Vec<Finding>,
+    motions: Vec<Motion>,
+    /// By motion.
+    external: Vec<Vec<Option<f64>>>,
+    declarations: Vec<Declaration>,
+    /// The options' frames by name in capitals.
+    frames: BTreeMap<String, Isometry3<f64>>,
+}
+
+impl Reader<'_> {
+    fn fault(
+        &mut self,
+        file: &SourceFile,
+        span: std::ops::Range<usize>,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.faults
+            .push(ProgramError::at(file, span, reason, remedy));
+    }
+
+    fn layout(&mut self, file: &SourceFile) -> Layout {
+        if self.frames.is_empty() {
+            let named = self.options.frames.iter();
+            self.frames = named
+                .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
+                .collect();
+        }
+        if file.bytes().len() > MOST_BYTES {
+            self.fault(file, 0..0, "the file is larger than 256 MiB", "divide it");
+            return Layout::default();
+        }
+        let layout = Layout::of(file.bytes());
+        if !layout.has_instructions {
+            self.fault(
+                file,
+                0..0,
+                "there is no section /MN in the file",
+                "give a TP program as the controller prints it (.ls)",
+            );
+        } else if !layout.has_end {
+            let end = file.bytes().len();
+            self.fault(
+                file,
+                end..end,
+                "the file ends before its section /END: a part of it may be lost",
+                "give the whole file",
+            );
+        }
+        layout
+    }
+
+    fn finding(&mut self, file: usize, line: usize, message: impl Into<String>) {
+        self.findings.push(Finding {
+            file,
+            line,
+            message: message.into(),
+        });
+    }
+
+    /// The instructions of a file; positions that are read besides motions keep their values.
+    fn program(
+        &mut self,
+        file: &SourceFile,
+        index: usize,
+        layout: &Layout,
+        positions: &Positions,
+    ) -> Program {
+        if let Some(stated) = &layout.line_count
+            && stated.value != layout.lines.len() as f64
+        {
+            let (line, count) = (file.line_of(stated.span.start), layout.lines.len());
+            let message = format!("LINE_COUNT says {}, there are {count} lines", stated.value);
+            self.finding(index, line, message);
+        }
+        let mut steps = Vec::with_capacity(layout.lines.len());
+        let mut kept = BTreeSet::new();
+        let mut all_kept = false;
+        for line in &layout.lines {
+            let step = step_of(file.bytes(), &line.text);
+            match &step {
+                Step::Refused((reason, remedy)) => {
+                    self.fault(file, line.whole.clone(), *reason, *remedy);
+                }
+                Step::Motion(motion) => {
+                    let unknown = End::Register("which position it goes to, a register says");
+                    all_kept |= motion.target == unknown;
+                }
+                Step::Run => {
+                    let line = file.line_of(line.whole.start);
+                    self.finding(index, line, "another task starts: it is not followed");
+                }
+                _ => match positions_read(file.bytes(), &line.text) {
+                    Some(numbers) => kept.extend(numbers),
+                    None => all_kept = true,
+                },
+            }
+            steps.push(step);
+        }
+        for (number, position) in &positions.all {
+            if let (Held::Pose(declaration), true) =
+                (&position.held, all_kept || kept.contains(number))
+            {
+                self.declarations[*declaration].keeps_value = true;
+            }
+        }
+        let program = Program::of(steps);
+        for (at, reason, remedy) in &program.faults {
+            self.fault(file, layout.lines[*at].whole.clone(), *reason, *remedy);
+        }
+        program
+    }
+
+    /// Finds the programs that are called.
+    fn link(&mut self, files: &[SourceFile], layouts: &[Layout], programs: &mut [Program]) {
+        let mut names: BTreeMap<Vec<u8>, usize> = BTreeMap::new();
+        for (index, layout) in layouts.iter().enumerate() {
+            let name = files[index].part(&layout.name).to_ascii_uppercase();
+            let first = *names.entry(name).or_insert(index);
+            if first != index {
+                let reason = "another file holds a program of this name";
+                self.fault(
+                    &files[index],
+                    layout.name.clone(),
+                    reason,
+                    "give one of them",
+                );
+            }
+        }
+        for (index, program) in programs.iter_mut().enumerate() {
+            let file = &files[index];
+            for (at, step) in program.steps.iter().enumerate() {
+                let step = match step {
+                    Step::Perhaps(step) => step,
+                    step => step,
+                };
+                let Step::Call(name) = step else {
+                    continue;
+                };
+                let called = name.as_ref().map(|name| file.part(name));
+                match called.and_then(|name| names.get(&name.to_ascii_uppercase())) {
+                    Some(to) => {
+                        program.called.insert(at, *to);
+                    }
+                    None => {
+                        let line = file.line_of(layouts[index].lines[at].whole.start);
+                        let message = match called {
+                            Some(name) => format!(
+                                "`{}` is in none of these files: it is carried, and if it moves the tool, that is not seen",
+                                crate::error::excerpt(name)
+                            ),
+                            None => "what is called, a register says: it is carried, and if it moves the tool, that is not seen".to_owned(),
+                        };
+                        self.finding(index, line, message);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A frame or tool by its number.
+    fn frame_use(&self, letters: &str, number: Option<u32>) -> FrameUse {
+        let Some(number) = number else {
+            return FrameUse {
+                name: letters.to_owned(),
+                frame: Frame::Unknown {
+                    reason: "its number is not known from the text".to_owned(),
+                },
+            };
+        };
+        let name = format!("{letters}:{number}");
+        let frame = match (self.frames.get(&name), number) {
+            (Some(frame), _) => Frame::Known(*frame),
+            (None, 0) => Frame::Known(Isometry3::identity()),
+            (None, _) => Frame::Unknown {
+                reason: "the controller holds it; state it in the options".to_owned(),
+            },
+        };
+        FrameUse { name, frame }
+    }
+
+    /// One end of a motion: what it is, where it stands, frame and tool, external axes.
+    fn end(
+        &self,
+        end: &End,
+        place: &MotionPlace<'_>,
+        displaced: Option<&'static str>,
+    ) -> Result<EndFound, (String, &'static str)> {
+        let unknown = "leave such motions as written by an option, or teach a position";
+        let (in_force, tool_in_force) = place.before.map_or((None, None), |b| (b.frame, b.tool));
+        let (number, name) = match end {
+            End::Position(number, name) => (number, name),
+            End::Register(reason) => {
+                return match self.options.unknown_targets {
+                    UnknownTargets::Refused => Err(((*reason).to_owned(), unknown)),
+                    UnknownTargets::LeftAsWritten => Ok(EndFound {
+                        target: Target::Unknown {
+                            reason: (*reason).to_owned(),
+                        },
+                        site: TargetSite::Fixed("its end is not known"),
+                        frame: in_force,
+                        tool: tool_in_force,
+                        external: Vec::new(),
+                    }),
+                };
+            }
+        };
+        let missing = || {
+            let reason = format!("position P[{number}] is not in /POS");
+            (reason, "teach it, or take the motion out")
+        };
+        let position = place.positions.all.get(number).ok_or_else(missing)?;
+        let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
+        for (letters, word, own, now) in [
+            ("UF", "UFRAME_NUM", position.frame, in_force),
+            ("UT", "UTOOL_NUM", position.tool, tool_in_force),
+        ] {
+            if let (Some(own), Some(now)) = (own, now)
+                && own != now
+            {
+                let reason = format!(
+                    "P[{number}] is taught with {letters} {own}, but {word} is {now} here, and which counts is a setting of the controller"
+                );
+                displaced.get_or_insert((
+                    reason,
+                    "teach it in the frame and with the tool in force, or leave such motions as written by an option",
+                ));
+            }
+        }
+        let (target, site) = match (&position.held, displaced) {
+            (Held::Nothing(reason), _) => {
+                return Err((
+                    format!("P[{number}]: {reason}"),
+                    "teach it, or take the motion out",
+                ));
+            }
+            (_, Some(reason)) if self.options.unknown_targets == UnknownTargets::Refused => {
+                return Err(reason);
+            }
+            (held, displaced) => {
+                let site = match held {
+                    Held::Pose(declaration) => TargetSite::Declared {
+                        declaration: *declaration,
+                        name: name.clone(),
+                    },
+                    _ => TargetSite::Fixed("it goes to joint values"),
+                };
+                let target = match (held, displaced) {
+                    (_, Some((reason, _))) => Target::Unknown { reason },
+                    (Held::Pose(at), None) => Target::Pose(self.declarations[*at].pose.clone()),
+                    (Held::Joints(values), None) => Target::Joints {
+                        values_deg: values.clone(),
+                    },
+                    (Held::Nothing(_), None) => return Err(missing()),
+                };
+                (target, site)
+            }
+        };
+        Ok(EndFound {
+            target,
+            site,
+            frame: position.frame.or(in_force),
+            tool: position.tool.or(tool_in_force),
+            external: position.external.clone(),
+        })
+    }
+
+    fn motion(
+        &mut self,
+        text: &MotionText,
+        place: &MotionPlace<'_>,
+    ) -> Option<(Motion, Vec<Option<f64>>)> {
+        let file = place.file;
+        let end = self.end(&text.target, place, text.displaced);
+        let via = text.via.as_ref().map(|(span, end)| {
+            let found = self.end(end, place, text.displaced);
+            // With what stands between the two positions.
+            let span = span.start..text.target_span.start.max(span.end);
+            found.map(|found| (span, found))
+        });
+        let (end, via) = match (end, via.transpose()) {
+            (Ok(end), Ok(via)) => (end, via),
+            (Err((reason, remedy)), _) | (_, Err((reason, remedy))) => {
+                self.fault(file, place.line.whole.clone(), reason, remedy);
+                return None;
+            }
+        };
+        if let Some((_, via)) = &via
+            && (via.frame, via.tool) != (end.frame, end.tool)
+        {
+            let (reason, remedy) = (
+                "the two positions of the circle have different frames or tools",
+                "teach both in one frame and with one tool",
+            );
+            self.fault(file, place.line.whole.clone(), reason, remedy);
+            return None;
+        }
+        let motion = Motion {
+            file: place.index,
+            line: file.line_of(place.line.whole.start),
+            span: place.line.whole.clone(),
+            kind: match (text.way, &via) {
+                (Way::Joint, _) => MotionKind::Joint,
+                (Way::Linear, _) | (Way::Circular, None) => MotionKind::Linear,
+                (Way::Circular, Some((_, via))) => MotionKind::Circular {
+                    via: via.target.clone(),
+                },
+            },
+            target: end.target,
+            speed: text.speed.clone(),
+            zone: text.zone,
+            tool: self.frame_use("UT", end.tool),
+            work_object: self.frame_use("UF", end.frame),
+            runs: Runs::Once,
+            follows: None,
+            site: MotionSite {
+                keyword: text.keyword.clone(),
+                target_span: text.target_span.clone(),
+                target: end.site,
+                via: via.map(|(span, via)| (span, via.site)),
+                speed: text.speed_site.clone(),
+                zone: text.zone_span.clone(),
+                indivisible: text.indivisible,
+            },
+        };
+        Some((motion, end.external))
+    }
+
+    fn finish(mut self, files: Vec<SourceFile>) -> Result<RobotProgram, Vec<ProgramError>> {
+        if self.options.external_axes == ExternalAxes::Refused
+            && let Some(fault) = self.moving_axis(&files)
+        {
+            self.faults.push(fault);
+        }
+        if !self.faults.is_empty() {
+            let place = |fault: &ProgramError| {
+                let file = files.iter().position(|file| file.name() == fault.file);
+                (file, fault.span.start, fault.line)
+            };
+            self.faults.sort_by_key(place);
+            return Err(self.faults);
+        }
+        let mut named = BTreeSet::new();
+        for motion in &self.motions {
+            let at = |message: String| Finding {
+                file: motion.file,
+                line: motion.line,
+                message,
+            };
+            if let Target::Unknown { reason } = &motion.target {
+                let message = format!("it stays as it is written: {reason}");
+                self.findings.push(at(message));
+            }
+            for FrameUse { name, frame } in [&motion.tool, &motion.work_object] {
+                if let Frame::Unknown { reason } = frame
+                    && named.insert(name)
+                {
+                    let message = format!("where `{name}` is, is not known: {reason}");
+                    self.findings.push(at(message));
+                }
+            }
+        }
+        drop(named);
+        self.findings
+            .sort_by_key(|finding| (finding.file, finding.line));
+        Ok(RobotProgram {
+            language: Language::FanucLs,
+            files,
+            motions: self.motions,
+            findings: self.findings,
+            declarations: self.declarations,
+        })
+    }
+
+    /// The first motion at which an external axis or a further group is elsewhere than before.
+    fn moving_axis(&self, files: &[SourceFile]) -> Option<ProgramError> {
+        let mut known: Vec<Option<f64>> = Vec::new();
+        for (motion, external) in self.motions.iter().zip(&self.external) {
+            known.resize(known.len().max(external.len()), None);
+            for (axis, value) in external.iter().enumerate() {
+                match (known[axis], value) {
+                    (None, Some(_)) => known[axis] = *value,
+                    (Some(before), Some(value)) if before != *value => {
+                        return Some(ProgramError::at(
+                            &files[motion.file],
+                            motion.span.clone(),
+                            format!(
+                                "external axis or group axis {} moves from {before} to {value}: the arm stands elsewhere then",
+                                axis + 1
+                            ),
+                            "read with external axes carried if they do not move the arm or the part",
+                        ));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        None
+    }
+}
+
+struct EndFound {
+    target: Target,
+    site: TargetSite,
+    frame: Option<u32>,
+    tool: Option<u32>,
+    external: Vec<Option<f64>>,
+}
+
+/// The motions in the order in which they first run, and how often each program runs.
+struct Order {
+    motions: Vec<Place>,
+    runs: Vec<Runs>,
+}
+
+/// Deepest nesting of calls that is followed.
+const DEEPEST: usize = 200;
+
+impl Order {
+    fn of(programs: &[Program]) -> Self {
+        let mut order = Self {
+            motions: Vec::new(),
+            runs: vec![Runs::Elsewhere; programs.len()],
+        };
+        let (mut begun, mut finished) = (vec![false; programs.len()], Vec::new());
+        for root in 0..programs.len() {
+            if !begun[root] {
+                order.visit(root, programs, &mut begun, &mut finished, 0);
+            }
+        }
+        // Callers first; a program that calls itself, or is called by what it calls, runs repeatedly.
+        let mut calls: Vec<Vec<(usize, Runs)>> = vec![Vec::new(); programs.len()];
+        let mut place = vec![0; programs.len()];
+        for (at, program) in finished.iter().enumerate() {
+            place[*program] = at;
+        }
+        for (from, program) in programs.iter().enumerate() {
+            for (at, to) in &program.called {
+                let perhaps = matches!(program.steps[*at], Step::Perhaps(_));
+                let runs = match perhaps {
+                    true => Runs::OnCondition.max(program.runs[*at]),
+                    false => program.runs[*at],
+                };
+                calls[*to].push((from, runs));
+            }
+        }
+        for program in finished.iter().rev().copied() {
+            let reached = calls[program].iter();
+            let recursive = calls[program]
+                .iter()
+                .any(|(from, _)| place[*from] <= place[program]);
+            let mut reached = reached
+                .filter(|(from, _)| order.runs[*from] != Runs::Elsewhere)
+                .map(|(from, runs)| order.runs[*from].max(*runs));
+            order.runs[program] = match (reached.next(), reached.next()) {
+                _ if recursive => Runs::Repeatedly,
+                (None, _) if program == 0 => Runs::Once,
+                (None, _) => Runs::Elsewhere,
+                (Some(once), None) if program != 0 => once,
+                _ => Runs::Repeatedly,
+            };
+        }
+        order
+    }
+
+    fn visit(
+        &mut self,
+        program: usize,
+        programs: &[Program],
+        begun: &mut [bool],
+        finished: &mut Vec<usize>,
+        depth: usize,
+    ) {
+        begun[program] = true;
+        for (at, step) in programs[program].steps.iter().enumerate() {
+            match step {
+                Step::Motion(_) => self.motions.push((program, at)),
+                Step::Call(_) | Step::Perhaps(_) => {
+                    if let Some(to) = programs[program].called.get(&at)
+                        && !begun[*to]
+                        && depth < DEEPEST
+                    {
+                        self.visit(*to, programs, begun, finished, depth + 1);
+                    }
+                }
+                _ => {}
+            }
+        }
+        finished.push(program);
+    }
+}

@@ -1,0 +1,269 @@
+//! What random programs of any language must keep, and the chance that makes them.
+//!
+//! Whatever the bytes are, they are read or refused with a line; what is read comes back byte for byte, and with corrections
+//! is read again with those corrections; divided, it goes through all places in their order.
+
+use kinetostat_formats::*;
+use kinetostat_testing::Worst;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A sequence of numbers by its seed (xorshift64*, Vigna 2016).
+pub struct Chance(u64);
+
+impl Chance {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
+    }
+
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() >> 33) as usize % count.max(1)
+    }
+
+    pub fn within(&mut self, size: f64) -> f64 {
+        size * (2.0 * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64) - 1.0)
+    }
+
+    pub fn of<'t>(&mut self, all: &[&'t str]) -> &'t str {
+        all[self.below(all.len())]
+    }
+}
+
+/// A language and what it can write.
+pub struct Kind {
+    pub language: Language,
+    pub options: ReadOptions,
+    /// Whether an orientation can be turned by itself.
+    pub turns: bool,
+    /// Words that break a text.
+    pub words: &'static [&'static str],
+    pub place_mm: f64,
+    pub turn_rad: f64,
+}
+
+/// Bytes of a text, some of them lost, doubled or changed.
+pub fn broken(chance: &mut Chance, text: &str, kind: &Kind) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for _ in 0..chance.below(6) {
+        let at = chance.below(bytes.len());
+        let end = (at + chance.below(40)).min(bytes.len());
+        match chance.below(5) {
+            0 => drop(bytes.drain(at..end)),
+            1 => {
+                let copy = bytes[at..end].to_vec();
+                let to = chance.below(bytes.len());
+                bytes.splice(to..to, copy);
+            }
+            2 => {
+                let symbols = b";,:[](){}/$'\"!%=\n+-.E9\xffA ";
+                bytes[at] = symbols[chance.below(symbols.len())];
+            }
+            3 => {
+                bytes.splice(at..at, chance.of(kind.words).bytes());
+            }
+            _ if chance.below(4) == 0 => bytes.truncate(at.max(1)),
+            _ => {}
+        }
+        if bytes.is_empty() {
+            break;
+        }
+    }
+    bytes
+}
+
+pub fn read_bytes(kind: &Kind, bytes: &[u8]) -> Result<RobotProgram, Vec<ProgramError>> {
+    let files = vec![SourceFile::new("a.txt", bytes)];
+    read(kind.language, files, &kind.options)
+}
+
+/// Corrections by chance for the motions of a program.
+pub fn corrections(chance: &mut Chance, program: &RobotProgram, kind: &Kind) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some(end) = motion.target.pose().filter(|_| chance.below(3) > 0) else {
+            continue;
+        };
+        // An arc is about its written centre: neither its end nor its start changes.
+        let is_arc = |motion: &Motion| matches!(motion.kind, MotionKind::Arc { .. });
+        let next = program.motions.get(index + 1);
+        if is_arc(motion) || next.is_some_and(is_arc) {
+            continue;
+        }
+        if let MotionKind::Circular { via } = &motion.kind
+            && via.pose().is_none()
+        {
+            continue;
+        }
+        let mut shift = || Vector3::new(chance.within(0.5), chance.within(0.5), chance.within(0.5));
+        let mut piece = Piece::to(index, end.position_mm + shift());
+        if let MotionKind::Circular { via } = &motion.kind {
+            piece.via_mm = via.pose().map(|via| via.position_mm + shift());
+        }
+        if kind.turns && chance.below(2) == 0 {
+            let angles = [0, 1, 2].map(|_| chance.within(1e-2));
+            let turn = UnitQuaternion::from_euler_angles(angles[0], angles[1], angles[2]);
+            piece.orientation = Some(turn * end.orientation);
+        }
+        let near = |place: Vector3<f64>| place.norm() < 9e5;
+        if near(piece.position_mm) && piece.via_mm.is_none_or(near) {
+            pieces.push(piece);
+        }
+    }
+    pieces
+}
+
+/// What is wrong with the writing of a program, if anything.
+pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> Result<(), String> {
+    let files =
+        write(program, pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
+    let again =
+        read_bytes(kind, &files[0].1).map_err(|errors| format!("read again: {}", errors[0]))?;
+    if again.motions.len() != program.motions.len() {
+        return Err("another number of motions".to_owned());
+    }
+    let (mut place, mut turn) = (Worst::new(), Worst::new());
+    let mut compare = |found: &PoseTarget, to: Vector3<f64>, orientation: UnitQuaternion<f64>| {
+        place.add((found.position_mm - to).norm());
+        turn.add(found.orientation.angle_to(&orientation));
+    };
+    for (index, (before, after)) in program.motions.iter().zip(&again.motions).enumerate() {
+        let (Some(old), Some(new)) = (before.target.pose(), after.target.pose()) else {
+            continue;
+        };
+        let piece = pieces.iter().find(|piece| piece.motion == index);
+        let to = piece.map_or(old.position_mm, |piece| piece.position_mm);
+        let orientation = piece.and_then(|piece| piece.orientation);
+        compare(new, to, orientation.unwrap_or(old.orientation));
+        if let (MotionKind::Circular { via: old }, MotionKind::Circular { via: new }) =
+            (&before.kind, &after.kind)
+            && let (Some(old), Some(new)) = (old.pose(), new.pose())
+        {
+            let to = piece.and_then(|piece| piece.via_mm);
+            compare(new, to.unwrap_or(old.position_mm), old.orientation);
+        }
+        if (
+            before.zone,
+            &before.tool,
+            &before.work_object,
+            before.runs,
+            before.follows,
+        ) != (
+            after.zone,
+            &after.tool,
+            &after.work_object,
+            after.runs,
+            after.follows,
+        ) {
+            return Err(format!("motion {index}: another zone, frame or order"));
+        }
+    }
+    let largest = |worst: &Worst| worst.measured().unwrap_or(0.0);
+    let (place, turn) = (largest(&place), largest(&turn));
+    match place <= kind.place_mm && turn <= kind.turn_rad {
+        true => Ok(()),
+        false => Err(format!("{place} mm and {turn} rad away")),
+    }
+}
+
+/// Straight motions, circles and arcs divided: whether what is written again goes through all places, in their order.
+pub fn divide_and_read(
+    chance: &mut Chance,
+    program: &RobotProgram,
+    kind: &Kind,
+) -> Result<(), String> {
+    let mut pieces = Vec::new();
+    let mut places = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some(end) = (motion.target.pose()).filter(|end| end.position_mm.norm() < 9e5) else {
+            places.push(None);
+            continue;
+        };
+        let halves = [
+            Piece::to(index, end.position_mm),
+            Piece::to(index, end.position_mm),
+        ];
+        let count = match chance.below(3) {
+            // What cannot be divided says so.
+            0 if write(program, &halves, &WriteOptions::default()).is_ok() => 2 + chance.below(3),
+            _ => 0,
+        };
+        let mut own = Vec::new();
+        for step in 1..count {
+            own.push(end.position_mm + Vector3::new(chance.within(5.0), step as f64, 0.0));
+        }
+        own.push(end.position_mm);
+        if count > 0 {
+            pieces.extend(own.iter().map(|place| Piece::to(index, *place)));
+        }
+        places.extend(own.into_iter().map(Some));
+    }
+    let files =
+        write(program, &pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
+    let again =
+        read_bytes(kind, &files[0].1).map_err(|errors| format!("divided: {}", errors[0]))?;
+    let found: Vec<Option<Vector3<f64>>> = again
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().map(|pose| pose.position_mm))
+        .collect();
+    let near = |(found, place): (&Option<Vector3<f64>>, &Option<Vector3<f64>>)| {
+        found.is_none()
+            || place.is_none_or(|place| {
+                found.is_some_and(|found| (found - place).norm() <= kind.place_mm)
+            })
+    };
+    match found.len() == places.len() && found.iter().zip(&places).all(near) {
+        true => Ok(()),
+        false => Err(format!(
+            "divided: {} motions instead of {}, or elsewhere",
+            found.len(),
+            places.len()
+        )),
+    }
+}
+
+/// One case of the fuzz: whether it was read.
+pub fn check(seed: u64, chance: &mut Chance, bytes: &[u8], kind: &Kind) -> Result<bool, String> {
+    let at = |what: String| format!("case {seed}: {what}");
+    let program = match read_bytes(kind, bytes) {
+        Ok(program) => program,
+        Err(errors) => {
+            let lines = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
+            let fits = |error: &ProgramError| {
+                (1..=lines).contains(&error.line) && error.span.end <= bytes.len()
+            };
+            let ordered = errors.is_sorted_by_key(|error| error.line);
+            return match !errors.is_empty() && ordered && errors.iter().all(fits) {
+                true => Ok(false),
+                false => Err(at("an error has no place, or not its place".to_owned())),
+            };
+        }
+    };
+    let same = write(&program, &[], &WriteOptions::default());
+    if same.map_err(|error| at(error.to_string()))?[0].1 != bytes {
+        return Err(at("bytes changed without pieces".to_owned()));
+    }
+    let is_far = |motion: &Motion| {
+        motion
+            .target
+            .pose()
+            .is_some_and(|end| end.position_mm.norm() > 9e5)
+    };
+    if program.motions.iter().any(is_far) {
+        // Farther than what is written.
+        return Ok(true);
+    }
+    let pieces = corrections(chance, &program, kind);
+    write_and_read(&program, &pieces, kind).map_err(at)?;
+    divide_and_read(chance, &program, kind).map_err(at)?;
+    Ok(true)
+}
+
+/// Half of the third decimal along each axis: times the root of three.
+pub const PLACE_MM: f64 = 0.866e-3 + 1e-6;

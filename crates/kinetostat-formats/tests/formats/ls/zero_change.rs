@@ -1,0 +1,126 @@
+//! Every construct is read, and without pieces every byte comes back.
+
+use kinetostat_formats::*;
+
+use super::{EVERYTHING, read_with};
+
+#[test]
+fn every_byte_comes_back_with_any_line_ending_and_any_coding() {
+    let latin: Vec<u8> = EVERYTHING
+        .replace("here", "l\u{e0}")
+        .chars()
+        .map(|c| c as u8)
+        .collect();
+    let all = [
+        EVERYTHING.as_bytes().to_vec(),
+        EVERYTHING.replace('\n', "\r\n").into_bytes(),
+        EVERYTHING.trim_end().as_bytes().to_vec(),
+        [EVERYTHING.as_bytes(), b"\r\n\t \xff\xfe after the end"].concat(),
+        latin,
+    ];
+    for bytes in all {
+        let program = read_with(&bytes, &ReadOptions::default()).unwrap();
+        let files = write(&program, &[], &WriteOptions::default()).unwrap();
+        assert_eq!(files, [("part.ls".to_owned(), bytes)]);
+    }
+}
+
+#[test]
+fn every_construct_is_what_the_manual_says() {
+    let program = read_with(EVERYTHING.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(program.motions.len(), 13);
+    let motions = &program.motions;
+    let speeds: Vec<Option<f64>> = motions.iter().map(|motion| motion.speed.mm_per_s).collect();
+    // 60 cm/min, 30 inch/min.
+    assert_eq!(
+        speeds[..8],
+        [
+            None,
+            None,
+            Some(2000.0),
+            Some(10.0),
+            Some(20.0),
+            None,
+            Some(12.7),
+            None
+        ]
+    );
+    let zones: Vec<Zone> = motions.iter().map(|motion| motion.zone).collect();
+    assert_eq!(
+        zones[2..7],
+        [
+            Zone::Percent(100.0),
+            Zone::Exact,
+            Zone::Percent(50.0),
+            Zone::Unstated,
+            Zone::Radius(10.0)
+        ]
+    );
+    assert_eq!(
+        motions[1].target,
+        Target::Joints {
+            values_deg: vec![6.428, -7.0, 8.0, 9.0, 10.0, 11.0]
+        }
+    );
+    let MotionKind::Circular { via } = &motions[4].kind else {
+        panic!("C is a circle")
+    };
+    assert_eq!(
+        via.pose().unwrap().position_mm.as_slice(),
+        [110.0, 10.0, 5.0]
+    );
+    let pose = motions[3].target.pose().unwrap();
+    assert_eq!(pose.configuration.text, "F U T, 0, 0, -1");
+    assert_eq!(pose.configuration.numbers, [0.0, 0.0, -1.0]);
+    // Rz(0) Ry(0) Rx(180): Z points down.
+    let down = pose.orientation * nalgebra::Vector3::z();
+    assert!((down + nalgebra::Vector3::z()).norm() < 1e-12);
+    let external = &motions[4].target.pose().unwrap().external;
+    assert_eq!(external[..], [Some(12.5), Some(0.0), Some(0.0)]);
+    // Behind a CALL of what is not read, `UF : F` says nothing.
+    assert_eq!(motions[12].work_object.known(), None);
+    for motion in &motions[..11] {
+        assert_eq!(
+            (motion.work_object.name.as_str(), motion.tool.name.as_str()),
+            ("UF:2", "UT:1")
+        );
+    }
+}
+
+#[test]
+fn runs_and_starts_follow_branches_loops_and_jumps() {
+    let program = read_with(EVERYTHING.as_bytes(), &ReadOptions::default()).unwrap();
+    let runs: Vec<Runs> = program.motions.iter().map(|motion| motion.runs).collect();
+    let once = [Runs::Once; 8];
+    assert_eq!(runs[..8], once);
+    assert_eq!(
+        runs[8..],
+        [
+            Runs::OnCondition,
+            Runs::OnCondition,
+            Runs::Repeatedly,
+            Runs::Repeatedly,
+            Runs::Repeatedly
+        ]
+    );
+    let follows: Vec<Option<usize>> = program
+        .motions
+        .iter()
+        .map(|motion| motion.follows)
+        .collect();
+    // Behind CALL, a loop's head and a label it is not known.
+    assert_eq!(
+        follows[..8],
+        [
+            None,
+            Some(0),
+            Some(1),
+            Some(2),
+            Some(3),
+            Some(4),
+            Some(5),
+            Some(6)
+        ]
+    );
+    assert_eq!(follows[8..], [None; 5]);
+}
