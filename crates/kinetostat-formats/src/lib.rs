@@ -68,6 +68,7 @@ pub use path::correctable::Correctable;
 pub use path::fault::PathError;
 pub use path::of_program::{RobotPath, path_of};
 pub use path::options::PathOptions;
+pub use path::tools::tool_number;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};

@@ -16,7 +16,7 @@ use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
-use crate::job::robot::machine::{placement_of_robot, tool_of_robot};
+use crate::job::robot::machine::{placement_of_robot, tool_of_robot, tools_of_robot};
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
@@ -102,11 +102,15 @@ pub(crate) fn machine_setup(
     let mut given = vec![ToolGiven {
         number: None,
         pose: tool,
-        stated: frames.is_some_and(|frames| frames.tool.is_some())
+        stated: frames.is_some_and(|frames| frames.tools.iter().any(|(_, _, pose)| pose.is_some()))
             || flags.tool_length_mm.is_some()
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
-    let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    let mut tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    if let Some(frames) = frames.filter(|frames| tools.is_empty() && frames.states_orientation) {
+        let described = (&mut tool_words, &mut given);
+        tools = tools_of_robot(frames, &model.mechanism, load, described)?;
+    }
     let source = match &path {
         Some(_) => named,
         None => format!("preset {named}"),

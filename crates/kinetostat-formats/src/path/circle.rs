@@ -39,3 +39,28 @@ pub(crate) fn through(start: &Vector3<f64>, via: &Vector3<f64>, end: &Vector3<f6
         rise: 0.0,
     })
 }
+
+/// The arc or helix about a centre and an axis (of length 1) from `start` by an angle (rad, right-handed) to `end`, in mm; `None`
+/// where the start lies on the axis.
+pub(crate) fn about(
+    (centre, axis): (&Vector3<f64>, &Vector3<f64>),
+    angle: f64,
+    (start, end): (&Vector3<f64>, &Vector3<f64>),
+) -> Option<Arc> {
+    let across = |point: &Vector3<f64>| {
+        let arm = point - centre;
+        arm - axis * arm.dot(axis)
+    };
+    let first = across(start).try_normalize(1e-9)?;
+    Some(Arc {
+        centre: centre + axis * (start - centre).dot(axis),
+        first,
+        second: axis.cross(&first),
+        axis: *axis,
+        start_angle: 0.0,
+        sweep: angle,
+        start_radius: across(start).norm(),
+        end_radius: across(end).norm(),
+        rise: (end - start).dot(axis),
+    })
+}

@@ -1,13 +1,14 @@
 //! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
 
 use kinetostat_program::{
-    Corrected, CorrectionField, MachineProgram, Monitor, Path, Plan, PlannedMove, Verification,
-    WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenMove,
+    Corrected, CorrectionField, Curve, MachineProgram, Monitor, Path, Plan, PlannedMove,
+    Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenMove,
 };
 use nalgebra::Isometry3;
 
 use crate::document::{read, write};
 use crate::error::WriteError;
+use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;
@@ -88,7 +89,9 @@ impl Correctable<'_> {
     fn pieces(&self, index: usize, plan: &PlannedMove, half_mm: f64) -> Vec<Piece> {
         let motion = &self.path.path.moves[index];
         let number = self.path.motions[index];
+        // The text of an arc changes with its start.
         let unchanged = plan.pieces.len() == 1
+            && motion.curve == Curve::Line
             && plan.pieces.iter().all(|piece| {
                 let turned = piece.orientation.zip(motion.orientation(1.0));
                 (piece.position_mm - motion.end).amax() <= half_mm
@@ -98,17 +101,34 @@ impl Correctable<'_> {
             return Vec::new();
         }
         let to_own = self.work_object_from_path(number);
-        let pieces = plan.pieces.iter().map(|piece| Piece {
-            motion: number,
-            position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
-            orientation: piece.orientation.map(|o| to_own.rotation * o),
-            via_mm: None,
-            speed_factor: match (piece.speed_factor - 1.0).abs() <= SAME_SPEED {
-                true => 1.0,
-                false => piece.speed_factor,
-            },
-        });
-        pieces.collect()
+        let own = &self.program.motions[number];
+        // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
+        let same_speed =
+            |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
+        let mut pieces: Vec<Piece> = plan
+            .pieces
+            .iter()
+            .map(|piece| Piece {
+                motion: number,
+                position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
+                orientation: piece.orientation.map(|o| to_own.rotation * o),
+                via_mm: None,
+                speed_factor: match same_speed(piece.speed_factor) {
+                    true => 1.0,
+                    false => piece.speed_factor,
+                },
+            })
+            .collect();
+        // A circle so short that one piece follows it, or of which only the end is known, stays one.
+        if let (MotionKind::Circular { via }, [piece]) = (&own.kind, pieces.as_mut_slice()) {
+            let end = own
+                .target
+                .pose()
+                .map_or(piece.position_mm, |end| end.position_mm);
+            let shift = piece.position_mm - end;
+            piece.via_mm = via.pose().map(|via| via.position_mm + shift);
+        }
+        pieces
     }
 
     /// What was written, read again: the ends of all pieces.

@@ -10,3 +10,4 @@ pub(crate) mod header;
 pub(crate) mod of_program;
 pub(crate) mod options;
 pub(crate) mod read_again;
+pub(crate) mod tools;

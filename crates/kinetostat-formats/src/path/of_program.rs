@@ -11,9 +11,10 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
-use crate::path::circle::through;
+use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
+use crate::path::tools::{changes, same_frame, tools_of};
 
 /// The path of a robot's program, and in which axes it is.
 ///
@@ -29,8 +30,9 @@ pub struct RobotPath {
     /// Work object of the program, in whose axes the path is; `None` where the program uses several, and the path is in the
     /// axes of the robot's base.
     pub work_object: Option<FrameUse>,
-    /// The tool that all poses are of; `None` in a program without poses.
-    pub tool: Option<FrameUse>,
+    /// The tools that poses are of, in the order in which they are first used; of several, [`Path::tool_changes`] names them by
+    /// [`tool_number`].
+    pub tools: Vec<FrameUse>,
     /// The file with the motions, an index of [`RobotProgram::files`].
     pub file: usize,
 }
@@ -77,14 +79,17 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             "give the files with motions one by one",
         ));
     }
-    let tool = poses.first().map(|motion| motion.tool.clone());
-    if let Some(other) = differs(&poses, |motion| &motion.tool) {
-        let first = tool.as_ref().map_or("", |tool| &tool.name);
-        faults.push(fault(
-            other,
-            format!("the tool `{}`, after `{first}`", other.tool.name),
-            "a program with several tools is not corrected yet: write one program for each tool",
-        ));
+    let tools = tools_of(&poses);
+    let in_order = poses.windows(2).all(|pair| pair[0].line <= pair[1].line);
+    if let (Some(other), false) = (tools.get(1), in_order) {
+        let first = poses.iter().find(|motion| motion.tool.name == other.name);
+        faults.extend(first.map(|motion| {
+            fault(
+                motion,
+                format!("the tool `{}` is another one, in a program whose routines do not run in the order of their lines", other.name),
+                "write one program for each tool, or the routines in their order",
+            )
+        }));
     }
     let one = differs(&poses, |motion| &motion.work_object).is_none();
     let work_object = poses.first().map(|motion| motion.work_object.clone());
@@ -110,17 +115,20 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     if !faults.is_empty() {
         return Err(faults);
     }
-    let made = Maker {
+    let mut made = Maker {
         program,
         options,
         in_base: !one,
     }
     .path();
+    if tools.len() > 1 {
+        made.tool_changes = changes(&poses, &tools);
+    }
     Ok(RobotPath {
         motions: (0..program.motions.len()).collect(),
         path: made,
         work_object: work_object.filter(|_| one),
-        tool,
+        tools,
         file,
     })
 }
@@ -128,14 +136,8 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
 /// The first motion with another frame than the first one.
 fn differs<'m>(poses: &[&'m Motion], frame: fn(&Motion) -> &FrameUse) -> Option<&'m Motion> {
     let first = frame(poses.first()?);
-    let same = |motion: &&&Motion| {
-        let own = frame(motion);
-        match (own.known(), first.known()) {
-            (Some(own), Some(first)) => own != first,
-            _ => own.name != first.name,
-        }
-    };
-    poses.iter().find(same).copied()
+    let other = |motion: &&&Motion| !same_frame(frame(motion), first);
+    poses.iter().find(other).copied()
 }
 
 struct Maker<'a> {
@@ -209,6 +211,16 @@ impl Maker<'_> {
                         Curve::Line
                     }
                 }
+            }
+            MotionKind::Arc {
+                centre_mm,
+                axis,
+                angle_rad,
+            } if known == Knowledge::Whole => {
+                let frame = self.frame(motion);
+                let centre = (frame * nalgebra::Point3::from(*centre_mm)).coords;
+                about((&centre, &(frame.rotation * axis)), *angle_rad, (&a, &b))
+                    .map_or(Curve::Line, Curve::Arc)
             }
             _ => Curve::Line,
         };

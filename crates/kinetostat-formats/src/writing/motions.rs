@@ -134,11 +134,8 @@ impl Writer<'_> {
             motion.kind,
             MotionKind::Circular { .. } | MotionKind::Arc { .. }
         );
-        if is_circle && before.is_empty() {
-            let via = last.via_mm.ok_or((
-                "one piece of a circle states no place between its start and its end",
-                "state via_mm, or divide the circle into straight pieces",
-            ))?;
+        let becomes_straight = is_circle && (!before.is_empty() || last.via_mm.is_none());
+        if let (true, false, Some(via)) = (is_circle, becomes_straight, last.via_mm) {
             let (_, site) = motion.site.via.as_ref().ok_or(NO_END)?;
             let wanted = Wanted {
                 position_mm: via,
@@ -157,7 +154,7 @@ impl Writer<'_> {
         if let Some((speed, text)) = speed_of(motion, last)? {
             self.edits[motion.file].replace(speed.span.clone(), text);
         }
-        if before.is_empty() {
+        if before.is_empty() && !becomes_straight {
             return Ok(());
         }
         if motion.kind == MotionKind::Joint {
@@ -172,7 +169,7 @@ impl Writer<'_> {
                 "give it one piece, at its end, or write it otherwise",
             ));
         }
-        if is_circle {
+        if becomes_straight {
             let edits = &mut self.edits[motion.file];
             self.syntax.straighten(self.program, motion, edits);
         }

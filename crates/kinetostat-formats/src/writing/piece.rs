@@ -19,7 +19,7 @@ pub struct Piece {
     pub position_mm: Vector3<f64>,
     /// How the tool stands there, in the same axes; none for that of the motion's end.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Where a circle that stays one passes between its start and its end, mm.
+    /// Where a circle of one piece that stays a circle passes between its start and its end, mm; without it the piece is straight.
     pub via_mm: Option<Vector3<f64>>,
     /// By what the written speed is multiplied.
     pub speed_factor: f64,

@@ -13,5 +13,6 @@ mod harness;
 mod ls;
 mod numbers;
 mod orientations;
+mod paths;
 mod rapid;
 mod real_files;

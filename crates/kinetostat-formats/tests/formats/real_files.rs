@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 const VARIABLE: &str = "KINETOSTAT_ROBOT_PROGRAMS";
 
 /// The programs of a language by name; nothing (said plainly) where the variable is absent.
-fn programs(folder: &str) -> Vec<(String, Vec<u8>)> {
+pub fn programs(folder: &str) -> Vec<(String, Vec<u8>)> {
     let Some(root) = std::env::var_os(VARIABLE) else {
         // Past the capture of the test harness, so that it is seen.
         let _ = writeln!(
@@ -153,7 +153,7 @@ fn corrected_rapid_programs_are_read_again_at_the_corrected_places() {
 }
 
 /// What is stated for programs that are not wholly known from their text.
-fn stated() -> ReadOptions {
+pub fn stated() -> ReadOptions {
     let mut options = ReadOptions::default();
     options.unknown_targets = UnknownTargets::LeftAsWritten;
     options.external_axes = ExternalAxes::Carried;

@@ -1,7 +1,7 @@
 //! Tool and work object that a robot's program states, for the machine of a run.
 
 use kinetostat::Pose;
-use kinetostat_formats::FrameUse;
+use kinetostat_formats::{FrameUse, tool_number};
 use nalgebra::Isometry3;
 
 use crate::job::robot::read_program::RobotRead;
@@ -9,8 +9,8 @@ use crate::job::robot::read_program::RobotRead;
 /// What the program states of tool and work object.
 #[derive(Clone, Debug)]
 pub(crate) struct RobotFrames {
-    /// Name of the tool, and where it is in the flange, m.
-    pub(crate) tool: Option<(String, Option<Pose>)>,
+    /// Number and name of every tool, and where it is in the flange, m.
+    pub(crate) tools: Vec<(u32, String, Option<Pose>)>,
     /// Name of the work object in whose axes the path is, and where it is in the robot's base, m; `None`: the path is in axes of
     /// the base.
     pub(crate) work_object: Option<(String, Option<Pose>)>,
@@ -22,7 +22,12 @@ impl RobotFrames {
     pub(crate) fn of(read: &RobotRead<'_>) -> Self {
         let named = |frame: &FrameUse| (frame.name.clone(), frame.known().map(in_metres));
         Self {
-            tool: read.path.tool.as_ref().map(named),
+            tools: (read.path.tools.iter().enumerate())
+                .map(|(index, tool)| {
+                    let (name, pose) = named(tool);
+                    (tool_number(&read.path.tools, index), name, pose)
+                })
+                .collect(),
             work_object: read.path.work_object.as_ref().map(named),
             states_orientation: (read.path.path.moves.iter())
                 .any(|motion| motion.tool_turn.is_some()),

@@ -1,7 +1,7 @@
 //! Tool and placement of a run over a robot's program: of the program where it states them, else of the job.
 
-use kinetostat::Pose;
-use kinetostat_machining::Placement;
+use kinetostat::{Mechanism, Pose};
+use kinetostat_machining::{Placement, ProgramLoad, ToolGiven};
 
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
@@ -36,27 +36,52 @@ pub(crate) fn tool_of_robot(
     flags: &ProgramArgs,
     (stated, stated_words): (Pose, String),
 ) -> Answer<(Pose, String)> {
-    if job.is_some_and(|j| !j.job.tools.is_empty()) {
-        return Err(Failure::input(
-            "[[tools]] are tools by their number in G-code; a robot's program names its own: give [tool], or frames under [robot]",
-        ));
-    }
     let is_stated = flags.tool_length_mm.is_some()
         || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some());
-    match &frames.tool {
+    match frames.tools.first() {
         None => Ok((stated, stated_words)),
-        Some((_, None)) if is_stated || !frames.states_orientation => Ok((stated, stated_words)),
-        Some((name, None)) => Err(Failure::input(format!(
+        Some((_, _, None)) if is_stated || !frames.states_orientation => Ok((stated, stated_words)),
+        Some((_, name, None)) => Err(Failure::input(format!(
             "the program does not say what its tool `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or under [tool]"
         ))),
-        Some((name, Some(pose))) if is_stated && differ(pose, &stated) => {
+        Some((_, name, Some(pose))) if is_stated && differ(pose, &stated) => {
             Err(Failure::input(format!(
                 "the tool is stated twice, and not the same: {} by the program; {stated_words}, by the job. Leave out [tool] (or --tool-length-mm), or correct one of them",
                 words(name, pose)
             )))
         }
-        Some((name, Some(pose))) => Ok((*pose, words(name, pose))),
+        Some((_, name, Some(pose))) => Ok((*pose, words(name, pose))),
     }
+}
+
+/// The tools of a program that uses several, by number, where it says what they are; none where the job's `[[tools]]` do.
+pub(crate) fn tools_of_robot(
+    frames: &RobotFrames,
+    mechanism: &Mechanism,
+    load: ProgramLoad,
+    (described, given): (&mut String, &mut Vec<ToolGiven>),
+) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
+    if frames.tools.len() < 2 {
+        return Ok(Vec::new());
+    }
+    given.clear();
+    let (mut tools, mut all) = (Vec::new(), Vec::new());
+    for (number, name, pose) in &frames.tools {
+        let Some(pose) = pose else {
+            return Err(Failure::input(format!(
+                "the program does not say what its tool `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file"
+            )));
+        };
+        all.push(words(name, pose));
+        given.push(ToolGiven {
+            number: Some(*number),
+            pose: *pose,
+            stated: true,
+        });
+        tools.push((*number, mechanism.with_tool(pose), load));
+    }
+    *described = all.join("; ");
+    Ok(tools)
 }
 
 /// Where the path lies in the base.
