@@ -32,7 +32,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// orientation turns Z into the axis by the shortest way. Arcs are [`MotionKind::Arc`]. The work object is `MSYS` in the
 /// part's axes; where the part is, the options say (`PART`), and where the tool is (`TOOL:5`). Holes of cycles, ends that
 /// only geometry states and helices of several turns are refused, or stay as written with
-/// [`UnknownTargets::LeftAsWritten`].
+/// [`crate::UnknownTargets::LeftAsWritten`].
 ///
 /// ```
 /// use kinetostat_formats::{MotionKind, ReadOptions, SourceFile, read_apt};

@@ -27,7 +27,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// The frames and tools of positions are checked against `UFRAME_NUM` and `UTOOL_NUM` where these are known from the
 /// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange). Motions to
 /// position registers, offset by registers or ended by signals are refused, or stay as written with
-/// [`UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
+/// [`crate::UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
 ///
 /// ```
 /// use kinetostat_formats::{ReadOptions, SourceFile, read_ls};
