@@ -44,6 +44,16 @@ impl ProgramError {
     }
 }
 
+/// Most errors that are noted of a program: a file of nothing else must not fill the memory.
+const MOST_ERRORS: usize = 100_000;
+
+/// Adds an error, up to a number that nobody reads.
+pub(crate) fn note(errors: &mut Vec<ProgramError>, error: impl FnOnce() -> ProgramError) {
+    if errors.len() < MOST_ERRORS {
+        errors.push(error());
+    }
+}
+
 /// Longest excerpt of a program quoted in a message, in characters.
 const EXCERPT_CHARACTERS: usize = 60;
 

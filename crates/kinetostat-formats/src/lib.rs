@@ -40,9 +40,11 @@ mod document;
 mod error;
 #[doc(hidden)]
 pub mod internal;
+mod language;
 mod ls;
 mod model;
 mod options;
+mod path;
 mod rapid;
 mod table;
 mod text;
@@ -52,6 +54,7 @@ pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
+pub use language::language_of;
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
 pub use model::frame::{Frame, FrameUse};
@@ -61,6 +64,10 @@ pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
     CutterCompensation, ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions,
 };
+pub use path::correctable::Correctable;
+pub use path::fault::PathError;
+pub use path::of_program::{RobotPath, path_of};
+pub use path::options::PathOptions;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};

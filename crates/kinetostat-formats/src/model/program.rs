@@ -1,5 +1,7 @@
 //! A program of any language.
 
+use std::collections::BTreeSet;
+
 use crate::model::motion::Motion;
 use crate::model::site::Declaration;
 use crate::text::source::SourceFile;
@@ -61,4 +63,22 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
+}
+
+impl RobotProgram {
+    /// Lines of a file, counted from 1, that hold a part of a motion or of a declared target.
+    pub(crate) fn lines_of_targets(&self, file: usize) -> BTreeSet<usize> {
+        let motions = self.motions.iter().filter(|motion| motion.file == file);
+        let declared = self.declarations.iter().filter(|d| d.text.file == file);
+        let spans = motions
+            .map(|motion| &motion.span)
+            .chain(declared.map(|declaration| &declaration.statement));
+        let source = &self.files[file];
+        spans
+            .flat_map(|span| {
+                let last = span.end.saturating_sub(1).max(span.start);
+                source.line_of(span.start)..=source.line_of(last)
+            })
+            .collect()
+    }
 }

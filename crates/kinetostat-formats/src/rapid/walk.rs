@@ -3,7 +3,9 @@
 //! Where a motion begins is known if it is the same at every run. Each routine is walked once; what depends on where it is
 //! called from stays open until all its calls are known.
 
-use crate::error::ProgramError;
+use std::collections::BTreeSet;
+
+use crate::error::{ProgramError, note};
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
 use crate::options::{ReadOptions, UnknownTargets};
@@ -62,6 +64,7 @@ pub(crate) fn walk(
         motions: Vec::new(),
         places: Vec::new(),
         findings: Vec::new(),
+        unknown_calls: BTreeSet::new(),
         moving_functions,
         summaries: vec![Summary::default(); count],
         finished: Vec::new(),
@@ -100,6 +103,8 @@ struct Walker<'w, 'p> {
     /// Routine and place at the beginning of each motion.
     places: Vec<(usize, Place)>,
     findings: Vec<Finding>,
+    /// Files and names of what they call and none declares: each is said once.
+    unknown_calls: BTreeSet<(usize, Option<Name>)>,
     /// By routine: a function that may move the tool.
     moving_functions: Vec<bool>,
     summaries: Vec<Summary>,
@@ -273,8 +278,9 @@ impl<'p> Walker<'_, 'p> {
                     Place::Motion(self.motions.len() - 1)
                 }
                 Err((reason, remedy)) => {
-                    self.faults
-                        .push(ProgramError::at(file.source, span, reason, remedy));
+                    note(self.faults, || {
+                        ProgramError::at(file.source, span, reason, remedy)
+                    });
                     Place::Unknown
                 }
             };
@@ -288,8 +294,9 @@ impl<'p> Walker<'_, 'p> {
         let place = self.functions(tokens.start + 1..tokens.end, place);
         match name.as_ref().and_then(row).map(|row| row.treatment) {
             Some(Treatment::Refused { reason, remedy }) => {
-                self.faults
-                    .push(ProgramError::at(file.source, span, reason, remedy));
+                note(self.faults, || {
+                    ProgramError::at(file.source, span, reason, remedy)
+                });
                 Place::Unknown
             }
             Some(_) => {
@@ -306,6 +313,7 @@ impl<'p> Walker<'_, 'p> {
                 }
                 place
             }
+            None if !self.unknown_calls.insert((file.index, name)) => Place::Unknown,
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
                 self.findings.push(Finding {
@@ -331,12 +339,14 @@ impl<'p> Walker<'_, 'p> {
         });
         if now.depth >= DEEPEST {
             let file = &self.values.files[self.values.symbols.routines[from].file];
-            self.faults.push(ProgramError::at(
-                file.source,
-                span,
-                "calls and blocks are nested deeper than 200",
-                "call what is deepest from main",
-            ));
+            note(self.faults, || {
+                ProgramError::at(
+                    file.source,
+                    span,
+                    "calls and blocks are nested deeper than 200",
+                    "call what is deepest from main",
+                )
+            });
             return Place::Unknown;
         }
         if !self.summaries[called].begun {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, note};
 use crate::rapid::lex::Kind;
 use crate::rapid::name::Name;
 use crate::rapid::tree::TokenFile;
@@ -61,8 +61,10 @@ pub(super) struct Parser<'f, 'a> {
 impl Parser<'_, '_> {
     pub(super) fn fault(&mut self, tokens: Range<usize>, reason: &str, remedy: &str) {
         let span = self.file.span(&tokens);
-        self.faults
-            .push(ProgramError::at(self.file.source, span, reason, remedy));
+        let source = self.file.source;
+        note(self.faults, || {
+            ProgramError::at(source, span, reason, remedy)
+        });
     }
 
     pub(super) fn kind(&self) -> Option<Kind> {

@@ -1,0 +1,178 @@
+//! Programs in the language of a robot through the commands.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::common::run;
+
+/// A slot with an arc; tool and work object are in the program.
+const SLOT: &str = r#"MODULE Slot
+  PERS tooldata tMill:=[TRUE,[[0,0,180],[1,0,0,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];
+  PERS wobjdata wPart:=[FALSE,TRUE,"",[[1800,0,900],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+  CONST robtarget pIn:=[[0,0,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ pIn,v500,z10,tMill\WObj:=wPart;
+    MoveL [[0,0,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\WObj:=wPart;
+    MoveL [[60,0,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tMill\WObj:=wPart; ! along
+    MoveC [[70,10,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[60,20,-1],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tMill\WObj:=wPart;
+    MoveL Offs(pIn,0,20,0),v200,fine,tMill\WObj:=wPart;
+  ENDPROC
+ENDMODULE
+"#;
+
+const RUN: &str = "compensate --model heavy_6r --program slot.mod --milling 300 -100 -50 --rapid-from-mm-per-s 100 --tolerance-um 10";
+
+fn place(text: &str) -> tempfile::TempDir {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("slot.mod"), text).unwrap();
+    here
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+fn read(here: &Path, name: &str) -> String {
+    std::fs::read_to_string(here.join(name)).unwrap()
+}
+
+#[test]
+fn a_program_in_rapid_is_compensated_and_is_one_again() {
+    let here = place(SLOT);
+    let here = here.path();
+    let line = format!("{RUN} --correct pose --json out.json --points points.csv --report r.html");
+    let said = run(here, &words(&line)).answered();
+    assert!(!said.out.contains("no tool is given"), "{said:?}");
+    let output = read(here, "slot-compensated.mod");
+    // What is no motion is there as it was; what is new says where it is from.
+    assert!(
+        output.starts_with("MODULE Slot\n  ! kinetostat: compensated program")
+            || output.starts_with("MODULE Slot\n! kinetostat: compensated program")
+    );
+    for kept in [
+        "PERS tooldata tMill",
+        "PERS wobjdata wPart",
+        "! along",
+        "CONST robtarget pIn:=",
+    ] {
+        assert!(output.contains(kept), "{kept}");
+    }
+    let out: Value = serde_json::from_str(&read(here, "out.json")).unwrap();
+    let summary = &out["summary"];
+    assert!(summary["max_position_error_before_mm"].as_f64().unwrap() > 1.0);
+    assert!(summary["max_position_error_after_mm"].as_f64().unwrap() < 0.02);
+    let tilt = summary["max_residual_rotation_deg"].as_f64();
+    assert!(tilt.is_none_or(|tilt| tilt < 1e-3), "{tilt:?}");
+    let quaternion = &out["points"][0]["tool_orientation"];
+    assert_eq!(quaternion.as_array().map(Vec::len), Some(4));
+    // It can be looked at again, and is not compensated a second time.
+    let again = "compensate --model heavy_6r --program slot-compensated.mod --milling 1 1 1";
+    let refused = run(here, &words(again));
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.err.contains("compensated already"), "{refused:?}");
+}
+
+#[test]
+fn the_job_states_what_the_program_does_not() {
+    let text = SLOT
+        .lines()
+        .filter(|line| !line.contains("PERS"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    let here = place(&text);
+    let here = here.path();
+    let job =
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n";
+    let put = |more: &str| std::fs::write(here.join("job.toml"), format!("{job}{more}")).unwrap();
+    put("");
+    let refused = run(here, &["check", "job.toml"]);
+    assert_eq!(refused.code, Some(1));
+    assert!(
+        refused
+            .err
+            .contains("does not say what its tool `tMill` is"),
+        "{refused:?}"
+    );
+    put(
+        "[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n[robot.frames]\ntMill = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 900] }\n",
+    );
+    let stated = run(here, &["compensate", "job.toml"]).answered();
+    let output = read(here, "slot-compensated.mod");
+    std::fs::write(here.join("slot.mod"), SLOT).unwrap();
+    std::fs::remove_file(here.join("slot-compensated.mod")).unwrap();
+    put("[robot]\ncorrect = \"pose\"\nrapid_from_mm_per_s = 100\n");
+    run(here, &["compensate", "job.toml"]).answered();
+    let own = read(here, "slot-compensated.mod");
+    let moves = |text: &str| -> Vec<String> {
+        let moves = text.lines().filter(|line| line.contains("Move"));
+        moves.map(str::to_owned).collect()
+    };
+    assert_eq!(moves(&output), moves(&own), "{stated:?}");
+}
+
+#[test]
+fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
+    let here = place(SLOT);
+    let here = here.path();
+    for (more, expected) in [
+        ("--tool-length-mm 200", "the tool is stated twice"),
+        (
+            "--part-origin-mm 0 0 0",
+            "the place of the part is stated twice",
+        ),
+        ("--expand", "are for G-code"),
+    ] {
+        let said = run(here, &words(&format!("{RUN} {more}")));
+        assert_eq!(said.code, Some(1), "{more}");
+        assert!(
+            said.err.replace('\n', " ").contains(expected),
+            "{more}: {said:?}"
+        );
+        assert!(!here.join("slot-compensated.mod").exists());
+    }
+    std::fs::write(here.join("part.ngc"), "G21 G90\nG0 X0 Y0 Z1\nG1 X9 F100\n").unwrap();
+    let said = run(
+        here,
+        &words("deflect heavy_6r --program part.ngc --force 0 0 1 --correct pose"),
+    );
+    assert_eq!(said.code, Some(1));
+    assert!(said.err.contains("--correct"), "{said:?}");
+}
+
+#[test]
+fn all_faults_of_a_program_come_at_once_with_their_lines() {
+    let text = SLOT.replace("    MoveJ pIn,", "    MoveJ pOut,").replace(
+        "v20,z1,tMill\\WObj:=wPart; ! along",
+        "v20,z1,tMill\\WObj:=wPart; SearchL di1,p9,pIn,v10,tMill;",
+    );
+    let here = place(&text);
+    let said = run(here.path(), &words(RUN));
+    assert_eq!(said.code, Some(1));
+    let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    for expected in ["line 6: `", "pOut", "line 8", "SearchL"] {
+        assert!(flat.contains(expected), "{expected}: {flat}");
+    }
+}
+
+#[test]
+fn dialects_are_shown_as_the_readers_have_them() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let listed = run(here, &["dialect", "list"]).answered();
+    for name in ["gcode", "rapid"] {
+        assert!(listed.out.contains(name));
+        let shown = run(here, &["dialect", "show", name, "--json"]).answered();
+        let table: Value = serde_json::from_str(&shown.out).unwrap();
+        let words = table["words"].as_array().unwrap();
+        assert!(words.len() > 60, "{name}: {}", words.len());
+        for word in words.iter().filter(|word| word["treatment"] == "refused") {
+            assert!(word["remedy"].as_str().unwrap().len() > 5, "{word}");
+        }
+    }
+    let wrong = run(here, &["dialect", "show", "fortran"]);
+    assert_eq!(wrong.code, Some(1));
+    assert!(wrong.err.contains("there are: gcode, rapid"), "{wrong:?}");
+}
