@@ -4,7 +4,7 @@ use kinetostat_program::{
     Corrected, Knowledge, Piece, Verification, WriteError, WriteOptions, irregular,
 };
 
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 use crate::path::fault::broken;
 use crate::path::of_program::RobotPath;
 
@@ -159,6 +159,18 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
         .map(|line| line.strip_suffix(b"\r").unwrap_or(line))
 }
 
+/// A line of a TP program without its number, which changes where lines are added, and without their count.
+fn unnumbered(line: &[u8]) -> &[u8] {
+    const COUNT: &[u8] = b"LINE_COUNT";
+    let text = line.trim_ascii_start();
+    let digits = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    match text.get(digits) {
+        Some(b':') => &text[digits..],
+        _ if text.starts_with(COUNT) => COUNT,
+        _ => line,
+    }
+}
+
 /// Lines that hold nothing of a motion are there as they were, in their order.
 fn untouched(
     program: &RobotProgram,
@@ -177,7 +189,11 @@ fn untouched(
             if touched.contains(&(number + 1)) {
                 continue;
             }
-            if !output.any(|(_, written)| written == line) {
+            let same = |written: &[u8]| match program.language {
+                Language::FanucLs => unnumbered(written) == unnumbered(line),
+                _ => written == line,
+            };
+            if !output.any(|(_, written)| same(written)) {
                 return Err(broken(
                     number + 1,
                     0,

@@ -134,7 +134,10 @@ fn paths_go_along_arcs_helices_and_rapids() {
     // A quarter of radius 20 mm, and one with a fall of 1 mm.
     let quarter = 20.0 * PI / 2.0;
     assert!((lengths[2] - quarter).abs() < 1e-9, "{lengths:?}");
-    assert!((lengths[3] - quarter.hypot(1.0)).abs() < 1e-9, "{lengths:?}");
+    assert!(
+        (lengths[3] - quarter.hypot(1.0)).abs() < 1e-9,
+        "{lengths:?}"
+    );
     let rapid: Vec<bool> = (robot.path.moves.iter())
         .map(|one| one.kind == kinetostat_program::MoveKind::Rapid)
         .collect();
