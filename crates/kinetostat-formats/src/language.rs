@@ -23,6 +23,10 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
             .any(|part| part == word.as_bytes())
     };
     match ending.as_str() {
+        "ls" if holds("/PROG") => Some(Language::FanucLs),
+        "apt" | "aptsource" | "apt_source" | "cls" | "cl" | "cldata" if holds("GOTO") => {
+            Some(Language::Apt)
+        }
         "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
         "ls" if holds("/PROG") => Some(Language::FanucLs),
         "apt" | "aptsource" | "apt_source" | "cls" | "cl" if holds("GOTO") => Some(Language::Apt),

@@ -1,6 +1,6 @@
 //! The languages that are read, and what their writers keep.
 
-use kinetostat_formats::{RAPID_STATEMENTS, StatementRow};
+use kinetostat_formats::{APT_STATEMENTS, LS_STATEMENTS, RAPID_STATEMENTS, StatementRow};
 
 /// Where the table of a language is.
 #[derive(Clone, Copy)]
@@ -23,7 +23,7 @@ pub(crate) struct Language {
 }
 
 /// All of them.
-pub(crate) const LANGUAGES: [Language; 2] = [
+pub(crate) const LANGUAGES: [Language; 4] = [
     Language {
         name: "gcode",
         title: "G-code as LinuxCNC and most controllers read it",
@@ -37,5 +37,19 @@ pub(crate) const LANGUAGES: [Language; 2] = [
         endings: &["mod", "modx", "prg", "sys", "sysx"],
         written: "Written: numbers of targets in place, declarations edited or copied under a free name of at most 32 characters, further motions as MoveL with the same speed, tool and work object. A divided motion stops at its end alone; circles that are corrected become straight motions.",
         words: Words::Statements(RAPID_STATEMENTS),
+    },
+    Language {
+        name: "ls",
+        title: "FANUC TP programs as text",
+        endings: &["ls"],
+        written: "Written: numbers of positions in place and in their columns; further motions as L with positions of their own at the end of /POS, lines numbered again and LINE_COUNT raised, since a controller loads only lines that follow one another.",
+        words: Words::Statements(LS_STATEMENTS),
+    },
+    Language {
+        name: "apt",
+        title: "APT and CLDATA of SolidWorks CAM, NX, CATIA and others",
+        endings: &["apt", "cls", "cl", "aptsource", "cldata"],
+        written: "Written: numbers of GOTO in place, further places as GOTO before it; circles that are corrected become straight motions.",
+        words: Words::Statements(APT_STATEMENTS),
     },
 ];

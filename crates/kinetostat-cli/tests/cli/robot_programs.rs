@@ -71,7 +71,7 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     // It can be looked at again, and is not compensated a second time.
     let again = "compensate --model heavy_6r --program slot-compensated.mod --milling 1 1 1";
     let refused = run(here, &words(again));
-    assert_eq!(refused.code, Some(1));
+    assert_eq!(refused.code, 1);
     assert!(refused.err.contains("compensated already"), "{refused:?}");
 }
 
@@ -89,7 +89,7 @@ fn the_job_states_what_the_program_does_not() {
     let put = |more: &str| std::fs::write(here.join("job.toml"), format!("{job}{more}")).unwrap();
     put("");
     let refused = run(here, &["check", "job.toml"]);
-    assert_eq!(refused.code, Some(1));
+    assert_eq!(refused.code, 1);
     assert!(
         refused
             .err
@@ -126,7 +126,7 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
         ("--expand", "are for G-code"),
     ] {
         let said = run(here, &words(&format!("{RUN} {more}")));
-        assert_eq!(said.code, Some(1), "{more}");
+        assert_eq!(said.code, 1, "{more}");
         assert!(
             said.err.replace('\n', " ").contains(expected),
             "{more}: {said:?}"
@@ -138,7 +138,7 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
         here,
         &words("deflect heavy_6r --program part.ngc --force 0 0 1 --correct pose"),
     );
-    assert_eq!(said.code, Some(1));
+    assert_eq!(said.code, 1);
     assert!(said.err.contains("--correct"), "{said:?}");
 }
 
@@ -150,7 +150,7 @@ fn all_faults_of_a_program_come_at_once_with_their_lines() {
     );
     let here = place(&text);
     let said = run(here.path(), &words(RUN));
-    assert_eq!(said.code, Some(1));
+    assert_eq!(said.code, 1);
     let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
     for expected in ["line 6: `", "pOut", "line 8", "SearchL"] {
         assert!(flat.contains(expected), "{expected}: {flat}");
@@ -173,6 +173,6 @@ fn dialects_are_shown_as_the_readers_have_them() {
         }
     }
     let wrong = run(here, &["dialect", "show", "fortran"]);
-    assert_eq!(wrong.code, Some(1));
+    assert_eq!(wrong.code, 1);
     assert!(wrong.err.contains("there are: gcode, rapid"), "{wrong:?}");
 }

@@ -39,23 +39,24 @@ pub(crate) fn write_ls(
     for ((name, bytes), before) in written.iter_mut().zip(&layouts) {
         let now = Layout::of(bytes);
         if now.lines.len() != before.lines.len() {
-            let numbered =
-                numbered_again(bytes, now.lines.len().saturating_sub(before.lines.len()));
+            let added = now.lines.len() as f64 - before.lines.len() as f64;
+            let numbered = numbered(bytes, &now, added);
             *bytes = numbered.ok_or_else(|| WriteError::Overlap { file: name.clone() })?;
         }
     }
     Ok(written)
 }
 
-/// A program whose lines are numbered one after another from its first, after so many were added.
-pub(crate) fn numbered_again(bytes: &[u8], added: usize) -> Option<Vec<u8>> {
-    let layout = Layout::of(bytes);
+/// A program to which one line was added, numbered again.
+pub(crate) fn numbered_again(bytes: &[u8]) -> Option<Vec<u8>> {
+    numbered(bytes, &Layout::of(bytes), 1.0)
+}
+
+/// A program whose lines are numbered one after another.
+fn numbered(bytes: &[u8], layout: &Layout, added: f64) -> Option<Vec<u8>> {
     let mut edits = Edits::default();
     if let Some(count) = &layout.line_count {
-        edits.replace(
-            count.span.clone(),
-            format!("{}", count.value + added as f64),
-        );
+        edits.replace(count.span.clone(), format!("{}", count.value + added));
     }
     let mut last: Option<u64> = None;
     for line in &layout.lines {

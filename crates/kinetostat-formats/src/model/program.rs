@@ -18,27 +18,6 @@ pub enum Language {
     Apt,
 }
 
-impl Language {
-    /// The language that files of such a name are in, by what follows the last point.
-    ///
-    /// ```
-    /// use kinetostat_formats::Language;
-    ///
-    /// assert_eq!(Language::of_name("T_ROB1/Module1.MODX"), Some(Language::Rapid));
-    /// assert_eq!(Language::of_name("part.ngc"), None);
-    /// ```
-    #[must_use]
-    pub fn of_name(name: &str) -> Option<Self> {
-        let (_, ending) = name.rsplit_once('.')?;
-        match ending.to_ascii_lowercase().as_str() {
-            "mod" | "modx" | "prg" | "sys" | "sysx" => Some(Self::Rapid),
-            "ls" => Some(Self::FanucLs),
-            "apt" | "aptsource" | "apt_source" | "cls" | "cl" => Some(Self::Apt),
-            _ => None,
-        }
-    }
-}
-
 /// Something that a person should know of a program that was taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {

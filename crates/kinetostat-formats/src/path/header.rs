@@ -15,8 +15,6 @@ const LOOKED_AT: usize = 200;
 /// How a language begins its comments, and the word of the line below which they may stand (`None`: the first line).
 struct Comments {
     opens: &'static str,
-    /// What ends a comment.
-    closes: &'static str,
     below: Option<&'static str>,
 }
 
@@ -24,19 +22,16 @@ fn comments(language: Language) -> Comments {
     match language {
         Language::Rapid => Comments {
             opens: "! ",
-            closes: "",
             below: Some("MODULE"),
-        },
-        // An instruction; all lines are numbered again behind.
-        Language::FanucLs => Comments {
-            opens: "   1:  !",
-            closes: " ;",
-            below: Some("/MN"),
         },
         Language::Apt => Comments {
             opens: "$$ ",
-            closes: "",
             below: None,
+        },
+        // A remark has 32 characters: the mark alone is written.
+        Language::FanucLs => Comments {
+            opens: "   1:  !",
+            below: Some("/MN"),
         },
     }
 }
@@ -55,11 +50,7 @@ pub(crate) fn with_header(
     texts: &[String],
     max_line_bytes: usize,
 ) -> (Vec<u8>, usize) {
-    let Comments {
-        opens,
-        closes,
-        below,
-    } = comments(language);
+    let Comments { opens, below } = comments(language);
     let begins = |line: &[u8]| {
         let line = line.trim_ascii_start().to_ascii_uppercase();
         below.is_none_or(|word| line.starts_with(word.as_bytes()))
@@ -82,19 +73,23 @@ pub(crate) fn with_header(
     };
     let mut header = Vec::new();
     let mut count = 0;
+    let closes: &[u8] = match language {
+        Language::FanucLs => b" ;",
+        _ => b"",
+    };
     let mut write = |text: &str| {
-        for part in [opens, text, closes]
-            .map(str::as_bytes)
-            .into_iter()
-            .chain([ending])
-        {
+        for part in [opens.as_bytes(), text.as_bytes(), closes, ending] {
             header.extend_from_slice(part);
         }
         count += 1;
     };
     write(COMPENSATED_MARK);
+    if language == Language::FanucLs {
+        let bytes = [&bytes[..at], &header, &bytes[at..]].concat();
+        return (numbered_again(&bytes).unwrap_or(bytes), 1);
+    }
     let room = max_line_bytes
-        .saturating_sub(opens.len() + closes.len() + PREFIX.len())
+        .saturating_sub(opens.len() + PREFIX.len())
         .max(20);
     for text in texts.iter().flat_map(|text| text.lines()) {
         let plain: Vec<char> = text.chars().map(plain).collect();
@@ -102,14 +97,7 @@ pub(crate) fn with_header(
             write(&format!("{PREFIX}{}", part.iter().collect::<String>()));
         }
     }
-    let written = [&bytes[..at], &header, &bytes[at..]].concat();
-    match language {
-        Language::FanucLs => match numbered_again(&written, count) {
-            Some(numbered) => (numbered, count),
-            None => (bytes.to_vec(), 0),
-        },
-        _ => (written, count),
-    }
+    ([&bytes[..at], &header, &bytes[at..]].concat(), count)
 }
 
 /// ASCII that ends no comment.

@@ -7,7 +7,9 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
 use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
@@ -97,6 +99,13 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
                 "state where it is (`frames`)",
             ));
         }
+    }
+    if let Some(tilted) = poses.iter().find(|motion| leans(motion)) {
+        faults.push(fault(
+            tilted,
+            "the tool's axis is not z of the part here".to_owned(),
+            "programs of five axes that state the axis alone are not corrected yet: give those of three axes, or write the program in the language of the robot",
+        ));
     }
     if !faults.is_empty() {
         return Err(faults);
@@ -213,10 +222,10 @@ impl Maker<'_> {
             }
             _ => Curve::Line,
         };
+        let fast = |limit: f64| motion.speed.mm_per_s.is_some_and(|speed| speed >= limit);
         // APT says it beside the motion.
         let said = self.program.language == Language::Apt
             && motion.speed.text.to_ascii_uppercase().starts_with("RAPID");
-        let fast = |limit: f64| motion.speed.mm_per_s.is_some_and(|speed| speed >= limit);
         let rapid = motion.kind == MotionKind::Joint
             || motion.target.pose().is_none()
             || said
@@ -230,10 +239,12 @@ impl Maker<'_> {
             curve,
             start: a,
             end: b,
-            tool_turn: Some(Box::new(ToolTurn {
-                start: nearest(from.rotation, &to.rotation),
-                end: to.rotation,
-            })),
+            tool_turn: states_orientation(motion).then(|| {
+                Box::new(ToolTurn {
+                    start: nearest(from.rotation, &to.rotation),
+                    end: to.rotation,
+                })
+            }),
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {
                 mode: FeedMode::PerMinute,
@@ -247,6 +258,30 @@ impl Maker<'_> {
                 to_machine: [false; 3],
             },
         }
+    }
+}
+
+/// Whether only the tool's axis is stated, and it is another one than z.
+fn leans(motion: &Motion) -> bool {
+    let by_axis = matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Axis);
+    let axis = motion
+        .target
+        .pose()
+        .map(|pose| pose.orientation * Vector3::z());
+    by_axis && axis.is_some_and(|axis| (axis - Vector3::z()).norm() > 1e-9)
+}
+
+/// Whether the text of a target says how the tool stands.
+fn states_orientation(motion: &Motion) -> bool {
+    let unstated = |text: &PoseText| {
+        matches!(
+            text.convention,
+            OrientationText::Unstated | OrientationText::Axis
+        )
+    };
+    match &motion.site.target {
+        TargetSite::Literal(text) => !unstated(text),
+        _ => true,
     }
 }
 

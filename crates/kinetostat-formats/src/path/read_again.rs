@@ -159,18 +159,6 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
         .map(|line| line.strip_suffix(b"\r").unwrap_or(line))
 }
 
-/// A line of a TP program without its number, which changes where lines are added, and without their count.
-fn unnumbered(line: &[u8]) -> &[u8] {
-    const COUNT: &[u8] = b"LINE_COUNT";
-    let text = line.trim_ascii_start();
-    let digits = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
-    match text.get(digits) {
-        Some(b':') => &text[digits..],
-        _ if text.starts_with(COUNT) => COUNT,
-        _ => line,
-    }
-}
-
 /// Lines that hold nothing of a motion are there as they were, in their order.
 fn untouched(
     program: &RobotProgram,
@@ -189,11 +177,8 @@ fn untouched(
             if touched.contains(&(number + 1)) {
                 continue;
             }
-            let same = |written: &[u8]| match program.language {
-                Language::FanucLs => unnumbered(written) == unnumbered(line),
-                _ => written == line,
-            };
-            if !output.any(|(_, written)| same(written)) {
+            let wanted = without_number(program.language, line);
+            if !output.any(|(_, written)| without_number(program.language, written) == wanted) {
                 return Err(broken(
                     number + 1,
                     0,
@@ -203,4 +188,17 @@ fn untouched(
         }
     }
     Ok(())
+}
+
+/// A line without what is counted anew where lines are added: its number and the count of lines.
+fn without_number(language: Language, line: &[u8]) -> &[u8] {
+    if language != Language::FanucLs {
+        return line;
+    }
+    if line.starts_with(b"LINE_COUNT") {
+        return b"";
+    }
+    let colon = line.iter().position(|byte| *byte == b':');
+    let number = |at: &usize| line[..*at].iter().all(|b| *b == b' ' || b.is_ascii_digit());
+    colon.filter(number).map_or(line, |at| &line[at..])
 }

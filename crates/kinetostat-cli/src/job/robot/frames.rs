@@ -14,6 +14,8 @@ pub(crate) struct RobotFrames {
     /// Name of the work object in whose axes the path is, and where it is in the robot's base, m; `None`: the path is in axes of
     /// the base.
     pub(crate) work_object: Option<(String, Option<Pose>)>,
+    /// The program states how the tool stands.
+    pub(crate) states_orientation: bool,
 }
 
 impl RobotFrames {
@@ -22,6 +24,8 @@ impl RobotFrames {
         Self {
             tool: read.path.tool.as_ref().map(named),
             work_object: read.path.work_object.as_ref().map(named),
+            states_orientation: (read.path.path.moves.iter())
+                .any(|motion| motion.tool_turn.is_some()),
         }
     }
 }

@@ -45,9 +45,9 @@ pub(crate) fn tool_of_robot(
         || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some());
     match &frames.tool {
         None => Ok((stated, stated_words)),
-        Some((_, None)) if is_stated => Ok((stated, stated_words)),
+        Some((_, None)) if is_stated || !frames.states_orientation => Ok((stated, stated_words)),
         Some((name, None)) => Err(Failure::input(format!(
-            "the program does not say what its tool `{name}` is: state it as  frames.{name} = {{ position_mm = [...] }}  under [robot] in the job file, or under [tool]"
+            "the program does not say what its tool `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or under [tool]"
         ))),
         Some((name, Some(pose))) if is_stated && differ(pose, &stated) => {
             Err(Failure::input(format!(
@@ -66,7 +66,7 @@ pub(crate) fn placement_of_robot(
     flags: &ProgramArgs,
     stated: Placement,
 ) -> Answer<Placement> {
-    if stated.orientation_follows {
+    if stated.orientation_follows && frames.states_orientation {
         return Err(Failure::input(
             "the machine turns its tool as it moves (orientation follows), and the program states the orientation of its tool: give a program of positions",
         ));
@@ -86,9 +86,9 @@ pub(crate) fn placement_of_robot(
             "the program has several work objects, and says where they are: leave out part_origin_mm and part_orientation",
         )),
         None => Ok(in_base(Pose::identity())),
-        Some((_, None)) if is_stated => Ok(stated),
+        Some((_, None)) if is_stated || !frames.states_orientation => Ok(stated),
         Some((name, None)) => Err(Failure::input(format!(
-            "the program does not say where its work object `{name}` is: state it as  frames.{name} = {{ position_mm = [...] }}  under [robot] in the job file, or part_origin_mm under [placement]"
+            "the program does not say where its work object `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or part_origin_mm under [placement]"
         ))),
         Some((name, Some(pose))) if is_stated && differ(pose, &stated.base_from_part) => {
             Err(Failure::input(format!(
