@@ -128,6 +128,14 @@ pub enum WriteError {
         /// `WriteOptions::max_line_bytes`.
         limit: usize,
     },
+    /// Further poses need names or numbers, and none is free.
+    #[error(
+        "{file}: no name or number is free for a further pose; give fewer pieces, or divide the program"
+    )]
+    NoFreeName {
+        /// Name of the first file.
+        file: String,
+    },
     /// Two changes want the same bytes: a fault of this library.
     #[error("two changes of {file} overlap; nothing was written, please report this")]
     Overlap {

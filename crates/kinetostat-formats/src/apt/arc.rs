@@ -5,6 +5,11 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use crate::apt::dialect::Dialect;
+use crate::apt::lines::Statement;
+use crate::apt::numbers::{Argument, arguments_of};
+use crate::text::source::SourceFile;
+
 /// `CIRCLE` as it was read, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Circle {
@@ -26,6 +31,36 @@ const RADIUS_TOLERANCE_MM: f64 = 0.01;
 const SAME_MM: f64 = 1e-4;
 
 impl Circle {
+    /// Of a statement, in a unit of so many mm.
+    ///
+    /// # Errors
+    /// Why its arc is not known.
+    pub(crate) fn of(
+        file: &SourceFile,
+        statement: &Statement,
+        dialect: Dialect,
+        unit_mm: f64,
+    ) -> Result<Self, &'static str> {
+        let arguments = arguments_of(file.bytes(), &statement.arguments);
+        let numbers = arguments.iter().map_while(Argument::number);
+        let values: Vec<f64> = numbers.map(|number| number.value).collect();
+        let sense = dialect.sense().ok_or(
+            "in which sense the arc goes about its axis, is not known of this kind of file",
+        )?;
+        let axis = values.get(3..6).map(Vector3::from_row_slice);
+        let axis = axis.filter(|axis| (axis.norm() - 1.0).abs() < 1e-3);
+        let axis = axis.ok_or("the circle is not a centre and an axis of length 1")?;
+        Ok(Self {
+            lines: statement.lines.clone(),
+            span: statement.span.clone(),
+            centre_mm: Vector3::from_row_slice(&values[..3]) * unit_mm,
+            axis: axis.normalize(),
+            radius_mm: values.get(6).map(|radius| radius.abs() * unit_mm),
+            times: arguments.len() > values.len(),
+            sense,
+        })
+    }
+
     /// The angle by which the tool goes around the axis from a place to another, right-handed, rad.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! APT part programs and cutter location data (CLDATA, CLSF) as text.
 //!
-//! From statements ([`lines`]) to their numbers ([`numbers`]), arcs ([`arc`]) and motions ([`reader`], [`state`]). What
+//! From statements ([`lines`]) to their numbers ([`numbers`], [`places`]), arcs ([`arc`]) and motions ([`reader`], [`state`]). What
 //! each word is taken for stands in [`table`]; which system wrote the file, [`dialect`] says.
 //!
 //! Source: ISO 3592 and ISO 4343 (CLDATA), ANSI X3.37 (APT), Siemens NX manual "CLSF", Dassault CATIA V5 "APT formats", and
@@ -10,6 +10,7 @@ pub(crate) mod arc;
 pub(crate) mod dialect;
 pub(crate) mod lines;
 pub(crate) mod numbers;
+pub(crate) mod places;
 pub(crate) mod reader;
 pub(crate) mod state;
 pub(crate) mod table;

@@ -1,26 +1,25 @@
 //! The reader of APT and CLDATA.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::apt::arc::Circle;
 use crate::apt::dialect::Dialect;
 use crate::apt::lines::{Statement, statements_of};
 use crate::apt::numbers::{Argument, all_numbers, arguments_of};
+use crate::apt::places::{Frames, frame_use, pose_text, work_object};
 use crate::apt::state::{State, feed_of, system_of, unit_of};
 use crate::apt::table::row;
 use crate::error::ProgramError;
-use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::site::{MotionSite, PoseText, TargetSite};
+use crate::model::site::{MotionSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{CutterCompensation, ReadOptions, UnknownTargets};
 use crate::table::Treatment;
-use crate::text::number::{NumberText, Width};
+use crate::text::number::NumberText;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file.
@@ -33,7 +32,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// orientation turns Z into the axis by the shortest way. Arcs are [`MotionKind::Arc`]. The work object is `MSYS` in the
 /// part's axes; where the part is, the options say (`PART`), and where the tool is (`TOOL:5`). Holes of cycles, ends that
 /// only geometry states and helices of several turns are refused, or stay as written with
-/// [`UnknownTargets::LeftAsWritten`].
+/// [`crate::UnknownTargets::LeftAsWritten`].
 ///
 /// ```
 /// use kinetostat_formats::{MotionKind, ReadOptions, SourceFile, read_apt};
@@ -122,8 +121,7 @@ pub fn read_apt(
 
 struct Found<'o> {
     options: &'o ReadOptions,
-    /// By names in capitals.
-    frames: BTreeMap<String, Isometry3<f64>>,
+    frames: Frames,
     faults: Vec<ProgramError>,
     findings: Vec<Finding>,
     motions: Vec<Motion>,
@@ -360,7 +358,7 @@ impl Reader<'_, '_> {
                 }
             }
         }
-        let text = self.text(numbers, None);
+        let text = pose_text(self.index, numbers, None);
         self.push(
             statement,
             kind,
@@ -368,35 +366,6 @@ impl Reader<'_, '_> {
             TargetSite::Literal(text),
             circle.as_ref(),
         );
-    }
-
-    /// The numbers of a place; `old` where they do not say the place itself.
-    fn text(&self, numbers: Vec<NumberText>, old: Option<f64>) -> PoseText {
-        let whole = numbers[0].span.start..numbers[numbers.len() - 1].span.end;
-        let mut numbers = numbers.into_iter();
-        let mut number = || {
-            let mut number = numbers.next().unwrap_or(NumberText {
-                span: 0..0,
-                value: 0.0,
-            });
-            if let Some(old) = old {
-                number.value = old;
-            }
-            number
-        };
-        let position = [number(), number(), number()];
-        let orientation: Vec<NumberText> = numbers.collect();
-        PoseText {
-            file: self.index,
-            whole,
-            position,
-            convention: match orientation.is_empty() {
-                true => OrientationText::Unstated,
-                false => OrientationText::Axis,
-            },
-            orientation,
-            width: Width::Kept,
-        }
     }
 
     fn step(&mut self, statement: &Statement) {
@@ -413,7 +382,7 @@ impl Reader<'_, '_> {
         match self.state.place {
             Some(from) => {
                 // It is written as a place where it changes: no number says that now.
-                let text = self.text(numbers, Some(f64::NAN));
+                let text = pose_text(self.index, numbers, Some(f64::NAN));
                 self.push(
                     statement,
                     MotionKind::Linear,
@@ -431,7 +400,7 @@ impl Reader<'_, '_> {
         match stated {
             Some(numbers) => {
                 let place = Vector3::from_fn(|i, _| numbers[i].value * self.unit_mm);
-                let text = self.text(numbers, None);
+                let text = pose_text(self.index, numbers, None);
                 self.push(
                     statement,
                     MotionKind::Linear,
@@ -450,31 +419,10 @@ impl Reader<'_, '_> {
     }
 
     fn circle(&mut self, statement: &Statement) {
-        let arguments = arguments_of(self.file.bytes(), &statement.arguments);
-        let numbers = arguments.iter().map_while(Argument::number);
-        let values: Vec<f64> = numbers.map(|number| number.value).collect();
-        let Some(sense) = self.dialect.sense() else {
-            let reason =
-                "in which sense the arc goes about its axis, is not known of this kind of file";
-            self.fault(&statement.span, reason, "let the CAM system write points");
-            return;
-        };
-        let axis = values.get(3..6).map(Vector3::from_row_slice);
-        let axis = axis.filter(|axis| (axis.norm() - 1.0).abs() < 1e-3);
-        let (Some(axis), true) = (axis, values.len() == 6 || values.len() >= 7) else {
-            let reason = "the circle is not a centre and an axis of length 1";
-            self.fault(&statement.span, reason, "let the CAM system write points");
-            return;
-        };
-        self.state.circle = Some(Circle {
-            lines: statement.lines.clone(),
-            span: statement.span.clone(),
-            centre_mm: Vector3::from_row_slice(&values[..3]) * self.unit_mm,
-            axis: axis.normalize(),
-            radius_mm: values.get(6).map(|radius| radius.abs() * self.unit_mm),
-            times: arguments.len() > values.len(),
-            sense,
-        });
+        match Circle::of(self.file, statement, self.dialect, self.unit_mm) {
+            Ok(circle) => self.state.circle = Some(circle),
+            Err(reason) => self.fault(&statement.span, reason, "let the CAM system write points"),
+        }
     }
 
     /// A motion whose end or way is not known: refused, or left as it is written.
@@ -554,8 +502,8 @@ impl Reader<'_, '_> {
             }),
             speed,
             zone: Zone::Unstated,
-            tool: self.frame_use(&self.state.tool),
-            work_object: self.work_object(),
+            tool: frame_use(&self.program.frames, &self.state.tool),
+            work_object: work_object(&self.program.frames, self.state.system.as_ref()),
             runs: Runs::Once,
             follows: self.state.last,
             site: MotionSite {
@@ -570,34 +518,5 @@ impl Reader<'_, '_> {
         });
         self.state.place = Some(place);
         self.state.last = Some(self.program.motions.len() - 1);
-    }
-
-    fn frame_use(&self, name: &str) -> FrameUse {
-        let stated = self.program.frames.get(&name.to_ascii_uppercase());
-        FrameUse {
-            name: name.to_owned(),
-            frame: match stated {
-                Some(frame) => Frame::Known(*frame),
-                None => Frame::Unknown {
-                    reason: "the file does not say it; state it in the options".to_owned(),
-                },
-            },
-        }
-    }
-
-    /// The axes of the places: MSYS in the part's, or the part's.
-    fn work_object(&self) -> FrameUse {
-        let part = self.frame_use("PART");
-        match (&self.state.system, part.known()) {
-            (None, _) => part,
-            (Some(system), Some(part)) => FrameUse {
-                name: "MSYS".to_owned(),
-                frame: Frame::Known(part * system),
-            },
-            (Some(_), None) => FrameUse {
-                name: "MSYS".to_owned(),
-                ..part
-            },
-        }
     }
 }

@@ -2,20 +2,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::Isometry3;
-
 use crate::error::ProgramError;
-use crate::ls::flow::{Flow, Last, Place, Program};
+use crate::ls::ends::{Ends, MotionPlace};
+use crate::ls::flow::{Flow, Last};
 use crate::ls::lines::Layout;
 use crate::ls::motion::{End, MotionText, Way};
+use crate::ls::order::Order;
 use crate::ls::positions::{Held, Positions};
+use crate::ls::program::{Place, Program};
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::site::{Declaration, MotionSite, TargetSite};
+use crate::model::site::{Declaration, MotionSite};
 use crate::model::target::Target;
-use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
+use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file.
@@ -26,7 +27,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// The frames and tools of positions are checked against `UFRAME_NUM` and `UTOOL_NUM` where these are known from the
 /// text; what they are, the options say (`UF:2`, `UT:1`; `UF:0` and `UT:0` are the world and the flange). Motions to
 /// position registers, offset by registers or ended by signals are refused, or stay as written with
-/// [`UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
+/// [`crate::UnknownTargets::LeftAsWritten`]; coordinated motion is refused.
 ///
 /// ```
 /// use kinetostat_formats::{ReadOptions, SourceFile, read_ls};
@@ -59,7 +60,7 @@ pub fn read_ls(
         motions: Vec::new(),
         external: Vec::new(),
         declarations: Vec::new(),
-        frames: BTreeMap::new(),
+        ends: Ends::of(options),
     };
     let (mut layouts, mut positions, mut programs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, file) in files.iter().enumerate() {
@@ -81,18 +82,23 @@ pub fn read_ls(
         let Step::Motion(motion) = &programs[*program].steps[*at] else {
             continue;
         };
+        let declarations = std::mem::take(&mut reader.declarations);
         let site = MotionPlace {
+            declarations: &declarations,
             file: &files[*program],
             index: *program,
             line: &layouts[*program].lines[*at],
             positions: &positions[*program],
             before: flow.before[*program][*at],
         };
-        let Some((mut motion, external)) = reader.motion(motion, &site) else {
+        let found = reader.motion(motion, &site);
+        let before = site.before;
+        reader.declarations = declarations;
+        let Some((mut motion, external)) = found else {
             continue;
         };
         motion.runs = programs[*program].runs[*at].max(order.runs[*program]);
-        let last = site.before.map(|state| match state.last {
+        let last = before.map(|state| match state.last {
             Last::Entry => flow.entry[*program].unwrap_or(Last::Unknown),
             last => last,
         });
@@ -107,15 +113,6 @@ pub fn read_ls(
     reader.finish(files)
 }
 
-/// Where a motion stands.
-struct MotionPlace<'a> {
-    file: &'a SourceFile,
-    index: usize,
-    line: &'a crate::ls::lines::Line,
-    positions: &'a Positions,
-    before: Option<crate::ls::flow::State>,
-}
-
 struct Reader<'o> {
     options: &'o ReadOptions,
     faults: Vec<ProgramError>,
@@ -124,8 +121,7 @@ struct Reader<'o> {
     /// By motion.
     external: Vec<Vec<Option<f64>>>,
     declarations: Vec<Declaration>,
-    /// The options' frames by name in capitals.
-    frames: BTreeMap<String, Isometry3<f64>>,
+    ends: Ends<'o>,
 }
 
 impl Reader<'_> {
@@ -141,12 +137,6 @@ impl Reader<'_> {
     }
 
     fn layout(&mut self, file: &SourceFile) -> Layout {
-        if self.frames.is_empty() {
-            let named = self.options.frames.iter();
-            self.frames = named
-                .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
-                .collect();
-        }
         if file.bytes().len() > MOST_BYTES {
             self.fault(file, 0..0, "the file is larger than 256 MiB", "divide it");
             return Layout::default();
@@ -279,122 +269,15 @@ impl Reader<'_> {
         }
     }
 
-    /// A frame or tool by its number.
-    fn frame_use(&self, letters: &str, number: Option<u32>) -> FrameUse {
-        let Some(number) = number else {
-            return FrameUse {
-                name: letters.to_owned(),
-                frame: Frame::Unknown {
-                    reason: "its number is not known from the text".to_owned(),
-                },
-            };
-        };
-        let name = format!("{letters}:{number}");
-        let frame = match (self.frames.get(&name), number) {
-            (Some(frame), _) => Frame::Known(*frame),
-            (None, 0) => Frame::Known(Isometry3::identity()),
-            (None, _) => Frame::Unknown {
-                reason: "the controller holds it; state it in the options".to_owned(),
-            },
-        };
-        FrameUse { name, frame }
-    }
-
-    /// One end of a motion: what it is, where it stands, frame and tool, external axes.
-    fn end(
-        &self,
-        end: &End,
-        place: &MotionPlace<'_>,
-        displaced: Option<&'static str>,
-    ) -> Result<EndFound, (String, &'static str)> {
-        let unknown = "leave such motions as written by an option, or teach a position";
-        let (in_force, tool_in_force) = place.before.map_or((None, None), |b| (b.frame, b.tool));
-        let (number, name) = match end {
-            End::Position(number, name) => (number, name),
-            End::Register(reason) => {
-                return match self.options.unknown_targets {
-                    UnknownTargets::Refused => Err(((*reason).to_owned(), unknown)),
-                    UnknownTargets::LeftAsWritten => Ok(EndFound {
-                        target: Target::Unknown {
-                            reason: (*reason).to_owned(),
-                        },
-                        site: TargetSite::Fixed("its end is not known"),
-                        frame: in_force,
-                        tool: tool_in_force,
-                        external: Vec::new(),
-                    }),
-                };
-            }
-        };
-        let missing = || {
-            let reason = format!("position P[{number}] is not in /POS");
-            (reason, "teach it, or take the motion out")
-        };
-        let position = place.positions.all.get(number).ok_or_else(missing)?;
-        let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
-        for (letters, word, own, now) in [
-            ("UF", "UFRAME_NUM", position.frame, in_force),
-            ("UT", "UTOOL_NUM", position.tool, tool_in_force),
-        ] {
-            if let (Some(own), Some(now)) = (own, now)
-                && own != now
-            {
-                let reason = format!(
-                    "P[{number}] is taught with {letters} {own}, but {word} is {now} here, and which counts is a setting of the controller"
-                );
-                displaced.get_or_insert((
-                    reason,
-                    "teach it in the frame and with the tool in force, or leave such motions as written by an option",
-                ));
-            }
-        }
-        let (target, site) = match (&position.held, displaced) {
-            (Held::Nothing(reason), _) => {
-                return Err((
-                    format!("P[{number}]: {reason}"),
-                    "teach it, or take the motion out",
-                ));
-            }
-            (_, Some(reason)) if self.options.unknown_targets == UnknownTargets::Refused => {
-                return Err(reason);
-            }
-            (held, displaced) => {
-                let site = match held {
-                    Held::Pose(declaration) => TargetSite::Declared {
-                        declaration: *declaration,
-                        name: name.clone(),
-                    },
-                    _ => TargetSite::Fixed("it goes to joint values"),
-                };
-                let target = match (held, displaced) {
-                    (_, Some((reason, _))) => Target::Unknown { reason },
-                    (Held::Pose(at), None) => Target::Pose(self.declarations[*at].pose.clone()),
-                    (Held::Joints(values), None) => Target::Joints {
-                        values_deg: values.clone(),
-                    },
-                    (Held::Nothing(_), None) => return Err(missing()),
-                };
-                (target, site)
-            }
-        };
-        Ok(EndFound {
-            target,
-            site,
-            frame: position.frame.or(in_force),
-            tool: position.tool.or(tool_in_force),
-            external: position.external.clone(),
-        })
-    }
-
     fn motion(
         &mut self,
         text: &MotionText,
         place: &MotionPlace<'_>,
     ) -> Option<(Motion, Vec<Option<f64>>)> {
         let file = place.file;
-        let end = self.end(&text.target, place, text.displaced);
+        let end = self.ends.end(&text.target, place, text.displaced);
         let via = text.via.as_ref().map(|(span, end)| {
-            let found = self.end(end, place, text.displaced);
+            let found = self.ends.end(end, place, text.displaced);
             // With what stands between the two positions.
             let span = span.start..text.target_span.start.max(span.end);
             found.map(|found| (span, found))
@@ -430,8 +313,8 @@ impl Reader<'_> {
             target: end.target,
             speed: text.speed.clone(),
             zone: text.zone,
-            tool: self.frame_use("UT", end.tool),
-            work_object: self.frame_use("UF", end.frame),
+            tool: self.ends.frame_use("UT", end.tool),
+            work_object: self.ends.frame_use("UF", end.frame),
             runs: Runs::Once,
             follows: None,
             site: MotionSite {
@@ -517,96 +400,5 @@ impl Reader<'_> {
             }
         }
         None
-    }
-}
-
-struct EndFound {
-    target: Target,
-    site: TargetSite,
-    frame: Option<u32>,
-    tool: Option<u32>,
-    external: Vec<Option<f64>>,
-}
-
-/// The motions in the order in which they first run, and how often each program runs.
-struct Order {
-    motions: Vec<Place>,
-    runs: Vec<Runs>,
-}
-
-/// Deepest nesting of calls that is followed.
-const DEEPEST: usize = 200;
-
-impl Order {
-    fn of(programs: &[Program]) -> Self {
-        let mut order = Self {
-            motions: Vec::new(),
-            runs: vec![Runs::Elsewhere; programs.len()],
-        };
-        let (mut begun, mut finished) = (vec![false; programs.len()], Vec::new());
-        for root in 0..programs.len() {
-            if !begun[root] {
-                order.visit(root, programs, &mut begun, &mut finished, 0);
-            }
-        }
-        // Callers first; a program that calls itself, or is called by what it calls, runs repeatedly.
-        let mut calls: Vec<Vec<(usize, Runs)>> = vec![Vec::new(); programs.len()];
-        let mut place = vec![0; programs.len()];
-        for (at, program) in finished.iter().enumerate() {
-            place[*program] = at;
-        }
-        for (from, program) in programs.iter().enumerate() {
-            for (at, to) in &program.called {
-                let perhaps = matches!(program.steps[*at], Step::Perhaps(_));
-                let runs = match perhaps {
-                    true => Runs::OnCondition.max(program.runs[*at]),
-                    false => program.runs[*at],
-                };
-                calls[*to].push((from, runs));
-            }
-        }
-        for program in finished.iter().rev().copied() {
-            let reached = calls[program].iter();
-            let recursive = calls[program]
-                .iter()
-                .any(|(from, _)| place[*from] <= place[program]);
-            let mut reached = reached
-                .filter(|(from, _)| order.runs[*from] != Runs::Elsewhere)
-                .map(|(from, runs)| order.runs[*from].max(*runs));
-            order.runs[program] = match (reached.next(), reached.next()) {
-                _ if recursive => Runs::Repeatedly,
-                (None, _) if program == 0 => Runs::Once,
-                (None, _) => Runs::Elsewhere,
-                (Some(once), None) if program != 0 => once,
-                _ => Runs::Repeatedly,
-            };
-        }
-        order
-    }
-
-    fn visit(
-        &mut self,
-        program: usize,
-        programs: &[Program],
-        begun: &mut [bool],
-        finished: &mut Vec<usize>,
-        depth: usize,
-    ) {
-        begun[program] = true;
-        for (at, step) in programs[program].steps.iter().enumerate() {
-            match step {
-                Step::Motion(_) => self.motions.push((program, at)),
-                Step::Call(_) | Step::Perhaps(_) => {
-                    if let Some(to) = programs[program].called.get(&at)
-                        && !begun[*to]
-                        && depth < DEEPEST
-                    {
-                        self.visit(*to, programs, begun, finished, depth + 1);
-                    }
-                }
-                _ => {}
-            }
-        }
-        finished.push(program);
     }
 }

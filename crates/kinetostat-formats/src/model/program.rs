@@ -49,8 +49,15 @@ impl RobotProgram {
     pub(crate) fn lines_of_targets(&self, file: usize) -> BTreeSet<usize> {
         let motions = self.motions.iter().filter(|motion| motion.file == file);
         let declared = self.declarations.iter().filter(|d| d.text.file == file);
+        // The pose on a circle may stand in a statement of its own.
         let spans = motions
-            .map(|motion| &motion.span)
+            .flat_map(|motion| {
+                [
+                    Some(&motion.span),
+                    motion.site.via.as_ref().map(|(span, _)| span),
+                ]
+            })
+            .flatten()
             .chain(declared.map(|declaration| &declaration.statement));
         let source = &self.files[file];
         spans

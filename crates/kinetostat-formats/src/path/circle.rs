@@ -1,4 +1,4 @@
-//! The circle through three points.
+//! Circles through three points, and about a stated centre.
 
 use kinetostat_program::Arc;
 use nalgebra::Vector3;
@@ -40,27 +40,29 @@ pub(crate) fn through(start: &Vector3<f64>, via: &Vector3<f64>, end: &Vector3<f6
     })
 }
 
-/// The arc or helix about a centre and an axis (of length 1) from `start` by an angle (rad, right-handed) to `end`, in mm; `None`
-/// where the start lies on the axis.
+/// The arc from `start` to `end` about a centre and an axis by an angle in rad, right-handed; the rise is even.
 pub(crate) fn about(
-    (centre, axis): (&Vector3<f64>, &Vector3<f64>),
-    angle: f64,
-    (start, end): (&Vector3<f64>, &Vector3<f64>),
+    start: &Vector3<f64>,
+    end: &Vector3<f64>,
+    centre: &Vector3<f64>,
+    axis: &Vector3<f64>,
+    angle_rad: f64,
 ) -> Option<Arc> {
-    let across = |point: &Vector3<f64>| {
-        let arm = point - centre;
+    let across = |place: &Vector3<f64>| {
+        let arm = place - centre;
         arm - axis * arm.dot(axis)
     };
-    let first = across(start).try_normalize(1e-9)?;
+    let (arm, last) = (across(start), across(end));
+    let first = arm.try_normalize(1e-9)?;
     Some(Arc {
-        centre: centre + axis * (start - centre).dot(axis),
+        centre: start - arm,
         first,
         second: axis.cross(&first),
         axis: *axis,
         start_angle: 0.0,
-        sweep: angle,
-        start_radius: across(start).norm(),
-        end_radius: across(end).norm(),
+        sweep: angle_rad,
+        start_radius: arm.norm(),
+        end_radius: last.norm(),
         rise: (end - start).dot(axis),
     })
 }

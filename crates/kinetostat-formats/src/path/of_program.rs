@@ -3,12 +3,12 @@
 use kinetostat_program::{
     CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
 };
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::orientation::OrientationText;
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
 use crate::path::circle::{about, through};
@@ -218,15 +218,19 @@ impl Maker<'_> {
                 angle_rad,
             } if known == Knowledge::Whole => {
                 let frame = self.frame(motion);
-                let centre = (frame * nalgebra::Point3::from(*centre_mm)).coords;
-                about((&centre, &(frame.rotation * axis)), *angle_rad, (&a, &b))
+                let centre = (frame * Point3::from(*centre_mm)).coords;
+                about(&a, &b, &centre, &(frame.rotation * axis), *angle_rad)
                     .map_or(Curve::Line, Curve::Arc)
             }
             _ => Curve::Line,
         };
         let fast = |limit: f64| motion.speed.mm_per_s.is_some_and(|speed| speed >= limit);
+        // APT says it beside the motion.
+        let said = self.program.language == Language::Apt
+            && motion.speed.text.to_ascii_uppercase().starts_with("RAPID");
         let rapid = motion.kind == MotionKind::Joint
             || motion.target.pose().is_none()
+            || said
             || self.options.rapid_from_mm_per_s.is_some_and(fast);
         Move {
             line: motion.line,

@@ -151,7 +151,10 @@ fn speed(
         found.largest_speed_error = error;
     }
     // Where a speed stands for many motions it is that of the input: how far off the part is cut is in the result.
-    let own = program.motions[input.motions[piece.move_index]].site.speed.is_some();
+    let own = program.motions[input.motions[piece.move_index]]
+        .site
+        .speed
+        .is_some();
     (error.is_nan() || own && error > SPEED)
         .then(|| format!("the speed along the part is {:.2} % off", 100.0 * error))
 }

@@ -59,7 +59,14 @@ pub(crate) fn write_with(
     let overlap = |file: usize| WriteError::Overlap {
         file: program.files[file].name().to_owned(),
     };
-    (demands.write(program, syntax, &mut names, &mut edits)).ok_or_else(|| overlap(0))?;
+    let written = demands.write(program, syntax, &mut names, &mut edits);
+    written.ok_or_else(|| WriteError::NoFreeName {
+        file: program
+            .files
+            .first()
+            .map_or("", |file| file.name())
+            .to_owned(),
+    })?;
     (edits.into_iter().enumerate())
         .map(|(index, edits)| {
             let file = &program.files[index];

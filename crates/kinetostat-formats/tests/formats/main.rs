@@ -9,6 +9,7 @@
 )]
 
 mod apt;
+mod fields;
 mod harness;
 mod ls;
 mod numbers;

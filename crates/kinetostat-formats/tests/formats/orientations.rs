@@ -66,10 +66,11 @@ proptest! {
         worst.add(Abc.rotation_of(&numbers).unwrap().angle_to(&turned));
         prop_assert!(worst.value() < 1e-12);
         let mirrored: Vec<f64> = Wpr.numbers_of(&turned, &[c, b, a]).into_iter().rev().collect();
-        // FANUC's are within half a turn.
-        for (one, other) in mirrored.iter().zip(&numbers) {
-            prop_assert!(one.abs() <= 180.0);
-            worst.apart((one - other) / 360.0, ((one - other) / 360.0).round());
+        // W, P, R stay within half a turn.
+        for (found, number) in mirrored.iter().zip(&numbers) {
+            let turns = (found - number) / 360.0;
+            worst.add(360.0 * (turns - turns.round()).abs());
+            prop_assert!(found.abs() <= 180.0);
         }
         prop_assert!(worst.value() < 1e-9);
         // A thousandth of a radian turns no angle by more than that over the cosine of B.

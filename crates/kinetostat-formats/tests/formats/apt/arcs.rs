@@ -122,3 +122,30 @@ fn an_arc_is_not_bent_by_its_end_or_its_start() {
     let same = Piece::to(arc - 1, Vector3::new(20.0, 0.0, 466.0));
     assert_eq!(written(&program, &[same]), NX);
 }
+
+#[test]
+fn paths_go_along_arcs_helices_and_rapids() {
+    let mut options = ReadOptions::default();
+    options
+        .frames
+        .insert("PART".into(), nalgebra::Isometry3::identity());
+    let program = super::read_with(NX.as_bytes(), &options).unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let lengths: Vec<f64> = robot
+        .path
+        .moves
+        .iter()
+        .map(kinetostat_program::Move::length_mm)
+        .collect();
+    // A quarter of radius 20 mm, and one with a fall of 1 mm.
+    let quarter = 20.0 * PI / 2.0;
+    assert!((lengths[2] - quarter).abs() < 1e-9, "{lengths:?}");
+    assert!(
+        (lengths[3] - quarter.hypot(1.0)).abs() < 1e-9,
+        "{lengths:?}"
+    );
+    let rapid: Vec<bool> = (robot.path.moves.iter())
+        .map(|one| one.kind == kinetostat_program::MoveKind::Rapid)
+        .collect();
+    assert_eq!(rapid[..3], [true, false, false]);
+}

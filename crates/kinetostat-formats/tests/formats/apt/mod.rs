@@ -14,6 +14,11 @@ const NX: &str = include_str!("../fixtures/nx.cls");
 const CATIA: &str = include_str!("../fixtures/catia.aptsource");
 const OTHER: &str = "PARTNO / TEST\nUNITS / INCH\nFROM / 0, 0, 10\nRAPID\nGOTO / 5, 5, 1\nFEDRAT / 20\nGOTO / 10, 10, 0\nDELAY / 2.5\nFINI\n";
 
+/// The file of Siemens NX.
+pub fn nx() -> &'static str {
+    NX
+}
+
 fn read_with(text: &[u8], options: &ReadOptions) -> Result<RobotProgram, Vec<ProgramError>> {
     read_apt(vec![SourceFile::new("part.apt", text)], options)
 }
