@@ -1,6 +1,8 @@
 //! Reading and writing by language.
 
 use crate::error::{ProgramError, WriteError};
+use crate::krl::reader::read_krl;
+use crate::krl::write::KrlSyntax;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::rapid::reader::read_rapid;
@@ -30,6 +32,7 @@ pub fn read(
 ) -> Result<RobotProgram, Vec<ProgramError>> {
     match language {
         Language::Rapid => read_rapid(files, options),
+        Language::Krl => read_krl(files, options),
     }
 }
 
@@ -66,5 +69,6 @@ pub fn write(
 ) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
     match program.language {
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
+        Language::Krl => write_with(program, pieces, options, &KrlSyntax),
     }
 }

@@ -37,6 +37,7 @@
 
 mod document;
 mod error;
+mod krl;
 mod model;
 mod options;
 mod rapid;
@@ -46,6 +47,8 @@ mod writing;
 
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
+pub use krl::reader::read_krl;
+pub use krl::table::KRL_STATEMENTS;
 pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};

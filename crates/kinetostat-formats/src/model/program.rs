@@ -10,6 +10,8 @@ use crate::text::source::SourceFile;
 pub enum Language {
     /// ABB RAPID.
     Rapid,
+    /// KUKA KRL.
+    Krl,
 }
 
 /// Something that a person should know of a program that was taken.

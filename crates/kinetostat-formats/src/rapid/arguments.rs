@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::rapid::expression::{Argument, Expression, arguments_of};
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::tree::TokenFile;
 
 /// The arguments of one instruction.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::tree::TokenFile;
 
 /// Deepest nesting of lists, calls and indices.

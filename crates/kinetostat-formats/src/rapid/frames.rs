@@ -9,7 +9,7 @@ use crate::model::motion::Zone;
 use crate::options::ReadOptions;
 use crate::rapid::expression::{Expression, Value, expression_of};
 use crate::rapid::literals::{frame_of, values};
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::tree::{Change, TokenFile};
 

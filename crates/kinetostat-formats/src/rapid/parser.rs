@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::ProgramError;
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::tree::{
     Change, Choice, DatumNode, Module, Parameter, Routine, RoutineKind, Sight, Statement, TokenFile,
 };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::tree::{
     Change, DatumNode, Module, Routine, RoutineKind, Sight, Statement, TokenFile,
 };

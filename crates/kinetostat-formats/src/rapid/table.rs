@@ -1,6 +1,6 @@
 //! What is done with each statement of RAPID, as data.
 
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{StatementRow, Treatment};
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::table::{Ends, motion_row, row};
 use crate::rapid::tree::{Change, Statement, TokenFile};

@@ -9,7 +9,7 @@ use crate::model::program::Finding;
 use crate::options::{ReadOptions, UnknownTargets};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::rapid::table::{motion_row, row};
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};

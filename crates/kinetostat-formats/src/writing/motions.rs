@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::UnitQuaternion;
+
 use crate::error::WriteError;
 use crate::model::motion::{Motion, MotionKind};
+use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
@@ -92,6 +95,16 @@ impl Writer<'_> {
         };
         let end = motion.target.pose().ok_or(NO_END)?;
         check(pieces)?;
+        let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
+        let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
+        if self.text_of(&motion.site.target).is_some_and(states_none)
+            && pieces.iter().any(|piece| piece.orientation.is_some_and(turns))
+        {
+            return Err((
+                "the end states no orientation that could be corrected",
+                "write its angles, or correct its place alone",
+            ));
+        }
         let is_circle = matches!(motion.kind, MotionKind::Circular { .. });
         if is_circle && before.is_empty() {
             let via = last.via_mm.ok_or((
