@@ -244,9 +244,15 @@ impl<'p> Values<'p> {
         members.number(file, capitals)
     }
 
-    /// A number, or a constant of that name.
+    /// A number, a quotient of numbers, or a constant of that name.
     pub(crate) fn number(&self, routine: usize, tokens: &Range<usize>) -> Option<f64> {
-        if let Some(number) = number_of(self.file(routine), tokens) {
+        let file = self.file(routine);
+        if let Some(slash) = file.find(tokens.clone(), b'/') {
+            let above = number_of(file, &(tokens.start..slash))?;
+            let quotient = above / number_of(file, &(slash + 1..tokens.end))?;
+            return quotient.is_finite().then_some(quotient);
+        }
+        if let Some(number) = number_of(file, tokens) {
             return Some(number);
         }
         let (datum, stated) = self.datum(routine, tokens).ok()?;

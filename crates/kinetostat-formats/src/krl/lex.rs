@@ -46,7 +46,7 @@ impl Token {
     }
 }
 
-/// A line with tokens or with a comment that opens or closes a fold.
+/// A line with tokens or with a comment that is part of a fold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Line {
     pub tokens: Range<usize>,
@@ -140,9 +140,9 @@ impl<'a> TokenFile<'a> {
     }
 }
 
-/// Whether a comment opens or closes a fold.
+/// Whether a comment is part of a fold: newer inline forms state their parameters in one.
 fn folds(comment: &[u8]) -> bool {
-    opens(comment) || closes(comment)
+    opens(comment) || closes(comment) || begins(comment, b"PARAMS")
 }
 
 fn begins(comment: &[u8], word: &[u8]) -> bool {

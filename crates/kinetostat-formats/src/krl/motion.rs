@@ -23,6 +23,8 @@ pub(crate) struct Followed {
     pub state: State,
     /// Which rounding it asks for.
     pub rounding: Option<Thing>,
+    /// Its own WITH states the speed.
+    pub own_speed: bool,
     /// Members that its end leaves open, and those of the pose on its circle.
     pub open: Option<[Option<f64>; 6]>,
     pub via_open: Option<[Option<f64>; 6]>,
@@ -121,6 +123,7 @@ pub(crate) fn follow(
         behind += 1;
     }
     let rest = rest_of(file, behind..tokens.end)?;
+    let speed_before = state.get(Thing::Speed);
     let mut start = rest.with.start;
     while start < rest.with.end {
         let end = file.find(start..rest.with.end, b',').unwrap_or(rest.with.end);
@@ -130,6 +133,7 @@ pub(crate) fn follow(
         }
         start = end + 1;
     }
+    let own_speed = state.get(Thing::Speed) != speed_before;
     let end = left(targets.find(values, routine, &end_tokens), unknown)?;
     let (kind, via, via_open) = match row.ends {
         Ends::Linear => (MotionKind::Linear, None, None),
@@ -168,7 +172,7 @@ pub(crate) fn follow(
         },
         span,
     };
-    Ok(Followed { motion, routine, state, rounding: rest.rounding, open: end.open, via_open })
+    Ok(Followed { motion, routine, state, rounding: rest.rounding, own_speed, open: end.open, via_open })
 }
 
 /// A frame that nothing before it sets.

@@ -12,6 +12,7 @@ use crate::krl::walk::Walker;
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::program::Finding;
+use crate::model::site::SpeedSite;
 use crate::model::target::Target;
 use crate::options::UnknownTargets;
 
@@ -70,7 +71,7 @@ struct Resolver<'v, 'p> {
 
 impl Resolver<'_, '_> {
     fn motion(&mut self, followed: Followed, state: State, often: Runs) -> Result<(), Reason> {
-        let Followed { mut motion, rounding, open, via_open, .. } = followed;
+        let Followed { mut motion, rounding, own_speed, open, via_open, .. } = followed;
         motion.runs = motion.runs.max(often);
         motion.follows = match state.get(Thing::Place) {
             Slot::Is(index) => Some(index),
@@ -82,6 +83,14 @@ impl Resolver<'_, '_> {
             && let Some(speed) = self.settings.speeds.get(state.get(Thing::Speed))
         {
             motion.speed = speed.clone();
+            let source = self.values.files[motion.file].source;
+            let start = motion.span.start;
+            let line_end = [source.line_ending(), source.indentation(start)].concat();
+            motion.site.speed = (!own_speed && speed.mm_per_s.is_some()).then(|| SpeedSite {
+                span: start..start,
+                before: "$VEL.CP=".to_owned(),
+                after: format!("/1000.0{}", String::from_utf8_lossy(&line_end)),
+            });
         }
         if let Some(thing) = rounding
             && let Some(number) = self.settings.numbers.get(state.get(thing))

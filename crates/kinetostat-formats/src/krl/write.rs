@@ -59,13 +59,16 @@ impl Syntax for KrlSyntax {
         program: &RobotProgram,
         motion: &Motion,
         literal: &[u8],
-        _speed: Option<&[u8]>,
+        speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>> {
         let file = program.files.get(motion.file)?;
         let row = row_of(program, motion)?;
         let site = &motion.site;
         let mut edits = Edits::default();
+        if let Some(speed) = speed {
+            edits.replace(motion.span.start..motion.span.start, speed);
+        }
         replace_word(file.part(&site.keyword), row.straight?, &site.keyword, &mut edits);
         if let Some((span, _)) = &site.via {
             edits.replace(span.clone(), "");
@@ -86,6 +89,19 @@ impl Syntax for KrlSyntax {
             replace_word(written, word, &site.keyword, edits);
             edits.replace(span.clone(), "");
         }
+    }
+
+    fn restored_speed(&self, program: &RobotProgram, motion: &Motion) -> Option<(usize, Vec<u8>)> {
+        let file = program.files.get(motion.file)?;
+        let site = motion.site.speed.as_ref()?;
+        let metres_per_s = motion.speed.mm_per_s? / 1000.0;
+        let rest = file.bytes().get(motion.span.end..)?;
+        let to_end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+        let kept = rest[..to_end].strip_suffix(b"\r").map_or(to_end, <[u8]>::len);
+        let mut text = file.line_ending().to_vec();
+        text.extend_from_slice(file.indentation(motion.span.start));
+        text.extend_from_slice(format!("{}{metres_per_s}", site.before).as_bytes());
+        Some((motion.span.end + kept, text))
     }
 
     /// The text of the fold around the statement, `FDAT_ACT=` in it, and the data of the point.

@@ -125,10 +125,21 @@ impl Writer<'_> {
                 .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
-        if let Some((speed, text)) = speed_of(motion, last)? {
-            self.edits[motion.file].replace(speed.span.clone(), text);
+        // Where a speed stays in force, each piece states its own, and the speed of before is restored behind them.
+        let restored = match pieces.iter().any(|piece| piece.speed_factor != 1.0) {
+            true => self.syntax.restored_speed(self.program, motion),
+            false => None,
+        };
+        let stated = match &restored {
+            Some(_) => Stated::Always,
+            None => Stated::IfChanged,
+        };
+        let own_speed = speed_of(motion, last, stated)?;
+        if let Some((at, text)) = restored {
+            self.edits[motion.file].replace(at..at, text);
         }
         if before.is_empty() {
+            self.state_speed(motion, own_speed);
             return Ok(());
         }
         if motion.kind == MotionKind::Joint {
@@ -157,7 +168,7 @@ impl Writer<'_> {
             };
             let home = &self.program.files[text.file];
             let literal = literal_of(home, text, &wanted, self.options).ok_or(NO_END)?;
-            let speed = speed_of(motion, piece)?.map(|(_, text)| text);
+            let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
             let (program, options) = (self.program, self.options);
             let statement = self
                 .syntax
@@ -167,7 +178,14 @@ impl Writer<'_> {
             inserted.extend_from_slice(file.indentation(motion.span.start));
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
+        self.state_speed(motion, own_speed);
         Ok(())
+    }
+
+    fn state_speed(&mut self, motion: &Motion, speed: Option<(&SpeedSite, Vec<u8>)>) {
+        if let Some((site, text)) = speed {
+            self.edits[motion.file].replace(site.span.clone(), text);
+        }
     }
 
     /// The literal that says the configuration of an end.
@@ -267,12 +285,20 @@ const SAME_RAD: f64 = 1e-9;
 /// Farther than any robot reaches, mm.
 const FARTHEST_MM: f64 = 1e6;
 
-/// The speed of a piece where it is not that of the motion.
+/// When the speed of a piece is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stated {
+    IfChanged,
+    Always,
+}
+
+/// The speed of a piece where it is written.
 fn speed_of<'m>(
     motion: &'m Motion,
     piece: &Piece,
+    stated: Stated,
 ) -> Result<Option<(&'m SpeedSite, Vec<u8>)>, Reason> {
-    if piece.speed_factor == 1.0 {
+    if piece.speed_factor == 1.0 && stated == Stated::IfChanged {
         return Ok(None);
     }
     let (Some(site), Some(speed)) = (&motion.site.speed, motion.speed.mm_per_s) else {

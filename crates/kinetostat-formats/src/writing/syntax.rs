@@ -30,6 +30,11 @@ pub(crate) trait Syntax {
     /// Makes a circular motion a straight one to the same end.
     fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits);
 
+    /// Where a written speed stays in force for the motions behind: where to restore the speed of before, and how.
+    fn restored_speed(&self, _program: &RobotProgram, _motion: &Motion) -> Option<(usize, Vec<u8>)> {
+        None
+    }
+
     /// Changes what else speaks of names that became others: texts around the statement, data that belong to a name.
     fn renamed(&self, _program: &RobotProgram, _names: &[Renamed], _edits: &mut [Edits]) {}
 }

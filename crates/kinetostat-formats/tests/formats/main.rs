@@ -8,5 +8,6 @@
     reason = "a failing test may panic"
 )]
 
+mod krl;
 mod rapid;
 mod real_files;
