@@ -29,7 +29,9 @@ pub(crate) fn aggregate_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Optio
         let name = file.name(at)?;
         let is_text = file.is(at + 1, b'[') && file.is(at + 2, b']');
         let value = at + 1 + 2 * usize::from(is_text)..end;
-        if value.is_empty() {
+        // Without a blank between them another number could grow into the name.
+        let name_end = file.span(&(at..value.start)).end;
+        if value.is_empty() || file.span(&value).start == name_end {
             return None;
         }
         members.push((name, value));
@@ -96,6 +98,9 @@ const PLACE: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 const AXES: [&str; 6] = ["A1", "A2", "A3", "A4", "A5", "A6"];
 const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
 
+/// Larger than a length in mm or an angle in degrees of any robot.
+const LARGEST: f64 = 1e7;
+
 /// The position that tokens are; why they are none.
 pub(crate) fn position_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Position, &'static str> {
     let aggregate = aggregate_of(file, tokens).ok_or("it is no position in braces")?;
@@ -108,6 +113,9 @@ pub(crate) fn position_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result
     };
     for (name, value) in &aggregate.members {
         let number = number_of(file, value).ok_or("its numbers are computed while the program runs")?;
+        if number.abs() > LARGEST {
+            return Err("its numbers are larger than any robot needs");
+        }
         let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
         if let Some(index) = slot(PLACE) {
             let text = NumberText { span: file.span(value), value: number };

@@ -119,12 +119,14 @@ impl Resolver<'_, '_> {
             }
         };
         fill(&mut motion.target, open);
+        let mut is_open = open.is_some();
         if let MotionKind::Circular { via } = &mut motion.kind {
             // The orientation on the way is that of the ends: only the place counts.
             let placed = via_open.filter(|open| open[..3].iter().any(Option::is_none));
+            is_open |= placed.is_some();
             fill(via, placed);
         }
-        if open.is_some() && matches!(motion.target, Target::Pose(_)) {
+        if is_open && matches!(motion.target, Target::Pose(_)) {
             self.findings.push(Finding {
                 file: motion.file,
                 line: motion.line,

@@ -61,7 +61,9 @@ impl Setter<'_, '_> {
 
     fn speed(&mut self, metres_per_s: Option<f64>, text: String) -> Slot {
         let mm_per_s = metres_per_s.map(|speed| 1000.0 * speed);
-        self.settings.speeds.slot(Speed { mm_per_s, text })
+        // Equal speeds are one, however they are written.
+        let key = mm_per_s.map_or_else(|| text.clone(), |speed| format!("{speed:?}"));
+        self.settings.speeds.slot_of(key, Speed { mm_per_s, text })
     }
 
     /// `name = value`, of tokens, with the place of the sign.

@@ -120,8 +120,14 @@ impl<T> Default for Pool<T> {
 impl<T: Debug> Pool<T> {
     /// Where a value is in the list.
     pub(crate) fn slot(&mut self, value: T) -> Slot {
+        let key = format!("{value:?}");
+        self.slot_of(key, value)
+    }
+
+    /// Where the value of a key is in the list: that of the first of equal keys stays.
+    pub(crate) fn slot_of(&mut self, key: String, value: T) -> Slot {
         let next = self.values.len();
-        let index = *self.known.entry(format!("{value:?}")).or_insert(next);
+        let index = *self.known.entry(key).or_insert(next);
         if index == next {
             self.values.push(value);
         }

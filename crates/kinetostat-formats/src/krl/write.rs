@@ -126,16 +126,17 @@ impl Syntax for KrlSyntax {
             let Some(top) = folds[*file][line].filter(|top| shows(*top)) else {
                 continue;
             };
+            let mut upper = [b"F", old].concat();
+            upper.make_ascii_uppercase();
+            let of_point = data[*home].get(&upper);
             for inside in top..line {
-                for (place, new) in renamings(tokens, inside, old, new) {
+                for (place, new) in renamings(tokens, inside, old, new, of_point.is_some()) {
                     if changed.insert((*file, place.start)) {
                         edits[*file].replace(place, new);
                     }
                 }
             }
-            let mut upper = [b"F", old].concat();
-            upper.make_ascii_uppercase();
-            if let Some((statement, letters)) = data[*home].get(&upper)
+            if let Some((statement, letters)) = of_point
                 && copied.insert((*home, name.clone()))
             {
                 let source = files[*home].source;
@@ -154,9 +155,13 @@ impl Syntax for KrlSyntax {
 fn point_data(file: &TokenFile<'_>) -> BTreeMap<Vec<u8>, (Range<usize>, Range<usize>)> {
     let mut all = BTreeMap::new();
     for line in &file.lines {
+        let is_word = |at: usize, word: &[u8]| file.word(at).eq_ignore_ascii_case(word);
         let mut tokens = line.tokens.clone();
-        let of_type = tokens.find(|at| file.word(*at).eq_ignore_ascii_case(b"FDAT"));
-        if let Some(name) = of_type.map(|at| at + 1).filter(|name| *name < line.tokens.end) {
+        let of_type = tokens.find(|at| !is_word(*at, b"DECL") && !is_word(*at, b"GLOBAL"));
+        let of_type = of_type.filter(|at| is_word(*at, b"FDAT"));
+        // One of several names of a statement is not copied.
+        let alone = file.find(line.tokens.clone(), b',').is_none();
+        if let Some(name) = of_type.map(|at| at + 1).filter(|name| alone && *name < line.tokens.end) {
             let place = file.tokens[name].bytes();
             let upper = file.word(name).to_ascii_uppercase();
             all.insert(upper, (file.span(&line.tokens), place.start + 1..place.end));
@@ -190,7 +195,13 @@ fn words<'f>(file: &'f TokenFile<'_>, line: usize) -> impl Iterator<Item = Range
 }
 
 /// Where a line speaks of a point, and what is to stand there: in its comment and in `FDAT_ACT=`.
-fn renamings(file: &TokenFile<'_>, line: usize, old: &[u8], new: &[u8]) -> Vec<(Range<usize>, Vec<u8>)> {
+fn renamings(
+    file: &TokenFile<'_>,
+    line: usize,
+    old: &[u8],
+    new: &[u8],
+    has_data: bool,
+) -> Vec<(Range<usize>, Vec<u8>)> {
     let mut found = Vec::new();
     for word in words(file, line) {
         if file.source.part(&word).eq_ignore_ascii_case(old) {
@@ -198,7 +209,7 @@ fn renamings(file: &TokenFile<'_>, line: usize, old: &[u8], new: &[u8]) -> Vec<(
         }
     }
     let tokens = file.lines[line].tokens.clone();
-    if file.word(tokens.start).eq_ignore_ascii_case(b"FDAT_ACT") {
+    if has_data && file.word(tokens.start).eq_ignore_ascii_case(b"FDAT_ACT") {
         for at in tokens {
             let place = file.tokens[at].bytes();
             let is_data = file.word(at).split_first();
