@@ -3,7 +3,7 @@
 
     scripts/compare_expanded_with_linuxcnc.py [--programs N] [--seed N] [--keep FOLDER] [--lines N] [--expand FILE]
 
-Random contours (lines, arcs and circles, corners of all angles, both sides, places and increments, inches and millimetres,
+Random contours (in XY and ZX; lines, arcs and circles, corners of all angles, both sides, places and increments, inches and millimetres,
 work offsets, G92, moves in depth, rapids, stops) are run by LinuxCNC as they are, and as kinetostat has written them flat.
 Both must make the same canonical moves: the same kinds in the same order, places and centres to 1e-9 mm, feeds alike. What
 LinuxCNC refuses kinetostat must refuse; what only kinetostat refuses is counted by its reason.
@@ -29,6 +29,16 @@ from compare_with_linuxcnc import MM, ROOT, ask_linuxcnc, linuxcnc_python, write
 PLACE_MM = 1e-9
 
 
+def in_zx(line):
+    """A block of the plane XY in the plane ZX."""
+    letters = dict(zip("XYZIJ", "ZXYKI"))
+    code, comment, rest = line.partition("(")
+    if code.startswith("O"):
+        return line
+    code = re.sub(r"([XYZIJ])(?=[-\d.])", lambda word: letters[word.group(1)], code.replace("G17", "G18"))
+    return code + comment + rest
+
+
 class Contours:
     """Writes a random program with cutter radius compensation."""
 
@@ -42,6 +52,8 @@ class Contours:
         self.heading = self.r.uniform(-math.pi, math.pi)
         self.scale = 1 / 25.4 if self.inch else 1.0
         self.digits = self.r.choice([3, 4, 6])
+        # In the plane ZX, which has no polar words.
+        self.lathe = self.r.random() < 0.2
         # Many contours have corners of a few kinds only, so that most of them can be cut.
         self.wild = self.r.random() < 0.35
 
@@ -105,7 +117,7 @@ class Contours:
         """A straight move by radius and angle about the origin."""
         r = self.r
         radius, angle = math.hypot(*self.at), math.degrees(math.atan2(self.at[1], self.at[0]))
-        if radius < 3 * self.scale:
+        if radius < 3 * self.scale or self.lathe:
             return self.straight()
         words = "G1"
         if r.random() < 0.7:
@@ -259,6 +271,8 @@ class Contours:
             if not self.contour():
                 break
         self.lines.append("M2")
+        if self.lathe:
+            self.lines = [in_zx(line) for line in self.lines]
         return "\n".join(self.lines) + "\n"
 
 

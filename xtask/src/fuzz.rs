@@ -37,6 +37,19 @@ fn macros(minutes: &str, seed: &str) -> Result<()> {
     )
 }
 
+/// Robot programs, whole and broken, for a twelfth of the time. One case is repeated with
+/// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED` (or `fuzz_krl`).
+fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
+    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
+    for (what, name) in [
+        ("fuzz of RAPID programs", "fuzz_rapid"),
+        ("fuzz of KRL programs", "fuzz_krl"),
+    ] {
+        example(what, "kinetostat-formats", name, &[&minutes, seed])?;
+    }
+    Ok(())
+}
+
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
 pub fn run(options: &[&str]) -> Result<()> {
     let (mut minutes, mut seed, mut case) = ("10", "1", None);
@@ -60,6 +73,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     }
     codes(minutes, seed)?;
     macros(minutes, seed)?;
+    robot_programs(minutes, seed)?;
     // Programs are many more cases in a minute: a sixth of the time does.
     let time: f64 = minutes.parse()?;
     maps(&[&(time / 6.0).to_string(), seed])?;

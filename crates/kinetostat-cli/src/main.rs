@@ -13,6 +13,7 @@ mod compensate;
 mod curve;
 mod deflect;
 mod demo;
+mod dialect;
 mod end_condition;
 mod engagement;
 mod equilibria;
@@ -83,6 +84,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Force(args) => force::run(&args),
         Command::Engagement(args) => engagement::run(&args),
         Command::Expand(args) => expand::run(&args),
+        Command::Dialect(args) => dialect::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),

@@ -44,6 +44,16 @@ impl ProgramError {
     }
 }
 
+/// Most errors that are noted of a program: a file of nothing else must not fill the memory.
+const MOST_ERRORS: usize = 100_000;
+
+/// Adds an error, up to a number that nobody reads.
+pub(crate) fn note(errors: &mut Vec<ProgramError>, error: impl FnOnce() -> ProgramError) {
+    if errors.len() < MOST_ERRORS {
+        errors.push(error());
+    }
+}
+
 /// Longest excerpt of a program quoted in a message, in characters.
 const EXCERPT_CHARACTERS: usize = 60;
 
@@ -103,6 +113,20 @@ pub enum WriteError {
         motion: usize,
         /// Number of motions.
         motions: usize,
+    },
+    /// A line would be longer than the options allow.
+    #[error(
+        "{file}: line {line} would be written with {bytes} bytes, {limit} are allowed; write its statement on several lines"
+    )]
+    LineTooLong {
+        /// Name of the file.
+        file: String,
+        /// Line of the written file, counted from 1.
+        line: usize,
+        /// Bytes the line would have, without its line ending.
+        bytes: usize,
+        /// `WriteOptions::max_line_bytes`.
+        limit: usize,
     },
     /// Two changes want the same bytes: a fault of this library.
     #[error("two changes of {file} overlap; nothing was written, please report this")]

@@ -7,7 +7,7 @@
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
 //!    taken for stands in a table ([`RAPID_STATEMENTS`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
-//! 3. [`write`] changes the numbers of the text that must change, and nothing else.
+//! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
 //! This crate knows no robot. It reads and writes bytes in memory; files are the caller's. Lengths are in mm; poses are in the
 //! axes of the motion's work object; lines are counted from 1.
@@ -37,9 +37,13 @@
 
 mod document;
 mod error;
+#[doc(hidden)]
+pub mod internal;
 mod krl;
+mod language;
 mod model;
 mod options;
+mod path;
 mod rapid;
 mod table;
 mod text;
@@ -49,11 +53,16 @@ pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
 pub use krl::reader::read_krl;
 pub use krl::table::KRL_STATEMENTS;
+pub use language::language_of;
 pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
+pub use path::correctable::Correctable;
+pub use path::fault::PathError;
+pub use path::of_program::{RobotPath, path_of};
+pub use path::options::PathOptions;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};

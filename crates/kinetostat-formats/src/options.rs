@@ -77,6 +77,8 @@ pub struct WriteOptions {
     pub angle_decimals: usize,
     /// Where divided motions stop.
     pub exact_stops: ExactStops,
+    /// Most bytes of a line that changes, without its line ending, where the controller or its loader has such a limit.
+    pub max_line_bytes: Option<usize>,
 }
 
 impl Default for WriteOptions {
@@ -86,6 +88,7 @@ impl Default for WriteOptions {
             quaternion_decimals: 7,
             angle_decimals: 5,
             exact_stops: ExactStops::AtEnd,
+            max_line_bytes: None,
         }
     }
 }

@@ -1,8 +1,10 @@
 //! The model as a field of corrections for the program writer.
 
 use kinetostat::batch::AlongPath;
-use kinetostat::{Error, Mechanism, Pose, Wrench};
-use kinetostat_program::{CorrectionField, Course, FieldFailure, Move, Request, Structure};
+use kinetostat::{Directions, Error, Mechanism, Pose, Wrench};
+use kinetostat_program::{
+    Correction, CorrectionField, Course, FieldFailure, Move, Request, Structure,
+};
 use nalgebra::Vector3;
 
 use crate::load::along_path::LoadAlongPath;
@@ -20,6 +22,8 @@ pub struct ModelField<'a> {
     pub placement: Placement,
     /// Cutting load at every place of the path; it also knows the tool at each.
     pub load: &'a LoadAlongPath<'a>,
+    /// What of the pose is corrected.
+    corrected: Directions,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,
 }
@@ -41,8 +45,17 @@ impl<'a> ModelField<'a> {
             mechanism,
             placement,
             load,
+            corrected: Directions::POSITION,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
         }
+    }
+
+    /// The same with what of the tool's pose is corrected: [`Directions::POSITION`], which it does without this, or
+    /// [`Directions::ALL`] where the program states the orientation.
+    #[must_use]
+    pub fn correcting(mut self, directions: Directions) -> Self {
+        self.corrected = directions;
+        self
     }
 
     fn wrench(&self, request: &Request) -> Wrench {
@@ -74,7 +87,7 @@ impl CorrectionField for ModelField<'_> {
         }
     }
 
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         let number = |r: &Request| self.load.tool_of(r.move_index).map(|tool| tool.number);
         let of_one_tool = requests.chunk_by(|a, b| number(a) == number(b));
         of_one_tool
@@ -92,7 +105,7 @@ impl ModelField<'_> {
         &self,
         mechanism: &Mechanism,
         requests: &[Request],
-    ) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+    ) -> Vec<Result<Correction, FieldFailure>> {
         let load = self.load.load_of(requests[0].move_index);
         let orientation = Orientation::of(&self.placement, load);
         let machine = match orientation.follows {
@@ -102,23 +115,32 @@ impl ModelField<'_> {
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
-                .map(|r| self.placement.tool_pose(&r.position_mm))
+                .map(|r| {
+                    let orientation = self.placement.orientation_of(r.orientation);
+                    self.placement.pose(&r.position_mm, orientation)
+                })
                 .collect();
             let wrenches: Vec<Wrench> = requests.iter().map(|r| self.wrench(r)).collect();
+            let turns = self.corrected == Directions::ALL;
             let correction = |pose: &Pose, target: &Pose| {
                 let shift = target.translation.vector - pose.translation.vector;
-                self.placement.to_program(&shift)
+                let turn = (target.rotation * pose.rotation.inverse()).scaled_axis();
+                Correction {
+                    shift_mm: self.placement.to_program(&shift),
+                    turn: match turns {
+                        true => self.placement.to_part_axes(&turn),
+                        false => Vector3::zeros(),
+                    },
+                }
             };
-            if let Some(targets) =
-                machine.targets(&poses, &wrenches, kinetostat::Directions::POSITION)
-            {
+            if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
                 let both = poses.iter().zip(&targets);
                 return both.map(|(p, t)| Ok(correction(p, t))).collect();
             }
             let both = poses.iter().zip(&wrenches);
             both.map(|(pose, wrench)| {
                 memory[0]
-                    .target(mechanism, pose, wrench, orientation)
+                    .target(mechanism, pose, wrench, (orientation, self.corrected))
                     .map(|posture| correction(pose, posture.target()))
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })

@@ -8,6 +8,7 @@ mod bounds;
 mod checks;
 mod cut;
 mod field;
+mod flat_program;
 #[doc(hidden)]
 pub mod internal;
 mod limits;
@@ -44,6 +45,7 @@ pub use cut::profile::ForceAlongPath;
 pub use cut::question::CutQuestion;
 pub use cut::station::CutStation;
 pub use field::ModelField;
+pub use flat_program::FlatProgram;
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
 pub use load::along_path::LoadAlongPath;

@@ -1,6 +1,7 @@
 //! Where the program lies in the machine: part frame, tool, scale.
 
 use kinetostat::Pose;
+use kinetostat_program::Move;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Placement {
     /// Base from part frame, m.
     pub base_from_part: Pose,
-    /// Orientation of the tool frame at every point, base from tool.
+    /// Orientation of the tool frame at every point of a program that does not state it, base from tool.
     pub tool_orientation: UnitQuaternion<f64>,
     /// The machine turns its tool as it moves: at every point it takes the orientation nearest to
     /// `tool_orientation` that it can have there, instead of that one.
@@ -43,12 +44,31 @@ impl Placement {
         self.base_from_part.rotation * displacement_mm * self.metres()
     }
 
-    /// Pose of the tool at a point of the program (mm); where the orientation follows, the one that
+    /// Pose of the tool at a point of a program of positions (mm); where the orientation follows, the one that
     /// it is kept near to.
     #[must_use]
     pub fn tool_pose(&self, position_mm: &Vector3<f64>) -> Pose {
+        self.pose(position_mm, self.tool_orientation)
+    }
+
+    /// Orientation of the tool at a share of a move, base from tool: that of the program, or where it states none
+    /// [`Self::tool_orientation`].
+    #[must_use]
+    pub fn orientation_on(&self, motion: &Move, share: f64) -> UnitQuaternion<f64> {
+        self.orientation_of(motion.orientation(share))
+    }
+
+    /// The same of an orientation in axes of the part.
+    #[must_use]
+    pub fn orientation_of(&self, in_part: Option<UnitQuaternion<f64>>) -> UnitQuaternion<f64> {
+        in_part.map_or(self.tool_orientation, |o| self.base_from_part.rotation * o)
+    }
+
+    /// Pose of the tool at a point of the program (mm) with an orientation (base from tool).
+    #[must_use]
+    pub fn pose(&self, position_mm: &Vector3<f64>, orientation: UnitQuaternion<f64>) -> Pose {
         let point = self.base_from_part * nalgebra::Point3::from(position_mm * self.metres());
-        Pose::from_parts(point.coords.into(), self.tool_orientation)
+        Pose::from_parts(point.coords.into(), orientation)
     }
 
     /// A displacement in the machine (m, base axes) as a displacement in the program (mm).

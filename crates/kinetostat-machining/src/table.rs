@@ -1,8 +1,8 @@
 //! A program corrected from a table of corrections instead of a model.
 
 use kinetostat_program::{
-    Corrected, CorrectionMap, FieldCheck, Monitor, NoCorrection, Path, Program, WriteError,
-    WriteOptions, verify_against_field, write_corrected,
+    Corrected, CorrectionMap, FieldCheck, MachineProgram, Monitor, NoCorrection, Path, WriteError,
+    WriteOptions, verify_against_field,
 };
 
 use crate::number::mean_length;
@@ -26,16 +26,15 @@ pub struct TableCorrection {
 /// Corrects a program by a table, or leaves it as it is where that keeps the tolerance: what is written could be farther off.
 ///
 /// # Errors
-/// As [`write_corrected`].
+/// As [`MachineProgram::write`].
 pub fn correct_by_table(
-    program: &Program,
-    path: &Path,
+    program: &dyn MachineProgram,
     field: &CorrectionMap,
     writing: &WriteOptions,
     monitor: &dyn Monitor,
 ) -> Result<TableCorrection, WriteError> {
-    let written = write_corrected(program, path, field, writing, monitor)?;
-    let against = verify_against_field(path, &written, field, writing, monitor)?;
+    let written = program.write(field, writing, monitor)?;
+    let against = verify_against_field(program.path(), &written, field, writing, monitor)?;
     let a = &written.accounting;
     let mut made = TableCorrection {
         keeps_as_it_is: written.bytes != program.bytes()
@@ -53,7 +52,7 @@ pub fn correct_by_table(
         // What was measured, so that the warning has the figure of the result.
         let before = made.against.before;
         made.largest_correction = (before.distance_mm, before.line);
-        made.written = write_corrected(program, path, &NoCorrection, writing, monitor)?;
+        made.written = program.write(&NoCorrection, writing, monitor)?;
     }
     Ok(made)
 }

@@ -1,7 +1,7 @@
 //! The task of a run, and why it may have no answer.
 
-use kinetostat::{Error, Mechanism, MotionKind, number};
-use kinetostat_program::{Path, Program, ReadOptions, WriteError, WriteOptions};
+use kinetostat::{Directions, Error, Mechanism, MotionKind, number};
+use kinetostat_program::{MachineProgram, Path, WriteError, WriteOptions};
 
 use crate::bounds::Bounds;
 use crate::cut::profile::ForceAlongPath;
@@ -12,16 +12,14 @@ use crate::placement::Placement;
 use crate::result::run_inputs::RunInputs;
 
 /// Everything that decides a run.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Task<'a> {
     /// Machine with its tool: the platform's reference point is the tool's tip.
     pub mechanism: &'a Mechanism,
     /// The program as read.
-    pub program: &'a Program,
-    /// How it was read.
-    pub reading: ReadOptions,
-    /// Its motion.
-    pub path: &'a Path,
+    pub program: &'a dyn MachineProgram,
+    /// What of the tool's pose is corrected: its position, or where the program states the orientation also that.
+    pub corrected: Directions,
     /// Where it lies.
     pub placement: Placement,
     /// What acts on the tool.
@@ -40,14 +38,20 @@ pub struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
+    /// The motion of the program.
+    #[must_use]
+    pub fn path(&self) -> &'a Path {
+        self.program.path()
+    }
+
     /// Machine with the tool that the block on a line is made with.
     pub(crate) fn mechanism_on(&self, line: usize) -> &'a Mechanism {
-        tool_on(self.tools, self.path, line).map_or(self.mechanism, |tool| tool.mechanism)
+        tool_on(self.tools, self.path(), line).map_or(self.mechanism, |tool| tool.mechanism)
     }
 
     /// What acts on the tool that the block on a line is made with.
     pub(crate) fn load_on(&self, line: usize) -> &ProgramLoad {
-        tool_on(self.tools, self.path, line).map_or(&self.load, |tool| &tool.load)
+        tool_on(self.tools, self.path(), line).map_or(&self.load, |tool| &tool.load)
     }
 }
 

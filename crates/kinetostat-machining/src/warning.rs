@@ -5,6 +5,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::flat_program::FlatProgram;
+
 /// What a warning is about: a stable word for programs that read the JSON. Kinds may be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -137,6 +139,12 @@ pub struct Warning {
     pub line: Option<usize>,
     /// File of that line; none for the program, and where it speaks of no file.
     pub file: Option<String>,
+    /// Of a program that was written flat: the line that the line came from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source_line: Option<usize>,
+    /// The file of that line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source_file: Option<String>,
 }
 
 impl Warning {
@@ -148,6 +156,8 @@ impl Warning {
             message: message.into(),
             line: None,
             file: None,
+            source_line: None,
+            source_file: None,
         }
     }
 
@@ -166,10 +176,40 @@ impl Warning {
         self.file = Some(file.into());
         self
     }
+
+    /// The same about a program that was written flat: with the lines that its lines came from.
+    ///
+    /// ```
+    /// use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+    ///
+    /// let flat = FlatProgram::new(vec!["plate.ngc".to_owned()], 2, vec![(0, 1), (0, 7)]);
+    /// let warning = Warning::at_line(WarningCode::Plunge, 2, "a plunge").with_sources(&flat);
+    /// assert_eq!(warning.to_string(), "line 7 of plate.ngc (line 2 of the flat program): a plunge");
+    /// ```
+    #[must_use]
+    pub fn with_sources(mut self, flat: &FlatProgram) -> Self {
+        if self.file.is_none() {
+            self.message = flat.with_sources(&self.message);
+            if let Some((file, line)) = self.line.and_then(|line| flat.source_of(line)) {
+                self.source_line = Some(line);
+                self.source_file = Some(file.to_owned());
+            }
+        }
+        self
+    }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let (Some(file), Some(from), Some(line)) =
+            (&self.source_file, self.source_line, self.line)
+        {
+            return write!(
+                f,
+                "line {from} of {file} (line {line} of the flat program): {}",
+                self.message
+            );
+        }
         match (&self.file, self.line) {
             (Some(file), Some(line)) => write!(f, "{file}, line {line}: {}", self.message),
             (Some(file), None) => write!(f, "{file}: {}", self.message),

@@ -1,14 +1,16 @@
 //! Writes programs flat.
 //!
 //! `expand [--diameter TOOL=MM ...] PROGRAM [FOLDER ...] > flat.ngc`: subprograms are looked for in the folder of the program
-//! and in the folders behind it. `expand [--diameter ...] --into FOLDER PROGRAM ...`: each program is written into the folder
-//! under its name, and a line says what is refused (`scripts/compare_expanded_with_linuxcnc.py` reads it).
+//! and in the folders behind it. `expand [--diameter ...] [--folder ...] --into FOLDER PROGRAM ...`: each program is written
+//! into the folder under its name, and a line says what is refused (`scripts/compare_expanded_with_linuxcnc.py` reads it).
+//! `--as-linuxcnc`: millimetres, the tool at zero, all offsets zero, other axes stand still; `--parameter NUMBER=VALUE`.
 
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use kinetostat_program::{ExpandOptions, Subprograms, expand};
+use kinetostat_program::{Dialect, ExpandOptions, OtherAxes, Subprograms, Units, expand};
+use nalgebra::Vector3;
 
 /// Files of subprograms in some folders.
 struct Folders(Vec<PathBuf>);
@@ -28,7 +30,7 @@ const USAGE: &str =
 fn main() -> Result<(), Box<dyn Error>> {
     let mut options = ExpandOptions::default();
     let mut into = None;
-    let mut names = Vec::new();
+    let (mut names, mut folders) = (Vec::new(), Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
@@ -38,6 +40,29 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let diameters = &mut options.tool_diameters_mm;
                 diameters.insert(tool.parse()?, diameter.parse()?);
             }
+            "--parameter" => {
+                let value = arguments.next().ok_or(USAGE)?;
+                let (number, value) = value.split_once('=').ok_or(USAGE)?;
+                let parameters = &mut options.parameters;
+                parameters.insert(number.parse()?, value.parse()?);
+            }
+            // As LinuxCNC's module begins where the comparison says nothing else.
+            "--as-linuxcnc" => {
+                options.reading.units = Some(Units::Millimetres);
+                options.reading.start_position_mm = Some(Vector3::zeros());
+                options.reading.machine_zero_mm = Some(Vector3::zeros());
+                options.reading.reference_points_mm = [Some(Vector3::zeros()); 2];
+                options.reading.work_offsets_mm = [Some(Vector3::zeros()); 9];
+                options.reading.other_axes = OtherAxes::StandStill;
+            }
+            "--dialect" => {
+                options.dialect = match arguments.next().ok_or(USAGE)?.as_str() {
+                    "linuxcnc" => Dialect::LinuxCnc,
+                    "fanuc" => Dialect::Fanuc,
+                    _ => return Err(USAGE.into()),
+                }
+            }
+            "--folder" => folders.push(PathBuf::from(arguments.next().ok_or(USAGE)?)),
             "--into" => into = Some(PathBuf::from(arguments.next().ok_or(USAGE)?)),
             _ => names.push(PathBuf::from(argument)),
         }
@@ -45,11 +70,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut out = std::io::stdout().lock();
     let Some(into) = into else {
         let program = names.first().ok_or(USAGE)?;
-        out.write_all(&flat(program, &names[1..], &options)?)?;
+        folders.extend_from_slice(&names[1..]);
+        out.write_all(&flat(program, &folders, &options)?)?;
         return Ok(());
     };
     for program in &names {
-        match flat(program, &[], &options) {
+        match flat(program, &folders, &options) {
             Ok(bytes) => {
                 std::fs::write(into.join(program.file_name().ok_or(USAGE)?), bytes)?;
                 writeln!(out, "{}\t", program.display())?;

@@ -130,6 +130,16 @@ pub enum WriteError {
         /// Why, and what to do.
         reason: String,
     },
+    /// A motion of a robot's program cannot be written with its correction.
+    #[error("line {line}: {reason}; {remedy}")]
+    Motion {
+        /// Line of the input program, counted from 1.
+        line: usize,
+        /// Why.
+        reason: String,
+        /// What the user can do about it.
+        remedy: String,
+    },
     /// The correction varies so fast that the output would have no bound.
     #[error(
         "line {line}: more than {limit} pieces are needed to follow the correction; the field is \

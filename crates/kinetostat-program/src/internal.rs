@@ -7,7 +7,7 @@ use crate::text::lex::{Token, tokens_of};
 
 pub use crate::number::{at_most, feed, fixed};
 pub use crate::writing::departure::{Values, departure, parabola, polynomial, remainder};
-pub use crate::writing::emit::least_percent;
+pub use crate::writing::piece_account::least_percent;
 
 /// The bytes of a token, and letter and number where it is a word.
 pub type Stretch = (Range<usize>, Option<(char, f64)>);

@@ -48,6 +48,7 @@ mod field;
 #[doc(hidden)]
 pub mod internal;
 mod irregular;
+mod machine_program;
 mod number;
 mod path;
 mod reading;
@@ -60,14 +61,16 @@ pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
 pub use expanding::expand::expand;
 pub use expanding::expanded::{Expanded, Origin};
-pub use expanding::options::{ExpandOptions, OriginComments};
+pub use expanding::options::{Dialect, ExpandOptions, OriginComments};
 pub use expanding::run::source::{NoSubprograms, Subprograms};
+pub use field::correction::Correction;
 pub use field::map::CorrectionMap;
 pub use field::request::{
     CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,
     Unwatched,
 };
 pub use irregular::irregular;
+pub use machine_program::{Gcode, MachineProgram};
 pub use path::curve::{Arc, Curve};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
@@ -75,6 +78,7 @@ pub use path::moves::{
 pub use path::pause::{Pause, PauseKind};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
+pub use path::tool_turn::ToolTurn;
 pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;
 pub use reading::interpret::interpret;
@@ -84,5 +88,6 @@ pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::Accounting;
 pub use writing::jump::Turn;
 pub use writing::options::WriteOptions;
+pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenMove};
 pub use writing::write::write_corrected;
 pub use writing::written::{Corrected, Piece};

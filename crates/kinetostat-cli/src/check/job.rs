@@ -6,10 +6,10 @@ use std::path::Path;
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{
-    LoadAlongPath, Placement, Task, Unwatched, Warning, load_description, refused_question,
-    unusual_question,
+    FlatProgram, LoadAlongPath, Placement, Task, Unwatched, Warning, load_description,
+    refused_question, unusual_question,
 };
-use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
+use kinetostat_program::{Knowledge, Move, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -24,6 +24,7 @@ use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
+use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::solve::{computed, forces_of, with_task};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
@@ -55,6 +56,9 @@ struct JobFindings {
 #[derive(Serialize)]
 struct ProgramFinding {
     name: String,
+    /// Where its lines are, of a program that was run once and written flat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flat: Option<FlatProgram>,
     lines: usize,
     blocks: usize,
     feed_moves: usize,
@@ -96,7 +100,8 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
         with_all_others(&files, &query, failure)
     })?;
     let text = answer_text(&found);
-    json::print_answer(&text, &found, json)?;
+    let flat = found.program.flat.as_ref();
+    json::print_answer(&text, &WithSources(&found, flat), json)?;
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
         n => Err(Failure::unanswered(format!(
@@ -109,27 +114,31 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
-    let (machine, model) = machine_setup(files, Some(&job), None, flags, &mut setting.inputs)?;
-    let (program, motion) = program::read_program(&setting)?;
+    let frames = setting.robot_frames()?;
+    let inputs = &mut setting.inputs;
+    let (machine, model) =
+        machine_setup(files, Some(&job), None, flags, (frames.as_ref(), inputs))?;
+    let read = program::read_program(&setting)?;
+    let motion = read.path();
     let mut warnings = run_warnings::of_run(&model, Some(&job));
-    warnings.extend(kinetostat_machining::of_program(&motion, None));
+    warnings.extend(kinetostat_machining::of_program(motion, None));
     warnings.extend(kinetostat_machining::origin_in_metres(
         &machine.mechanism,
         &machine.placement,
-        &motion,
+        motion,
     ));
-    let read = (&program, &motion);
     let check = |task: &Task<'_>| (refused_question(task), unusual_question(task));
-    let forces = forces_of(&machine, &setting.program_name, &motion, &Unwatched)?;
+    let forces = forces_of(&machine, &setting, motion, &Unwatched)?;
     let forces = forces.as_ref();
-    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, read, forces, check)?;
+    let (refused, unusual) = with_task(Aim::Compensate, &machine, &setting, &read, forces, check)?;
     warnings.extend(along::warnings(forces));
+    warnings.extend(setting.of_expansion());
     let is_refused = !refused.is_empty() || along::breaks_the_tool(forces).is_some();
     warnings.extend(refused);
     warnings.extend(unusual);
     outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
-    let corners = extent(&motion);
+    let corners = extent(motion);
     let q = &machine.run_inputs;
     Ok(JobFindings {
         schema: 1,
@@ -142,35 +151,36 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         placement: q.placement.clone(),
         load: load_description(
             &machine.mechanism,
-            &LoadAlongPath::new(computed(machine.load, forces), &motion),
+            &LoadAlongPath::new(computed(machine.load, forces), motion),
         ),
         program: ProgramFinding {
             name: setting.program_name.clone(),
-            lines: program.line_count(),
-            blocks: program.block_count(),
+            flat: setting.flat.clone(),
+            lines: read.line_count(),
+            blocks: read.with(|program| program.statement_count()),
             feed_moves: feed(MoveKind::Feed).count(),
             rapid_moves: feed(MoveKind::Rapid).count(),
             feed_length_mm: feed(MoveKind::Feed)
                 .filter(|m| m.is_known_feed())
-                .map(kinetostat_program::Move::length_mm)
+                .map(Move::length_mm)
                 .sum(),
             smallest_mm: corners.map(|(low, _)| low.into()),
             largest_mm: corners.map(|(_, high)| high.into()),
         },
-        ends: ends(&machine.mechanism, &machine.placement, &motion),
+        ends: ends(&machine.mechanism, &machine.placement, motion),
         outputs: outputs(&setting.targets),
-        warnings,
+        warnings: of_warnings(warnings, setting.flat.as_ref()),
         refused: is_refused,
     })
 }
 
 /// All points where a move ends, mm, with their lines.
-fn points(motion: &ToolPath) -> impl Iterator<Item = (usize, Vector3<f64>)> + '_ {
+fn points(motion: &ToolPath) -> impl Iterator<Item = (&Move, Vector3<f64>)> + '_ {
     motion
         .moves
         .iter()
         .filter(|m| m.known != Knowledge::Nothing)
-        .map(|m| (m.line, m.end))
+        .map(|m| (m, m.end))
 }
 
 fn extent(motion: &ToolPath) -> Option<(Vector3<f64>, Vector3<f64>)> {
@@ -184,21 +194,22 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
     let mut found = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let by =
-            |a: &(usize, Vector3<f64>), b: &(usize, Vector3<f64>)| a.1[axis].total_cmp(&b.1[axis]);
+            |a: &(&Move, Vector3<f64>), b: &(&Move, Vector3<f64>)| a.1[axis].total_cmp(&b.1[axis]);
         let ends = [
             ("smallest", points(motion).min_by(by)),
             ("largest", points(motion).max_by(by)),
         ];
         for (word, end) in ends {
-            let Some((line, position)) = end else {
+            let Some((motion, position)) = end else {
                 continue;
             };
             // As a compensation commands it: within the limits of the actuators, too.
-            let posture = mechanism.posture(&placement.tool_pose(&position));
+            let posture = mechanism
+                .posture(&placement.pose(&position, placement.orientation_on(motion, 1.0)));
             let posture = posture.and_then(|posture| posture.within_limits());
             found.push(EndFinding {
                 end: format!("{word} {name}"),
-                line,
+                line: motion.line,
                 position_mm: position.into(),
                 reached: posture.is_ok(),
                 problem: posture.err().map(|error| Failure::from(error).plain),
@@ -294,6 +305,7 @@ fn answer_text(f: &JobFindings) -> String {
         .collect();
     out.push_str(&format!("\nOutputs\n{}", listed(&rows, 2)));
     out.push_str(&warnings::warnings(&f.warnings));
+    out.push_str(&listed_under(&out, f.program.flat.as_ref()));
     out.push_str("\nNext\n");
     let mut mended = Vec::new();
     if !missed.is_empty() {

@@ -12,6 +12,7 @@ use crate::compensate::arguments::CompensateArgs;
 use crate::curve::arguments::CurveArgs;
 use crate::deflect::arguments::DeflectArgs;
 use crate::demo::arguments::DemoArgs;
+use crate::dialect::arguments::DialectArgs;
 use crate::engagement::arguments::EngagementArgs;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::expand::arguments::ExpandArgs;
@@ -76,6 +77,7 @@ pub(crate) enum Command {
     Force(Box<ForceArgs>),
     Engagement(Box<EngagementArgs>),
     Expand(Box<ExpandArgs>),
+    Dialect(DialectArgs),
     Check(CheckArgs),
     Import(Box<ImportArgs>),
     Reproduce(ReproduceArgs),

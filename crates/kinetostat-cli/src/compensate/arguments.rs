@@ -25,7 +25,7 @@ pub(crate) struct CompensateArgs {
     /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "load_at_corners", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "points"])]
     pub(crate) map: Option<PathBuf>,
-    /// Write the program as it was read, byte for byte
+    /// Write the program as it was read, byte for byte; with --expand its flat form
     #[arg(long, conflicts_with_all = ["map", "json", "report", "points", "again"])]
     pub(crate) no_compensation: bool,
     /// Compensate a program that is marked as compensated once more
@@ -112,6 +112,10 @@ A job file:
   # machine_zero_mm = [0, 0, 300], g28_mm = [0, 0, 0], g30_mm = [0, 0, 0]
   # work_offset_mm = { G54 = [0, 0, 0] }
 
+  # [expand]                       # a program with macros, run once
+  # subprograms = ["macros"], comments = true
+  # tool_diameters_mm = { 1 = 6.5 }, parameters = { 100 = 2.5 }
+
   [tolerances]
   path_um = 0.5
   chord_um = 0.4
@@ -123,6 +127,7 @@ A job file:
   report = "report.html"
   json = "result.json"
   points = "points.csv"
+  # flat_program = "flat.ngc"      # of an expanded program
   # header = true
 
   [limits]                         # a program that leaves them is refused

@@ -6,19 +6,19 @@ use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning, WarningCode,
+    FlatProgram, RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning, WarningCode,
     correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
     unchanged_text, wide_table,
 };
-use kinetostat_program::{
-    Accounting, CorrectionMap, Path as ToolPath, WriteOptions, verify_written,
-};
+use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
+use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::program;
 use crate::job::setting::Setting;
+use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
 use crate::program::report;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
@@ -33,6 +33,9 @@ struct MapResult<'a> {
     program: &'a str,
     map: String,
     accounting: &'a Accounting,
+    /// The flat program, where the program was run once and written flat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flat: Option<&'a FlatProgram>,
     /// No correction could be written: the program came back byte for byte.
     unchanged: bool,
     /// It came back so because it keeps the tolerance as it is.
@@ -69,7 +72,8 @@ pub(crate) fn from_map(
         ));
     }
     let field = read_table(files, map)?;
-    let (program, path) = program::read_program(setting)?;
+    let read = program::read_program(setting)?;
+    let path = read.path();
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());
     let mut outputs = Outputs::new(existing, inputs);
@@ -79,9 +83,10 @@ pub(crate) fn from_map(
             .map(|path| outputs.claim(what, path))
             .transpose()
     };
-    let (out, json_out) = (
+    let (out, json_out, flat_out) = (
         claim("corrected program", &t.program)?,
         claim("result", &t.json)?,
+        claim(FLAT_PROGRAM, &t.flat)?,
     );
     let mut writing = setting.writing.clone();
     let name = map
@@ -93,33 +98,37 @@ pub(crate) fn from_map(
             format!("corrections from the table {name}"),
         ];
     }
-    let refuse = |error| {
-        Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
-    };
+    let refuse = |error| setting.within(Failure::from(RunError::Write(error)));
     let progress = Progress::new();
-    let made = correct_by_table(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let made = read
+        .with(|program| correct_by_table(program, &field, &writing, &progress))
+        .map_err(refuse)?;
     let (written, against) = (&made.written, &made.against);
     let a = &written.accounting;
     let beyond = of_accounting(&setting.limits, a);
     if !beyond.is_empty() {
-        return Err(Failure::from(RunError::BeyondLimits(beyond)).within(&setting.program_name));
+        return Err(setting.within(Failure::from(RunError::BeyondLimits(beyond))));
     }
-    let check =
-        verify_written(&program, &path, written, &setting.reading, &writing).map_err(refuse)?;
+    let check = read
+        .with(|program| program.verify(written, &writing))
+        .map_err(refuse)?;
     progress.finish();
-    let unchanged = written.bytes == program.bytes();
+    let unchanged = read.with(|program| written.bytes == program.bytes());
     let farthest = match unchanged {
         true => &against.before,
         false => &against.after,
     };
     let tolerance = of_table(farthest, against.allowed_mm, a);
-    let warnings = warnings_of(setting, &path, &field, &made, &tolerance, &writing);
+    let flat = setting.flat.as_ref();
+    let warnings = warnings_of(setting, path, &field, &made, &tolerance, &writing);
+    let warnings = of_warnings(warnings, flat);
     let result = MapResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         program: &setting.program_name,
         map: name,
         accounting: a,
+        flat,
         unchanged,
         within_tolerance_before: made.keeps_as_it_is,
         tolerance,
@@ -132,7 +141,10 @@ pub(crate) fn from_map(
         warnings,
     };
     if let Some(index) = json_out {
-        outputs.fill(index, json::json(&result)?.as_bytes())?;
+        outputs.fill(index, json::json(&WithSources(&result, flat))?.as_bytes())?;
+    }
+    if let Some(index) = flat_out {
+        outputs.fill(index, &setting.program)?;
     }
     if let Some(index) = out {
         outputs.fill(index, &written.bytes)?;
@@ -140,9 +152,10 @@ pub(crate) fn from_map(
     let paths = outputs.commit()?;
     let mut text = words(&result);
     text.push_str(&warnings::warnings(&result.warnings));
+    text.push_str(&listed_under(&text, flat));
     text.push_str(&outputs::written(&paths));
-    json::print_answer(&text, &result, to_screen)?;
-    report::refuse_missed_tolerance(&result.tolerance, result.program)
+    json::print_answer(&text, &WithSources(&result, flat), to_screen)?;
+    report::refuse_missed_tolerance(&result.tolerance, setting)
 }
 
 /// The table of corrections; of a faulty one all faults.

@@ -67,12 +67,13 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
+    let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         files,
         job.as_ref(),
         args.run.model.as_deref(),
         &args.run.program,
-        &mut setting.inputs,
+        (frames.as_ref(), &mut setting.inputs),
     )?;
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
@@ -89,7 +90,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.run.program.all_points, &model);
-    outputs.fill(&run)?;
+    outputs.fill(&run, &setting)?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let text = format!(
@@ -98,7 +99,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         outputs::written(&paths)
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.run_inputs.program)
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)
 }
 
 fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
@@ -130,15 +131,19 @@ fn job_after_json(args: &mut CompensateArgs) {
 
 /// The program as it was read.
 fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
-    let refuse = |error| Failure::input(error).within(&setting.program_name);
+    let refuse = |error| setting.within(Failure::input(error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
     let mut outputs = Outputs::new(existing, setting.inputs.clone());
     let mut text = wrapped(
         &format!(
-            "{}: {} in {}, written as read, byte for byte.",
+            "{}: {} in {}, {}.",
             setting.program_name,
             counted(program.block_count(), "block"),
-            counted(program.line_count(), "line")
+            counted(program.line_count(), "line"),
+            match setting.flat {
+                Some(_) => "run once and written flat, without a correction",
+                None => "written as read, byte for byte",
+            }
         ),
         0,
     );

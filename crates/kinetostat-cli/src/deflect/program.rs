@@ -27,18 +27,20 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         ..WritingFlags::default()
     };
     let mut setting = setting(&files, job.as_ref(), &args.program, &flags)?;
+    setting.write_flat_to(args.program.expansion.flat_program.clone());
     let mut chosen = setting.targets.clone();
     // The job's outputs are those of the compensation: an analysis writes what is named here.
     chosen.report.clone_from(&args.program.report);
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
+    let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,
         job.as_ref(),
         named,
         &args.program,
-        &mut setting.inputs,
+        (frames.as_ref(), &mut setting.inputs),
     )?;
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
@@ -48,7 +50,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.program.all_points, &model);
-    outputs.fill(&run)?;
+    outputs.fill(&run, &setting)?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let text = format!(

@@ -135,7 +135,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     let job = JobFile::read(&files, &at("job.toml"))?;
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let mut inputs = Vec::new();
-    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, &mut inputs)?;
+    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, (None, &mut inputs))?;
     // The demo's own inputs are written together with its results.
     setting.inputs.clear();
     let existing = if args.force_overwrite {
@@ -152,7 +152,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);
-    outputs.fill(&run)?;
+    outputs.fill(&run, &setting)?;
     outputs.files.commit()?;
     let mut text = wrapped(
         "An Orthoglide mills a circular groove, radius 25 mm. Its links bend under the milling force (215 N to the right of the feed, -10 N along it, -25 N along z), and each of its legs was assembled one degree askew.",
@@ -162,7 +162,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     report::print_run(&text, args.json.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.run_inputs.program)
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)
 }
 
 fn next(out: &Path) -> String {

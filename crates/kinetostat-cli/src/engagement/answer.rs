@@ -1,6 +1,6 @@
 //! The answer of `engagement`, stable names with units.
 
-use kinetostat_machining::{CuttingResult, FileRead, Warning};
+use kinetostat_machining::{CuttingResult, FileRead, FlatProgram, Warning};
 use serde::Serialize;
 
 /// What a program cuts.
@@ -9,6 +9,9 @@ pub(crate) struct EngagementAnswer {
     pub(crate) schema: u32,
     pub(crate) kinetostat_version: &'static str,
     pub(crate) program: String,
+    /// Where its lines are, of a program that was run once and written flat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) flat: Option<FlatProgram>,
     pub(crate) material: String,
     pub(crate) files: Vec<FileRead>,
     pub(crate) tools: Vec<ToolAnswer>,

@@ -10,6 +10,7 @@ use crate::engagement::answer::{EngagementAnswer, StockAnswer, ToolAnswer};
 use crate::job::cut::CutSetup;
 use crate::job::cut::along::warnings;
 use crate::job::setting::Setting;
+use crate::program::flat_lines::of_warnings;
 
 pub(crate) fn answer_of(
     setting: &Setting,
@@ -17,7 +18,7 @@ pub(crate) fn answer_of(
     (path, forces): (&Path, &ForceAlongPath),
     left: Option<&Stock>,
 ) -> EngagementAnswer {
-    let mut files = vec![setting.program_file.clone()];
+    let mut files = setting.program_files.clone();
     files.extend(setting.job_file.clone());
     files.extend(cut.files.read.iter().cloned());
     let cuts = path.moves.iter();
@@ -38,6 +39,7 @@ pub(crate) fn answer_of(
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         program: setting.program_name.clone(),
+        flat: setting.flat.clone(),
         material: cut.material.clone(),
         files,
         tools: cut.question.tools.iter().map(tool).collect(),
@@ -45,7 +47,7 @@ pub(crate) fn answer_of(
         stock: stock(&cut.question.engagement, left),
         cutting: cutting_result(forces, path),
         assumed,
-        warnings: warned,
+        warnings: of_warnings(warned, setting.flat.as_ref()),
     }
 }
 

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use crate::files::answer_files::AnswerFiles;
 use crate::force::arguments::{MaterialArgs, PartWord, SpindleArgs, ToolArgs};
 use crate::job::arguments::ReadingArgs;
+use crate::job::expansion::arguments::ExpandFlags;
 use crate::options::number;
 
 /// What a program cuts: engagement, force, torque and power along it
@@ -39,6 +40,8 @@ pub(crate) struct EngagementArgs {
     pub(crate) spindle: SpindleArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) expansion: ExpandFlags,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
 }

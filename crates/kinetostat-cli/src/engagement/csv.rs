@@ -1,8 +1,9 @@
 //! Every station of the cut as a table.
 
-use kinetostat_machining::{CutPlace, ForceAlongPath, PointKind, cut_places};
+use kinetostat_machining::{CutPlace, FlatProgram, ForceAlongPath, PointKind, cut_places};
 use kinetostat_program::Path;
 
+use crate::program::flat_lines::{COLUMNS, cells};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::Answer;
 
@@ -28,10 +29,21 @@ const HEADER: [&str; 19] = [
     "rpm",
 ];
 
-pub(crate) fn of_cut(forces: &ForceAlongPath, path: &Path) -> Answer<Vec<u8>> {
-    let mut rows = vec![HEADER.map(String::from).to_vec()];
+/// A row for each; of a program that was written flat with the line that each line came from.
+pub(crate) fn of_cut(
+    forces: &ForceAlongPath,
+    path: &Path,
+    flat: Option<&FlatProgram>,
+) -> Answer<Vec<u8>> {
+    let mut header = HEADER.map(String::from).to_vec();
+    header.extend(flat.iter().flat_map(|_| COLUMNS.map(String::from)));
+    let mut rows = vec![header];
     let stations = cut_places(forces, path).filter(|place| place.kind != PointKind::Rapid);
-    rows.extend(stations.map(|place| row(&place)));
+    rows.extend(stations.map(|place| {
+        let mut row = row(&place);
+        row.extend(cells(place.line, flat).into_iter().flatten());
+        row
+    }));
     written(&rows)
 }
 

@@ -24,8 +24,10 @@ use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::cut::along::stopped_or_within;
 use crate::job::job_file::JobFile;
+use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::program::read_program;
 use crate::job::setting::setting;
+use crate::program::flat_lines::{WithSources, listed_under};
 use crate::ui::failure::Answer;
 use crate::ui::progress::Progress;
 
@@ -37,31 +39,40 @@ pub(crate) fn run(args: &EngagementArgs) -> Answer<()> {
     let flags = ProgramArgs {
         program: subject.program,
         reading: args.reading.clone(),
+        expansion: args.expansion.clone(),
         ..ProgramArgs::default()
     };
-    let setting = setting(&files, job.as_ref(), &flags, &WritingFlags::default())?;
+    let mut setting = setting(&files, job.as_ref(), &flags, &WritingFlags::default())?;
+    setting.write_flat_to(args.expansion.flat_program.clone());
     let cut = cut(&files, job.as_ref(), args, &flags)?;
-    let (_, path) = read_program(&setting)?;
+    let read = read_program(&setting)?;
+    let path = read.path();
     let mut inputs = setting.inputs.clone();
     inputs.extend(cut.files.paths.iter().cloned());
-    let claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    let mut claimed = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    if let Some(target) = &setting.targets.flat {
+        let index = claimed.claim_also(FLAT_PROGRAM, target)?;
+        claimed.fill(index, &setting.program)?;
+    }
     let progress = Progress::new();
-    let walked = cut.question.along_and_left(&path, &progress);
-    let (forces, left) =
-        walked.map_err(|failure| stopped_or_within(failure, &setting.program_name))?;
+    let walked = cut.question.along_and_left(path, &progress);
+    let (forces, left) = walked.map_err(|failure| stopped_or_within(failure, &setting))?;
     progress.finish();
-    let answer = answer_of(&setting, &cut, (&path, &forces), left.as_ref());
+    let answer = answer_of(&setting, &cut, (path, &forces), left.as_ref());
+    let flat = setting.flat.as_ref();
+    let mut text = text::answer_text(&answer);
+    text.push_str(&listed_under(&text, flat));
     let shown = Shown {
-        text: text::answer_text(&answer),
+        text,
         csv: match args.outputs.csv.is_some() {
-            true => csv::of_cut(&forces, &path)?,
+            true => csv::of_cut(&forces, path, flat)?,
             false => Vec::new(),
         },
         svg: match args.outputs.plot.is_some() {
-            true => plot::drawing(&answer, &cut.question.engagement, left.as_ref(), &path),
+            true => plot::drawing(&answer, &cut.question.engagement, left.as_ref(), path),
             false => String::new(),
         },
         failure: None,
     };
-    claimed.finish(&shown, &answer)
+    claimed.finish(&shown, &WithSources(&answer, flat))
 }

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Args};
+use clap::Args;
 
 use crate::job::arguments::ReadingArgs;
+use crate::job::expansion::arguments::ExpansionArgs;
 
 /// A program with subprograms, variables and cycles as plain blocks
 ///
@@ -20,18 +21,8 @@ pub(crate) struct ExpandArgs {
     /// File for the flat program; without it, it is printed
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Folder of subprograms beside that of the program (repeat for more)
-    #[arg(long, value_name = "FOLDER", action = ArgAction::Append)]
-    pub(crate) subprograms: Vec<PathBuf>,
-    /// Diameter of a tool for G41 and G42, mm, as in 3=6.5 (repeat for more)
-    #[arg(long, value_name = "TOOL=MM", action = ArgAction::Append)]
-    pub(crate) tool_diameter_mm: Vec<String>,
-    /// Value of a numbered parameter before the program, as in 100=2.5 (repeat for more)
-    #[arg(long, value_name = "NUMBER=VALUE", action = ArgAction::Append)]
-    pub(crate) parameter: Vec<String>,
-    /// Leave out the comments that say the line of each block
-    #[arg(long)]
-    pub(crate) no_comments: bool,
+    #[command(flatten)]
+    pub(crate) with: ExpansionArgs,
     /// Overwrite the output if it exists (never the input)
     #[arg(long)]
     pub(crate) force_overwrite: bool,
@@ -43,7 +34,8 @@ const HELP: &str = "\
 Examples:
   kinetostat expand part.ngc --out flat.ngc
   kinetostat expand part.ngc --subprograms macros --tool-diameter-mm 1=6
-  kinetostat compensate job.toml --program flat.ngc
+  kinetostat compensate job.toml --program part.ngc --expand
+      the same on the way to another command
 
 Exit codes:
   0    answered

@@ -3,19 +3,16 @@
 //! It takes a program, folders of subprograms and diameters of tools; it gives plain blocks with the lines that they came from.
 
 pub(crate) mod arguments;
-mod folders;
-mod values;
 
 use std::io::Write;
 
 use kinetostat_machining::number::counted;
-use kinetostat_program::{ExpandOptions, Expanded, OriginComments, Subprograms, expand};
 
 use crate::expand::arguments::ExpandArgs;
-use crate::expand::folders::Folders;
-use crate::expand::values::numbered;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{Existing, Outputs};
+use crate::job::expansion::flat::{Flattened, flattened};
+use crate::job::expansion::settings::settings;
 use crate::job::reading::reading;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
@@ -23,32 +20,22 @@ use crate::ui::layout::{item, wrapped};
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
     let name = args.program.display().to_string();
-    let mut options = ExpandOptions::default();
-    options.reading = reading(None, &args.reading)?;
-    options.tool_diameters_mm = numbered("--tool-diameter-mm", &args.tool_diameter_mm)?;
-    options.parameters = numbered("--parameter", &args.parameter)?;
-    options.origin_comments = match args.no_comments {
-        true => OriginComments::Left,
-        false => OriginComments::Written,
-    };
-    let folders = Folders::new(&args.program, &args.subprograms);
+    let settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
+    let done = flattened(bytes, (&args.program, &name), &settings)?;
+    let mut inputs = vec![args.program.clone()];
+    inputs.extend(done.paths.iter().cloned());
     let claimed = args.out.as_deref().map(|out| {
-        let mut outputs = Outputs::new(
-            Existing::forced(args.force_overwrite),
-            vec![args.program.clone()],
-        );
+        let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
         let index = outputs.claim("flat program", out)?;
         Answer::Ok((outputs, index))
     });
     let claimed: Option<(Outputs, usize)> = claimed.transpose()?;
-    let expanded = expand(bytes, &options, &folders as &dyn Subprograms)
-        .map_err(|error| Failure::input(error).within(&name))?;
-    let flat = expanded.program.bytes();
+    let flat = done.expanded.program.bytes();
     match claimed {
         Some((mut outputs, index)) => {
             outputs.fill(index, flat)?;
             let written = outputs.commit()?;
-            let mut text = summary(&name, &expanded);
+            let mut text = summary(&name, &done);
             text.push_str("\nWritten\n");
             for path in written {
                 let path = path.display().to_string();
@@ -60,7 +47,8 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     }
 }
 
-fn summary(name: &str, expanded: &Expanded) -> String {
+fn summary(name: &str, done: &Flattened) -> String {
+    let expanded = &done.expanded;
     let moves = expanded.path.moves.len();
     let files = match expanded.files.len() {
         0 | 1 => String::new(),
@@ -73,16 +61,14 @@ fn summary(name: &str, expanded: &Expanded) -> String {
     let mut text = wrapped(
         &format!(
             "{name}: {} that are run, {}{files}. Each says the line that it came from.",
-            counted(expanded.program.block_count(), "block"),
+            counted(done.flat.blocks, "block"),
             counted(moves, "move"),
         ),
         0,
     );
-    for warning in &expanded.path.warnings {
-        text.push_str(&item(&format!(
-            "line {} of the flat program: {}",
-            warning.line, warning.text
-        )));
+    for warning in expanded.path.warnings.iter().chain(&expanded.warnings) {
+        let found = format!("line {}: {}", warning.line, warning.text);
+        text.push_str(&item(&done.flat.with_sources(&found)));
     }
     text
 }

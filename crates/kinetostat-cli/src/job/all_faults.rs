@@ -79,7 +79,14 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
         &|job| setting(files, Some(job), query.program, &query.writing).map(drop),
         &|job| {
             let mut inputs = Vec::new();
-            machine_setup(files, Some(job), query.model, query.program, &mut inputs).map(drop)
+            machine_setup(
+                files,
+                Some(job),
+                query.model,
+                query.program,
+                (None, &mut inputs),
+            )
+            .map(drop)
         },
         &|job| {
             // Without a model that can be read: tool, placement and load all the same.
@@ -91,7 +98,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 Some(&job),
                 Some("orthoglide"),
                 query.program,
-                &mut inputs,
+                (None, &mut inputs),
             )
             .map(drop)
         },

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Args};
 
+use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
+use crate::job::robot_arguments::RobotArgs;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
 
@@ -27,7 +29,7 @@ pub(crate) struct RunArgs {
 /// Options of a run along a program, shared by `compensate` and `deflect`.
 #[derive(Debug, Default, Args)]
 pub(crate) struct ProgramArgs {
-    /// G-code program
+    /// Program: G-code, or of a robot (RAPID .mod .prg)
     #[arg(long, short, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Distance of the tool's tip along z of the flange, mm
@@ -68,6 +70,10 @@ pub(crate) struct ProgramArgs {
     pub(crate) below_z_mm: Option<f64>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    #[command(flatten)]
+    pub(crate) expansion: ExpandFlags,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a
     /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]

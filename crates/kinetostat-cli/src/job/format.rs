@@ -11,6 +11,8 @@ use serde_spanned::Spanned;
 use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
+use crate::job::expand_table::ExpandTable;
+use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
@@ -53,6 +55,10 @@ pub(crate) struct Job {
     pub measured: Option<Spanned<MeasuredTable>>,
     #[serde(default)]
     pub reading: ReadingTable,
+    /// What a program of a robot does not say itself.
+    pub robot: Option<Spanned<RobotTable>>,
+    /// The program is run once and written flat.
+    pub expand: Option<Spanned<ExpandTable>>,
     #[serde(default)]
     pub tolerances: TolerancesTable,
     #[serde(default)]
@@ -222,6 +228,8 @@ pub(crate) struct OutputTable {
     pub report: Option<Spanned<String>>,
     pub json: Option<Spanned<String>>,
     pub points: Option<Spanned<String>>,
+    /// The flat program, where the program is expanded.
+    pub flat_program: Option<Spanned<String>>,
     pub header: Option<bool>,
 }
 

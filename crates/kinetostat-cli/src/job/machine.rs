@@ -15,6 +15,8 @@ use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_s
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
+use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::machine::{placement_of_robot, tool_of_robot};
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
@@ -48,7 +50,7 @@ pub(crate) fn machine_setup(
     job: Option<&JobFile>,
     flag_model: Option<&str>,
     flags: &ProgramArgs,
-    inputs: &mut Vec<PathBuf>,
+    (frames, inputs): (Option<&RobotFrames>, &mut Vec<PathBuf>),
 ) -> Answer<(MachineSetup, Model)> {
     let table = job.and_then(|j| j.job.model.as_ref());
     let (named, base) = match (flag_model, table) {
@@ -79,9 +81,15 @@ pub(crate) fn machine_setup(
     };
     let model = with_deviations(model, job)?;
     let fingerprint = fingerprint(&model);
-    let (tool, mut tool_words) = tool(job, flags)?;
+    let (mut tool, mut tool_words) = tool(job, flags)?;
+    if let Some(frames) = frames {
+        (tool, tool_words) = tool_of_robot(frames, job, flags, (tool, tool_words))?;
+    }
     let mechanism = model.mechanism.with_tool(&tool);
-    let placement = placement(job, flags, &mechanism)?;
+    let mut placement = placement(job, flags, &mechanism)?;
+    if let Some(frames) = frames {
+        placement = placement_of_robot(frames, job, flags, placement)?;
+    }
     let load = load(job, job.map(|j| &j.job.load), flags)?;
     let measured = measured_setup(files, job, flags, &placement)?;
     let cut = cut_setup(files, job, flags, &placement)?;
@@ -94,7 +102,8 @@ pub(crate) fn machine_setup(
     let mut given = vec![ToolGiven {
         number: None,
         pose: tool,
-        stated: flags.tool_length_mm.is_some()
+        stated: frames.is_some_and(|frames| frames.tool.is_some())
+            || flags.tool_length_mm.is_some()
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
     let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;

@@ -10,6 +10,16 @@ use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;
 
+/// What the flat program is called among outputs.
+pub(crate) const FLAT_PROGRAM: &str = "flat program";
+
+/// Whether a program is written flat on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    AsItStands,
+    Flat,
+}
+
 /// Outputs of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OutputPaths {
@@ -17,6 +27,8 @@ pub(crate) struct OutputPaths {
     pub(crate) report: Option<PathBuf>,
     pub(crate) json: Option<PathBuf>,
     pub(crate) points: Option<PathBuf>,
+    /// Of a program that is written flat.
+    pub(crate) flat: Option<PathBuf>,
 }
 
 impl OutputPaths {
@@ -27,6 +39,7 @@ impl OutputPaths {
             ("report", &self.report),
             ("result", &self.json),
             ("table of points", &self.points),
+            (FLAT_PROGRAM, &self.flat),
         ]
         .into_iter()
         .filter_map(|(what, path)| Some((what, path.as_deref()?)))
@@ -37,7 +50,7 @@ pub(crate) fn output_paths(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     writing: &WritingFlags<'_>,
-    program: &Path,
+    (program, form): (&Path, Form),
 ) -> Answer<OutputPaths> {
     let from_job = |flag: Option<&Path>, pick: fn(&Job) -> Option<&Spanned<String>>| {
         if let Some(path) = flag {
@@ -73,18 +86,26 @@ pub(crate) fn output_paths(
             j.output.json.as_ref()
         })?,
         points: from_job(flags.points.as_deref(), |j| j.output.points.as_ref())?,
+        flat: from_job(flags.expansion.flat_program.as_deref(), |j| {
+            j.output.flat_program.as_ref()
+        })?,
     };
-    if targets.program.is_none() {
-        targets.program = Some(beside(job.map_or(program, |j| &j.path), program));
+    let out = targets.program.take().unwrap_or_else(|| {
+        let near = job.map_or(program, |j| &j.path);
+        beside(near, program, "-compensated")
+    });
+    if form == Form::Flat && targets.flat.is_none() {
+        targets.flat = Some(beside(&out, program, "-flat"));
     }
+    targets.program = Some(out);
     Ok(targets)
 }
 
 /// `part.ngc` becomes `part-compensated.ngc` in the directory of `near`.
-fn beside(near: &Path, program: &Path) -> PathBuf {
+fn beside(near: &Path, program: &Path, ending: &str) -> PathBuf {
     // A disk has names that are no text: they stay what they are.
     let mut name = program.file_stem().unwrap_or_default().to_owned();
-    name.push("-compensated");
+    name.push(ending);
     if let Some(extension) = program.extension() {
         name.push(".");
         name.push(extension);

@@ -1,20 +1,88 @@
 //! The program of a run, read and interpreted.
 
-use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
+use kinetostat::Directions;
+use kinetostat_program::{Gcode, MachineProgram, Path as ToolPath, Program, faults, interpret};
 
+use crate::job::expansion::advice::advice;
+use crate::job::robot::read_program::{RobotRead, read_robot};
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 
+/// A program that was read, with its path.
+pub(crate) enum ReadProgram<'s> {
+    Gcode(Box<GcodeRead<'s>>),
+    Robot(Box<RobotRead<'s>>),
+}
+
+/// A program in G-code with its path, and how it was read.
+pub(crate) struct GcodeRead<'s> {
+    program: Program,
+    path: ToolPath,
+    setting: &'s Setting,
+}
+
+impl ReadProgram<'_> {
+    /// Where the tool goes.
+    pub(crate) fn path(&self) -> &ToolPath {
+        match self {
+            Self::Gcode(read) => &read.path,
+            Self::Robot(read) => &read.path.path,
+        }
+    }
+
+    /// Lines of the program's file.
+    pub(crate) fn line_count(&self) -> usize {
+        match self {
+            Self::Gcode(read) => read.program.line_count(),
+            Self::Robot(read) => read.program.files[read.path.file].line_count(),
+        }
+    }
+
+    /// What of the tool's pose is corrected.
+    pub(crate) fn corrected(&self) -> Directions {
+        match self {
+            Self::Gcode(_) => Directions::POSITION,
+            Self::Robot(read) => read.corrected(),
+        }
+    }
+
+    /// What `work` makes of the program as a run takes it.
+    pub(crate) fn with<R>(&self, work: impl FnOnce(&dyn MachineProgram) -> R) -> R {
+        match self {
+            Self::Gcode(read) => work(&Gcode {
+                program: &read.program,
+                path: &read.path,
+                reading: &read.setting.reading,
+            }),
+            Self::Robot(read) => work(&read.correctable()),
+        }
+    }
+}
+
 /// Reads and interprets a program.
-pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
+pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
+    if let Some(source) = &setting.robot {
+        let read = read_robot(source).map_err(|failure| setting.within(failure))?;
+        return Ok(ReadProgram::Robot(Box::new(read)));
+    }
     let read = Program::read(setting.program.clone()).and_then(|program| {
         let path = interpret(&program, &setting.reading)?;
         Ok((program, path))
     });
-    read.map_err(|error| {
+    let (program, path) = read.map_err(|error| {
         let all = faults(setting.program.clone(), &setting.reading);
         let message = fault_list_text("lines", &error, &all, |fault| fault.reason.as_str());
-        Failure::input(message).within(&setting.program_name)
-    })
+        let (bytes, path) = (&setting.program, &setting.program_path);
+        let first = match setting.flat {
+            Some(_) => None,
+            None => advice(bytes, path, &setting.reading, &all),
+        };
+        setting.within(Failure::input(first.unwrap_or_default() + &message))
+    })?;
+    Ok(ReadProgram::Gcode(Box::new(GcodeRead {
+        program,
+        path,
+        setting,
+    })))
 }

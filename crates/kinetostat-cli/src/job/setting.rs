@@ -1,25 +1,39 @@
 //! Everything that decides a run, the machine apart: options go over the job file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{FileRead, Limits};
-use kinetostat_program::{ReadOptions, WriteOptions};
+use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
+use kinetostat_program::{ReadOptions, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::expansion::flat::flattened;
+use crate::job::expansion::settings::wanted;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
-use crate::job::output_paths::{OutputPaths, output_paths};
+use crate::job::output_paths::{Form, OutputPaths, output_paths};
 use crate::job::reading::reading;
+use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::read_program::read_robot;
+use crate::job::robot::source::{RobotSource, robot_source};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
 /// Everything that decides a run along a program, the model apart.
 pub(crate) struct Setting {
+    /// The program that is run: of an expanded one the flat form.
     pub(crate) program: Vec<u8>,
     pub(crate) program_name: String,
-    pub(crate) program_file: FileRead,
+    pub(crate) program_path: PathBuf,
+    /// A program of a robot; none in G-code.
+    pub(crate) robot: Option<RobotSource>,
+    /// Where the lines came from, of a program that was expanded.
+    pub(crate) flat: Option<FlatProgram>,
+    /// What was found while it was expanded, by lines of the flat program.
+    pub(crate) expansion_warnings: Vec<Warning>,
+    /// The program and its subprograms, as they were read.
+    pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
     pub(crate) reading: ReadOptions,
     pub(crate) writing: WriteOptions,
@@ -31,6 +45,42 @@ pub(crate) struct Setting {
     pub(crate) targets: OutputPaths,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
+}
+
+impl Setting {
+    /// A failure along the program: with its name, and of an expanded one with the lines that its lines came from.
+    pub(crate) fn within(&self, mut failure: Failure) -> Failure {
+        if let Some(flat) = &self.flat {
+            failure.plain = flat.with_sources(&failure.plain);
+        }
+        failure.within(&self.program_name)
+    }
+
+    /// Warnings of the expansion of the program.
+    pub(crate) fn of_expansion(&self) -> impl Iterator<Item = kinetostat_machining::Warning> + '_ {
+        let found = self.expansion_warnings.iter();
+        found.map(|w| {
+            kinetostat_machining::Warning::at_line(WarningCode::Program, w.line, w.text.clone())
+        })
+    }
+
+    /// Tool and work object of a robot's program.
+    pub(crate) fn robot_frames(&self) -> Answer<Option<RobotFrames>> {
+        let Some(source) = &self.robot else {
+            return Ok(None);
+        };
+        let read = read_robot(source).map_err(|failure| self.within(failure))?;
+        Ok(Some(RobotFrames::of(&read)))
+    }
+
+    /// Where the flat program goes, if it goes anywhere.
+    pub(crate) fn write_flat_to(&mut self, target: Option<PathBuf>) {
+        if let Some(flat) = &mut self.flat {
+            let name = target.as_deref().and_then(Path::file_name);
+            flat.name = name.map(|name| name.to_string_lossy().into_owned());
+        }
+        self.targets.flat = target;
+    }
 }
 
 /// Reads the program and everything said about it.
@@ -58,13 +108,49 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let targets = output_paths(job, flags, writing, &path)?;
+    let expand = wanted(job, &flags.expansion, &reading)?;
+    let form = match expand {
+        Some(_) => Form::Flat,
+        None => Form::AsItStands,
+    };
+    let targets = output_paths(job, flags, writing, (&path, form))?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
-    Ok(Setting {
-        program_file: origin::file("program", &path, &program),
+    let mut program_files = vec![origin::file("program", &path, &program)];
+    let named = (path.as_path(), program_name.as_str(), program.as_slice());
+    let robot = robot_source(files, job, &flags.robot, named)?;
+    let robot = robot.map(|(source, read)| {
+        program_files.extend(read);
+        inputs.extend(source.paths.iter().cloned());
+        source
+    });
+    if let (Some(_), Some(_)) = (&robot, &expand) {
+        return Err(Failure::input(
+            "--expand and [expand] are for G-code; a program of a robot is read as it stands, with its routines: leave them out",
+        ));
+    }
+    // Where faults of a job are looked for, what follows from one of them is none.
+    let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
+    let mut expansion_warnings = Vec::new();
+    let (program, flat) = match expand {
+        Some(expand) => {
+            let done = flattened(program, (&path, &program_name), &expand)?;
+            program_files.extend(done.read);
+            inputs.extend(done.paths);
+            expansion_warnings = done.expanded.warnings;
+            (done.expanded.program.bytes().to_vec(), Some(done.flat))
+        }
+        None => (program, None),
+    };
+    let target = targets.flat.clone();
+    let mut setting = Setting {
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
+        program_files,
+        flat,
+        expansion_warnings,
+        robot,
         program,
+        program_path: path,
         program_name,
         reading,
         writing: write,
@@ -73,7 +159,9 @@ pub(crate) fn setting(
         stated,
         targets,
         inputs,
-    })
+    };
+    setting.write_flat_to(target);
+    Ok(setting)
 }
 
 /// The program's file, of the command line or of the job.

@@ -4,6 +4,7 @@
 //! `deflect` and `demo` share.
 
 pub(crate) mod aim;
+pub(crate) mod flat_lines;
 pub(crate) mod outputs;
 mod points_table;
 pub(crate) mod report;

@@ -6,8 +6,10 @@ use kinetostat_machining::Run;
 use kinetostat_model::Model;
 
 use crate::files::outputs::{Existing, Outputs};
-use crate::job::output_paths::OutputPaths;
+use crate::job::output_paths::{FLAT_PROGRAM, OutputPaths};
+use crate::job::setting::Setting;
 use crate::program::aim::Aim;
+use crate::program::flat_lines::WithSources;
 use crate::program::points_table::{self, Listing};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::json;
@@ -20,6 +22,7 @@ pub(crate) struct RunOutputs {
     pub(crate) report: Option<usize>,
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
+    pub(crate) flat: Option<usize>,
     pub(crate) listing: Listing,
 }
 
@@ -47,6 +50,7 @@ impl RunOutputs {
             report: claim("report", &targets.report)?,
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
+            flat: claim(FLAT_PROGRAM, &targets.flat)?,
             listing: Listing::default(),
             files: outputs,
         })
@@ -70,12 +74,17 @@ impl RunOutputs {
     }
 
     /// Writes a run beside its targets; nothing is in place yet.
-    pub(crate) fn fill(&mut self, run: &Run) -> Answer<()> {
+    pub(crate) fn fill(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
+        if let Some(index) = self.flat {
+            self.files.fill(index, &setting.program)?;
+        }
         if let (Some(index), Some(written)) = (self.program, &run.written) {
             self.files.fill(index, &written.bytes)?;
         }
         if let Some(index) = self.json {
-            self.files.fill(index, json(&run.result)?.as_bytes())?;
+            let flat = setting.flat.as_ref();
+            let text = json(&WithSources(&run.result, flat))?;
+            self.files.fill(index, text.as_bytes())?;
         }
         if let Some(index) = self.points {
             let outputs = &mut self.files;

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
 use kinetostat_model::Controller;
 
+use crate::program::flat_lines;
 use crate::ui::csv_cell::{decimals, digits};
 use crate::ui::failure::{Answer, Failure};
 
@@ -107,6 +108,9 @@ fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> 
         ));
     }
     header.extend(["smallest_stiffness_n_per_mm", "share_to_buckling", "status"].map(String::from));
+    if run_inputs.flat.is_some() {
+        header.extend(flat_lines::COLUMNS.map(String::from));
+    }
     distinct(header)
 }
 
@@ -199,6 +203,8 @@ fn lines(
                 .map_or_else(String::new, |share| digits(rounded_away(share), 4)),
         );
         row.push(if point.stable { "ok" } else { "unstable" }.into());
+        let source = flat_lines::cells(point.line, run_inputs.flat.as_ref());
+        row.extend(source.into_iter().flatten());
         writer.write_record(&row).map_err(failed)?;
     }
     bytes(writer)

@@ -2,14 +2,19 @@
 
 use kinetostat_machining::{RunResult, ToleranceResult};
 
+use crate::job::setting::Setting;
+use crate::program::flat_lines::WithSources;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
-pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceResult, program: &str) -> Answer<()> {
+pub(crate) fn refuse_missed_tolerance(
+    tolerance: &ToleranceResult,
+    setting: &Setting,
+) -> Answer<()> {
     match tolerance.missed_text() {
-        Some(text) => Err(Failure::tolerance_missed(text).within(program)),
+        Some(text) => Err(setting.within(Failure::tolerance_missed(text))),
         None => Ok(()),
     }
 }
@@ -17,7 +22,10 @@ pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceResult, program: &str
 /// Where the text for people goes, and the JSON on the standard output if it is wanted there.
 pub(crate) fn print_run(text: &str, result: Option<&RunResult>) -> Answer<()> {
     match result {
-        Some(result) => print_answer(text, result, true),
+        Some(result) => {
+            let flat = result.run_inputs.flat.as_ref();
+            print_answer(text, &WithSources(result, flat), true)
+        }
         None => screen::print(Stream::Out, text),
     }
 }

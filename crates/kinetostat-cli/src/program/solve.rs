@@ -7,13 +7,14 @@ use kinetostat_machining::{
     Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
     origin_in_metres,
 };
-use kinetostat_program::{Path as ToolPath, Program};
+use kinetostat_program::{MachineProgram, Path as ToolPath};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
-use crate::job::program::read_program;
+use crate::job::program::{ReadProgram, read_program};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
+use crate::program::flat_lines::of_warnings;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
@@ -46,13 +47,18 @@ pub(crate) fn computed(load: ProgramLoad, forces: Option<&ForceAlongPath>) -> Pr
 /// The forces along the program of a job that has them measured, or computed from its cuts.
 pub(crate) fn forces_of(
     machine: &MachineSetup,
-    program: &str,
+    setting: &Setting,
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<Option<ForceAlongPath>> {
+    if setting.robot.is_some() && (machine.measured.is_some() || machine.cut.is_some()) {
+        return Err(Failure::input(
+            "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis; of a robot's program state the force under [load]",
+        ));
+    }
     match &machine.measured {
-        Some(setup) => measured(setup, program, path, watch).map(Some),
-        None => forces(machine.cut.as_ref(), program, path, watch),
+        Some(setup) => measured(setup, setting, path, watch).map(Some),
+        None => forces(machine.cut.as_ref(), setting, path, watch),
     }
 }
 
@@ -61,15 +67,19 @@ pub(crate) fn with_task<R>(
     aim: Aim,
     machine: &MachineSetup,
     setting: &Setting,
-    (program, path): (&Program, &ToolPath),
+    read: &ReadProgram<'_>,
     forces: Option<&ForceAlongPath>,
     work: impl FnOnce(&Task<'_>) -> R,
 ) -> Answer<R> {
+    let path = read.path();
     let tools = tools(machine, forces);
     let load = computed(machine.load, forces);
     let mut run_inputs = machine.run_inputs.clone();
     run_inputs.program.clone_from(&setting.program_name);
-    run_inputs.files.insert(0, setting.program_file.clone());
+    run_inputs.flat.clone_from(&setting.flat);
+    run_inputs
+        .files
+        .splice(..0, setting.program_files.iter().cloned());
     run_inputs.files.extend(setting.job_file.clone());
     run_inputs.date = crate::files::origin::day();
     let report = forces.and_then(|forces| forces.measured.as_ref());
@@ -120,22 +130,24 @@ pub(crate) fn with_task<R>(
             format!("placement {}", run_inputs.placement),
         ];
     }
-    Ok(work(&Task {
-        mechanism: &machine.mechanism,
-        program,
-        reading: setting.reading.clone(),
-        path,
-        placement: machine.placement,
-        load,
-        tools: &tools,
-        cut: forces,
-        writing,
-        run_inputs,
-        bounds: Bounds {
-            limits: setting.limits,
-            ..machine.bounds.clone()
-        },
-    }))
+    let made = |program: &dyn MachineProgram| {
+        work(&Task {
+            mechanism: &machine.mechanism,
+            program,
+            corrected: read.corrected(),
+            placement: machine.placement,
+            load,
+            tools: &tools,
+            cut: forces,
+            writing,
+            run_inputs,
+            bounds: Bounds {
+                limits: setting.limits,
+                ..machine.bounds.clone()
+            },
+        })
+    };
+    Ok(read.with(made))
 }
 
 /// Solves the machine along the program.
@@ -145,14 +157,14 @@ pub(crate) fn solve(
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
-    let (program, path) = read_program(setting)?;
+    let read = read_program(setting)?;
+    let path = read.path();
     let progress = Progress::new();
-    let forces = forces_of(machine, &setting.program_name, &path, &progress)?;
+    let forces = forces_of(machine, setting, path, &progress)?;
     if aim == Aim::Compensate {
-        refuse_what_breaks_the_tool(forces.as_ref(), &setting.program_name)?;
+        refuse_what_breaks_the_tool(forces.as_ref(), setting)?;
     }
-    let read = (&program, &path);
-    let result = with_task(aim, machine, setting, read, forces.as_ref(), |task| {
+    let result = with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
         in_threads(threads, || match aim {
             Aim::Analyse => analyse(task, &progress),
             Aim::Compensate => compensate_program(task, &progress),
@@ -160,14 +172,15 @@ pub(crate) fn solve(
     })??;
     progress.finish();
     let mut run = result.map_err(|error| {
-        let failure = Failure::from(error).within(&setting.program_name);
+        let failure = setting.within(Failure::from(error));
         // What is no warning without an answer may be the reason why there is none.
-        match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
+        match origin_in_metres(&machine.mechanism, &machine.placement, path) {
             Some(doubt) => failure.with_reason(&doubt.message),
             None => failure,
         }
     })?;
     run.result.warnings.extend(warnings(forces.as_ref()));
+    run.result.warnings.extend(setting.of_expansion());
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second
         && most > limit
@@ -177,5 +190,7 @@ pub(crate) fn solve(
             largest(most, "")
         )));
     }
+    let found = std::mem::take(&mut run.result.warnings);
+    run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)
 }

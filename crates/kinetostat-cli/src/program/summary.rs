@@ -5,6 +5,7 @@ use kinetostat_machining::number::{
 };
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
+use crate::program::flat_lines::listed_under;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, triple};
 use crate::ui::warnings::warnings;
@@ -29,6 +30,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     out.push_str(&worst(result));
     out.push_str(&cutting_force(result));
     out.push_str(&warnings(&result.warnings));
+    out.push_str(&listed_under(&out, q.flat.as_ref()));
     out
 }
 

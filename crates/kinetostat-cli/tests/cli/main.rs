@@ -24,6 +24,7 @@ mod draw;
 mod engagement;
 mod engagement_of_program;
 mod expand;
+mod expanded;
 mod figures;
 mod force;
 mod force_fit;

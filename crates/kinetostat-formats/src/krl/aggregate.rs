@@ -55,7 +55,9 @@ impl Aggregate {
 
 /// A number with its sign, or digits of base 2 or 16.
 pub(crate) fn number_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<f64> {
-    let signed = usize::from(tokens.len() == 2 && (file.is(tokens.start, b'-') || file.is(tokens.start, b'+')));
+    let signed = usize::from(
+        tokens.len() == 2 && (file.is(tokens.start, b'-') || file.is(tokens.start, b'+')),
+    );
     if tokens.len() != 1 + signed {
         return None;
     }
@@ -68,7 +70,9 @@ pub(crate) fn number_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<f
                 b'B' | b'b' => 2,
                 _ => 16,
             };
-            u32::from_str_radix(text.get(2..text.len() - 1)?, base).ok()?.into()
+            u32::from_str_radix(text.get(2..text.len() - 1)?, base)
+                .ok()?
+                .into()
         }
         _ => return None,
     };
@@ -102,7 +106,10 @@ const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
 const LARGEST: f64 = 1e7;
 
 /// The position that tokens are; why they are none.
-pub(crate) fn position_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Position, &'static str> {
+pub(crate) fn position_of(
+    file: &TokenFile<'_>,
+    tokens: &Range<usize>,
+) -> Result<Position, &'static str> {
     let aggregate = aggregate_of(file, tokens).ok_or("it is no position in braces")?;
     let mut position = Position {
         whole: file.span(tokens),
@@ -112,13 +119,17 @@ pub(crate) fn position_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result
         axes: [None; 6],
     };
     for (name, value) in &aggregate.members {
-        let number = number_of(file, value).ok_or("its numbers are computed while the program runs")?;
+        let number =
+            number_of(file, value).ok_or("its numbers are computed while the program runs")?;
         if number.abs() > LARGEST {
             return Err("its numbers are larger than any robot needs");
         }
         let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
         if let Some(index) = slot(PLACE) {
-            let text = NumberText { span: file.span(value), value: number };
+            let text = NumberText {
+                span: file.span(value),
+                value: number,
+            };
             position.numbers[index] = Some(text);
         } else if let Some(index) = slot(AXES) {
             position.axes[index] = Some(number);
@@ -144,7 +155,9 @@ pub(crate) fn position_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result
 impl Position {
     /// What it says of X, Y, Z, A, B, C.
     pub(crate) fn values(&self) -> [Option<f64>; 6] {
-        self.numbers.each_ref().map(|number| number.as_ref().map(|number| number.value))
+        self.numbers
+            .each_ref()
+            .map(|number| number.as_ref().map(|number| number.value))
     }
 
     /// Where its numbers stand; none where X, Y and Z are not all there, or only some of A, B, C.

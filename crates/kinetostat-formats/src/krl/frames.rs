@@ -79,9 +79,21 @@ fn whole(position: &Position) -> Option<Isometry3<f64>> {
 }
 
 impl<'p> Values<'p> {
-    pub(crate) fn new(files: &'p [TokenFile<'p>], symbols: Symbols<'p>, options: &ReadOptions) -> Self {
-        let stated = options.frames.iter().map(|(name, frame)| (key(name), *frame)).collect();
-        Self { files, symbols, stated }
+    pub(crate) fn new(
+        files: &'p [TokenFile<'p>],
+        symbols: Symbols<'p>,
+        options: &ReadOptions,
+    ) -> Self {
+        let stated = options
+            .frames
+            .iter()
+            .map(|(name, frame)| (key(name), *frame))
+            .collect();
+        Self {
+            files,
+            symbols,
+            stated,
+        }
     }
 
     /// The file of a routine.
@@ -92,7 +104,10 @@ impl<'p> Values<'p> {
     /// A frame that the caller states by its name.
     pub(crate) fn stated(&self, name: &str) -> Option<FrameUse> {
         let frame = *self.stated.get(&key(name))?;
-        Some(FrameUse { name: name.to_owned(), frame: Frame::Known(frame) })
+        Some(FrameUse {
+            name: name.to_owned(),
+            frame: Frame::Known(frame),
+        })
     }
 
     /// `TOOL_DATA[n]` or `BASE_DATA[n]`; number 0 is the flange or the world.
@@ -116,7 +131,9 @@ impl<'p> Values<'p> {
         let datum = self.symbols.of_system(role.array()).ok_or_else(nowhere)?;
         let stated = datum.stated.get(&number).ok_or_else(nowhere)?;
         if let Some((_, line)) = datum.assigned.or(stated.assigned) {
-            return Err(format!("it is assigned while the program runs, in line {line}"));
+            return Err(format!(
+                "it is assigned while the program runs, in line {line}"
+            ));
         }
         let position = position_of(&self.files[datum.file], &stated.value);
         let frame = position.ok().and_then(|position| whole(&position));
@@ -141,11 +158,19 @@ impl<'p> Values<'p> {
             let end = file.find(at..tokens.end, b':').unwrap_or(tokens.end);
             match self.part(routine, &(at..end)) {
                 Ok(part) => frame *= part,
-                Err(reason) => return FrameUse { name, frame: Frame::Unknown { reason } },
+                Err(reason) => {
+                    return FrameUse {
+                        name,
+                        frame: Frame::Unknown { reason },
+                    };
+                }
             }
             at = end + 1;
         }
-        FrameUse { name, frame: Frame::Known(frame) }
+        FrameUse {
+            name,
+            frame: Frame::Known(frame),
+        }
     }
 
     /// The number in `TOOL_DATA[3]`.
@@ -174,14 +199,24 @@ impl<'p> Values<'p> {
             }
         }
         let (datum, stated) = self.datum(routine, tokens).map_err(|(reason, _)| reason)?;
-        let position = position_of(&self.files[datum.file], &stated.value).map_err(str::to_owned)?;
+        let position =
+            position_of(&self.files[datum.file], &stated.value).map_err(str::to_owned)?;
         whole(&position).ok_or_else(|| "its numbers are not all stated".to_owned())
     }
 
     /// The datum that a name or an element is, with its one value; why it has none.
-    pub(crate) fn datum(&self, routine: usize, tokens: &Range<usize>) -> Result<(&Datum, &Stated), Reason> {
+    pub(crate) fn datum(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+    ) -> Result<(&Datum, &Stated), Reason> {
         let file = self.file(routine);
-        let computed = || ("where it goes is computed while the program runs".to_owned(), WRITE_IT);
+        let computed = || {
+            (
+                "where it goes is computed while the program runs".to_owned(),
+                WRITE_IT,
+            )
+        };
         let name = file.name(tokens.start).ok_or_else(computed)?;
         let (place, element) = place_of(file, tokens.start, tokens.end);
         let element = element.ok_or_else(computed)?;
@@ -192,13 +227,21 @@ impl<'p> Values<'p> {
         let index = match self.symbols.meaning(routine, &name) {
             Some(Meaning::Datum(index)) => index,
             Some(Meaning::Parameter) => {
-                let reason = format!("`{shown}` is an argument of the routine: it differs from call to call");
-                return Err((reason, "write the motion where the routine is called, with its target"));
+                let reason = format!(
+                    "`{shown}` is an argument of the routine: it differs from call to call"
+                );
+                return Err((
+                    reason,
+                    "write the motion where the routine is called, with its target",
+                ));
             }
             None if shown.starts_with('$') => return Err(computed()),
             None => {
                 let reason = format!("no `{shown}` is declared in these files");
-                return Err((reason, "give the .dat file that declares it as well (or $config.dat)"));
+                return Err((
+                    reason,
+                    "give the .dat file that declares it as well (or $config.dat)",
+                ));
             }
         };
         let datum = &self.symbols.data[index];
@@ -208,16 +251,26 @@ impl<'p> Values<'p> {
                 true => String::new(),
                 false => format!("{}, ", self.files[at].source.name()),
             };
-            return Err((format!("`{shown}` is changed while the program runs ({place}line {line})"), WRITE_IT));
+            return Err((
+                format!("`{shown}` is changed while the program runs ({place}line {line})"),
+                WRITE_IT,
+            ));
         }
         match stated {
             Some(stated) => Ok((datum, stated)),
-            None => Err((format!("`{}` has no value in these files", file.text(tokens)), "give the .dat file that states it as well")),
+            None => Err((
+                format!("`{}` has no value in these files", file.text(tokens)),
+                "give the .dat file that states it as well",
+            )),
         }
     }
 
     /// The members of a datum.
-    fn members(&self, routine: usize, tokens: &Range<usize>) -> Option<(&TokenFile<'p>, Aggregate)> {
+    fn members(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+    ) -> Option<(&TokenFile<'p>, Aggregate)> {
         let (datum, stated) = self.datum(routine, tokens).ok()?;
         let file = &self.files[datum.file];
         Some((file, aggregate_of(file, &stated.value)?))
@@ -239,7 +292,12 @@ impl<'p> Values<'p> {
     }
 
     /// A number of a LDAT or PDAT.
-    pub(crate) fn member(&self, routine: usize, tokens: &Range<usize>, capitals: &str) -> Option<f64> {
+    pub(crate) fn member(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+        capitals: &str,
+    ) -> Option<f64> {
         let (file, members) = self.members(routine, tokens)?;
         members.number(file, capitals)
     }

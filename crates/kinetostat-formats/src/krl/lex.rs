@@ -78,13 +78,23 @@ impl<'a> TokenFile<'a> {
             if bytes.get(start) != Some(&b'&') {
                 let first = tokens.len();
                 let comment = tokens_of(&bytes[start..end], start, &mut tokens);
-                if tokens.len() > first || comment.as_ref().is_some_and(|at| folds(&bytes[at.clone()])) {
-                    lines.push(Line { tokens: first..tokens.len(), comment });
+                if tokens.len() > first
+                    || comment.as_ref().is_some_and(|at| folds(&bytes[at.clone()]))
+                {
+                    lines.push(Line {
+                        tokens: first..tokens.len(),
+                        comment,
+                    });
                 }
             }
             start = end + 1;
         }
-        Self { index, source, tokens, lines }
+        Self {
+            index,
+            source,
+            tokens,
+            lines,
+        }
     }
 
     /// The bytes of a token; none behind the last.
@@ -115,7 +125,9 @@ impl<'a> TokenFile<'a> {
 
     /// Whether a token is this byte.
     pub(crate) fn is(&self, at: usize, symbol: u8) -> bool {
-        self.tokens.get(at).is_some_and(|token| token.kind == Kind::Symbol(symbol))
+        self.tokens
+            .get(at)
+            .is_some_and(|token| token.kind == Kind::Symbol(symbol))
     }
 
     /// The first token of these that is this byte and stands in no bracket.
@@ -136,7 +148,8 @@ impl<'a> TokenFile<'a> {
     pub(crate) fn assign(&self, tokens: &Range<usize>) -> Option<usize> {
         let at = self.find(tokens.clone(), b'=')?;
         let other = |at: usize| self.is(at, b'=') || self.is(at, b'<') || self.is(at, b'>');
-        (at > tokens.start && !other(at - 1) && !(at + 1 < tokens.end && self.is(at + 1, b'='))).then_some(at)
+        (at > tokens.start && !other(at - 1) && !(at + 1 < tokens.end && self.is(at + 1, b'=')))
+            .then_some(at)
     }
 }
 
@@ -146,8 +159,12 @@ fn folds(comment: &[u8]) -> bool {
 }
 
 fn begins(comment: &[u8], word: &[u8]) -> bool {
-    let text = comment.strip_prefix(b";").unwrap_or(comment).trim_ascii_start();
-    text.get(..word.len()).is_some_and(|first| first.eq_ignore_ascii_case(word))
+    let text = comment
+        .strip_prefix(b";")
+        .unwrap_or(comment)
+        .trim_ascii_start();
+    text.get(..word.len())
+        .is_some_and(|first| first.eq_ignore_ascii_case(word))
 }
 
 /// Whether a comment opens a fold.
@@ -167,8 +184,14 @@ fn tokens_of(line: &[u8], start: usize, tokens: &mut Vec<Token>) -> Option<Range
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
         let place = start + span.start..start + span.end;
         match kind {
-            Some(Kind::Symbol(b';')) => return Some(place.start..start + line.trim_ascii_end().len()),
-            Some(kind) => tokens.push(Token { kind, start: place.start as u32, end: place.end as u32 }),
+            Some(Kind::Symbol(b';')) => {
+                return Some(place.start..start + line.trim_ascii_end().len());
+            }
+            Some(kind) => tokens.push(Token {
+                kind,
+                start: place.start as u32,
+                end: place.end as u32,
+            }),
             None => {}
         }
     }
@@ -179,13 +202,19 @@ fn tokens_of(line: &[u8], start: usize, tokens: &mut Vec<Token>) -> Option<Range
 fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     let first = *input.first().ok_or(winnow::error::EmptyError)?;
     match first {
-        b' ' | b'\t' | b'\r' | 0x0b | 0x0c | 0x1a => {
-            any.value(None).parse_next(input)
-        }
-        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol)).map(Some).parse_next(input),
-        b'"' => alt((text.value(Kind::Text), symbol)).map(Some).parse_next(input),
-        b'\'' => alt((bits.value(Kind::Bits), symbol)).map(Some).parse_next(input),
-        byte if is_letter(byte) => take_while(1.., is_part).value(Some(Kind::Word)).parse_next(input),
+        b' ' | b'\t' | b'\r' | 0x0b | 0x0c | 0x1a => any.value(None).parse_next(input),
+        b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
+            .map(Some)
+            .parse_next(input),
+        b'"' => alt((text.value(Kind::Text), symbol))
+            .map(Some)
+            .parse_next(input),
+        b'\'' => alt((bits.value(Kind::Bits), symbol))
+            .map(Some)
+            .parse_next(input),
+        byte if is_letter(byte) => take_while(1.., is_part)
+            .value(Some(Kind::Word))
+            .parse_next(input),
         _ => symbol.map(Some).parse_next(input),
     }
 }
@@ -215,5 +244,7 @@ fn text(input: &mut Input<'_>) -> Result<(), Nothing> {
 
 fn bits(input: &mut Input<'_>) -> Result<(), Nothing> {
     let digits = take_while(1.., |byte: u8| byte.is_ascii_hexdigit());
-    (b'\'', one_of([b'B', b'b', b'H', b'h']), digits, b'\'').void().parse_next(input)
+    (b'\'', one_of([b'B', b'b', b'H', b'h']), digits, b'\'')
+        .void()
+        .parse_next(input)
 }

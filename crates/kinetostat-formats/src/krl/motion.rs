@@ -48,7 +48,11 @@ struct Rest {
 }
 
 fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
-    let mut rest = Rest { zone: None, rounding: None, with: tokens.end..tokens.end };
+    let mut rest = Rest {
+        zone: None,
+        rounding: None,
+        with: tokens.end..tokens.end,
+    };
     let mut at = tokens.start;
     while at < tokens.end {
         let Some(name) = file.name(at) else {
@@ -114,7 +118,11 @@ pub(crate) fn follow(
     mut state: State,
     unknown: UnknownTargets,
 ) -> Result<Followed, Reason> {
-    let Statement { row, routine, tokens } = *statement;
+    let Statement {
+        row,
+        routine,
+        tokens,
+    } = *statement;
     let file = values.file(routine);
     let ends = ends_of(file, tokens, row.ends);
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
@@ -126,9 +134,15 @@ pub(crate) fn follow(
     let speed_before = state.get(Thing::Speed);
     let mut start = rest.with.start;
     while start < rest.with.end {
-        let end = file.find(start..rest.with.end, b',').unwrap_or(rest.with.end);
+        let end = file
+            .find(start..rest.with.end, b',')
+            .unwrap_or(rest.with.end);
         if let Some(equals) = file.assign(&(start..end)) {
-            let mut setter = Setter { values, settings, routine };
+            let mut setter = Setter {
+                values,
+                settings,
+                routine,
+            };
             setter.assign(&(start..end), equals, &mut state)?;
         }
         start = end + 1;
@@ -142,7 +156,11 @@ pub(crate) fn follow(
             let via = left(targets.find(values, routine, &ends[0]), unknown)?;
             // With the comma and the blanks up to the end.
             let span = file.span(&ends[0]).start..file.span(&end_tokens).start;
-            (MotionKind::Circular { via: via.target }, Some((span, via.site)), via.open)
+            (
+                MotionKind::Circular { via: via.target },
+                Some((span, via.site)),
+                via.open,
+            )
         }
     };
     let span = file.span(tokens);
@@ -152,7 +170,10 @@ pub(crate) fn follow(
         line: file.source.line_of(span.start),
         kind,
         target: end.target,
-        speed: Speed { mm_per_s: None, text: String::new() },
+        speed: Speed {
+            mm_per_s: None,
+            text: String::new(),
+        },
         zone: match rest.zone {
             None => Zone::Exact,
             Some(_) => Zone::Unstated,
@@ -172,13 +193,25 @@ pub(crate) fn follow(
         },
         span,
     };
-    Ok(Followed { motion, routine, state, rounding: rest.rounding, own_speed, open: end.open, via_open })
+    Ok(Followed {
+        motion,
+        routine,
+        state,
+        rounding: rest.rounding,
+        own_speed,
+        open: end.open,
+        via_open,
+    })
 }
 
 /// A frame that nothing before it sets.
 fn nowhere(name: &str) -> FrameUse {
-    let reason = "no statement sets it on every way to here: set it before the motion, or state it".to_owned();
-    FrameUse { name: name.to_owned(), frame: Frame::Unknown { reason } }
+    let reason = "no statement sets it on every way to here: set it before the motion, or state it"
+        .to_owned();
+    FrameUse {
+        name: name.to_owned(),
+        frame: Frame::Unknown { reason },
+    }
 }
 
 fn left(found: Result<End, Reason>, unknown: UnknownTargets) -> Result<End, Reason> {

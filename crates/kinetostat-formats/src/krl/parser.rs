@@ -66,7 +66,8 @@ struct Parser<'p, 'a> {
 impl Parser<'_, '_> {
     fn fault(&mut self, tokens: &Range<usize>, reason: impl Into<String>, remedy: &str) {
         let span = self.file.span(tokens);
-        self.faults.push(ProgramError::at(self.file.source, span, reason, remedy));
+        self.faults
+            .push(ProgramError::at(self.file.source, span, reason, remedy));
     }
 
     fn line(&mut self, line: usize) {
@@ -136,7 +137,9 @@ impl Parser<'_, '_> {
         while self.file.is(name_at, b'[') || self.file.is(name_at, b']') {
             name_at += 1;
         }
-        let name = (name_at < tokens.end).then(|| self.file.name(name_at)).flatten();
+        let name = (name_at < tokens.end)
+            .then(|| self.file.name(name_at))
+            .flatten();
         let Some(name) = name else {
             return self.fault(tokens, "the routine has no name", "write DEF name()");
         };
@@ -148,8 +151,12 @@ impl Parser<'_, '_> {
                 while rest < tokens.end && !self.file.is(rest, b',') && !self.file.is(rest, b':') {
                     rest += 1;
                 }
-                let is_in = self.file.is(rest, b':') && self.file.word(rest + 1).eq_ignore_ascii_case(b"IN");
-                parameters.push(Parameter { name, changes: !is_in });
+                let is_in = self.file.is(rest, b':')
+                    && self.file.word(rest + 1).eq_ignore_ascii_case(b"IN");
+                parameters.push(Parameter {
+                    name,
+                    changes: !is_in,
+                });
             }
         }
         self.lost = false;
@@ -167,7 +174,11 @@ impl Parser<'_, '_> {
     fn end_routine(&mut self, tokens: &Range<usize>) {
         match self.routine.is_some() {
             true => self.close(),
-            false => self.fault(tokens, "no routine is open here", "remove it, or begin the routine with DEF"),
+            false => self.fault(
+                tokens,
+                "no routine is open here",
+                "remove it, or begin the routine with DEF",
+            ),
         }
     }
 
@@ -187,7 +198,11 @@ impl Parser<'_, '_> {
             };
             if !self.lost {
                 let tokens = self.file.lines[header].tokens.clone();
-                self.fault(&tokens, "the block has no end", "close it as the controller does");
+                self.fault(
+                    &tokens,
+                    "the block has no end",
+                    "close it as the controller does",
+                );
             }
             self.lost = true;
             let statement = finished(block);
@@ -211,7 +226,11 @@ impl Parser<'_, '_> {
     fn open(&mut self, tokens: &Range<usize>, block: Block) {
         if self.blocks.len() == DEEPEST && !self.lost {
             self.lost = true;
-            self.fault(tokens, "blocks are nested deeper than 100", "put what is deepest into a routine");
+            self.fault(
+                tokens,
+                "blocks are nested deeper than 100",
+                "put what is deepest into a routine",
+            );
         }
         if self.blocks.len() < DEEPEST {
             self.blocks.push(block);
@@ -222,7 +241,11 @@ impl Parser<'_, '_> {
         let Some(word) = self.file.name(tokens.start) else {
             return self.push(Statement::Simple(line));
         };
-        let looped = |word: &'static str| Block::Loop { header: line, word, block: Vec::new() };
+        let looped = |word: &'static str| Block::Loop {
+            header: line,
+            word,
+            block: Vec::new(),
+        };
         let letters = word.letters();
         let is_label = tokens.len() == 2 && self.file.is(tokens.start + 1, b':');
         match letters {
@@ -264,7 +287,13 @@ impl Parser<'_, '_> {
 
     fn next_branch(&mut self, tokens: &Range<usize>, of_switch: bool, is_last: bool) {
         match self.blocks.last_mut() {
-            Some(Block::Branches { is_switch, complete, blocks, now, .. }) if *is_switch == of_switch => {
+            Some(Block::Branches {
+                is_switch,
+                complete,
+                blocks,
+                now,
+                ..
+            }) if *is_switch == of_switch => {
                 blocks.push(std::mem::take(now));
                 *complete |= is_last;
             }
@@ -275,7 +304,11 @@ impl Parser<'_, '_> {
     fn misplaced(&mut self, tokens: &Range<usize>) {
         if !self.lost {
             self.lost = true;
-            self.fault(tokens, "it closes no block that is open here", "close blocks in the order in which they are opened");
+            self.fault(
+                tokens,
+                "it closes no block that is open here",
+                "close blocks in the order in which they are opened",
+            );
         }
     }
 
@@ -311,7 +344,9 @@ impl Parser<'_, '_> {
         let (mut is_global, mut is_other) = (false, false);
         while let Some(name) = (at < tokens.end).then(|| self.file.name(at)).flatten() {
             is_global |= name.is("GLOBAL");
-            is_other |= ["STRUC", "ENUM", "SIGNAL", "EXT", "EXTFCT"].iter().any(|word| name.is(word));
+            is_other |= ["STRUC", "ENUM", "SIGNAL", "EXT", "EXTFCT"]
+                .iter()
+                .any(|word| name.is(word));
             if !["GLOBAL", "DECL", "CONST"].iter().any(|word| name.is(word)) {
                 break;
             }
@@ -326,9 +361,16 @@ impl Parser<'_, '_> {
         let mut found = Vec::new();
         let mut start = at + 1;
         while start < tokens.end {
-            let end = self.file.find(start..tokens.end, b',').unwrap_or(tokens.end);
+            let end = self
+                .file
+                .find(start..tokens.end, b',')
+                .unwrap_or(tokens.end);
             let Some(name) = self.file.name(start) else {
-                return self.fault(tokens, "a declared name is missing or longer than 24 characters", "write DECL type name");
+                return self.fault(
+                    tokens,
+                    "a declared name is missing or longer than 24 characters",
+                    "write DECL type name",
+                );
             };
             let assign = self.file.assign(&(start..end));
             found.push(DatumNode {
@@ -357,7 +399,12 @@ impl Parser<'_, '_> {
             return;
         };
         if let Some(index) = literal_index(self.file, tokens.start + 1..assign) {
-            self.content.presets.push(Preset { name, index, tokens: tokens.clone(), value: assign + 1..tokens.end });
+            self.content.presets.push(Preset {
+                name,
+                index,
+                tokens: tokens.clone(),
+                value: assign + 1..tokens.end,
+            });
         }
     }
 }
@@ -375,20 +422,38 @@ pub(crate) fn literal_index(file: &TokenFile<'_>, tokens: Range<usize>) -> Optio
 
 fn finished(block: Block) -> Statement {
     match block {
-        Block::Branches { header, is_switch, complete, mut blocks, now } => {
+        Block::Branches {
+            header,
+            is_switch,
+            complete,
+            mut blocks,
+            now,
+        } => {
             blocks.push(now);
             // What stands between SWITCH and the first CASE never runs.
             if is_switch && blocks.len() > 1 {
                 blocks.remove(0);
             }
-            Statement::Branches { header, complete, blocks }
+            Statement::Branches {
+                header,
+                complete,
+                blocks,
+            }
         }
-        Block::Loop { header, word, block } => {
+        Block::Loop {
+            header,
+            word,
+            block,
+        } => {
             let least = match word {
                 "LOOP" | "REPEAT" => Least::Once,
                 _ => Least::Never,
             };
-            Statement::Loop { header, least, block }
+            Statement::Loop {
+                header,
+                least,
+                block,
+            }
         }
     }
 }

@@ -46,16 +46,25 @@ const MOST_BYTES: usize = 1 << 28;
 ///
 /// # Errors
 /// All that is refused, in the order of files and lines.
-pub fn read_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Result<RobotProgram, Vec<ProgramError>> {
+pub fn read_krl(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<RobotProgram, Vec<ProgramError>> {
     let mut faults = Vec::new();
     for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
-        faults.push(ProgramError::at(file, 0..0, "the file is larger than 256 MiB", "divide it"));
+        faults.push(ProgramError::at(
+            file,
+            0..0,
+            "the file is larger than 256 MiB",
+            "divide it",
+        ));
     }
     if !faults.is_empty() {
         return Err(faults);
     }
-    let token_files: Vec<TokenFile<'_>> =
-        (files.iter().enumerate()).map(|(index, source)| TokenFile::of(index, source)).collect();
+    let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
+        .map(|(index, source)| TokenFile::of(index, source))
+        .collect();
     let mut contents: Vec<Content> = Vec::with_capacity(files.len());
     for file in &token_files {
         let before = faults.len();
@@ -94,7 +103,13 @@ pub fn read_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Result<RobotPr
     let motions = resolved.motions;
     let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram { language: Language::Krl, files, motions, findings, declarations: targets.declarations })
+    Ok(RobotProgram {
+        language: Language::Krl,
+        files,
+        motions,
+        findings,
+        declarations: targets.declarations,
+    })
 }
 
 /// The routine with which the program begins.
@@ -103,7 +118,9 @@ fn main(values: &Values<'_>) -> Option<usize> {
     let mut called = vec![false; routines.len()];
     for (index, home) in routines.iter().enumerate() {
         let file = &values.files[home.file];
-        let next = routines.get(index + 1).filter(|next| next.file == home.file);
+        let next = routines
+            .get(index + 1)
+            .filter(|next| next.file == home.file);
         let end = next.map_or(file.tokens.len(), |next| next.routine.name_at);
         for at in home.routine.name_at + 1..end {
             let name = file.name(at).filter(|_| file.is(at + 1, b'('));
@@ -130,7 +147,11 @@ fn left(motions: &[Motion]) -> Vec<Finding> {
         for target in via.into_iter().chain([&motion.target]) {
             if let Target::Unknown { reason } = target {
                 let message = format!("it stays as it is written: {reason}");
-                findings.push(Finding { file: motion.file, line: motion.line, message });
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
             }
         }
     }

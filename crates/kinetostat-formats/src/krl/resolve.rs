@@ -30,7 +30,10 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
     // Callers first.
     for routine in walker.finished.iter().rev().copied() {
         let summary = &walker.summaries[routine];
-        let reached = summary.calls.iter().filter(|call| runs[call.from] != Runs::Elsewhere);
+        let reached = summary
+            .calls
+            .iter()
+            .filter(|call| runs[call.from] != Runs::Elsewhere);
         let mut reached = reached.map(|call| runs[call.from].max(call.runs));
         runs[routine] = match (reached.next(), reached.next()) {
             _ if summary.recursive => Runs::Repeatedly,
@@ -39,26 +42,51 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
             (Some(once), None) => once,
             (Some(_), Some(_)) => Runs::Repeatedly,
         };
-        let mut states = summary.calls.iter().map(|call| call.at.from_call(entry[call.from]));
+        let mut states = summary
+            .calls
+            .iter()
+            .map(|call| call.at.in_call(entry[call.from]));
         entry[routine] = match (Some(routine) == main || summary.recursive, states.next()) {
             (false, Some(first)) => states.fold(first, State::merged),
             _ => State::UNKNOWN,
         };
     }
-    let Walker { values, settings, unknown, faults, motions, findings, .. } = walker;
-    let mut resolver = Resolver { values, settings, unknown, findings, done: Vec::with_capacity(motions.len()) };
+    let Walker {
+        values,
+        settings,
+        unknown,
+        faults,
+        motions,
+        findings,
+        ..
+    } = walker;
+    let mut resolver = Resolver {
+        values,
+        settings,
+        unknown,
+        findings,
+        done: Vec::with_capacity(motions.len()),
+    };
     let mut folds: Vec<Option<Vec<Option<usize>>>> = values.files.iter().map(|_| None).collect();
     for followed in motions {
-        let state = followed.state.from_call(entry[followed.routine]);
+        let state = followed.state.in_call(entry[followed.routine]);
         let often = runs[followed.routine];
         let (file, span) = (followed.motion.file, followed.motion.span.clone());
         if let Err((reason, remedy)) = resolver.motion(followed, state, often) {
-            faults.push(ProgramError::at(values.files[file].source, span, reason, remedy));
+            faults.push(ProgramError::at(
+                values.files[file].source,
+                span,
+                reason,
+                remedy,
+            ));
         }
         let around = folds[file].get_or_insert_with(|| folds_of(&values.files[file]));
         resolver.compare_fold(around);
     }
-    Resolved { motions: resolver.done, findings: resolver.findings }
+    Resolved {
+        motions: resolver.done,
+        findings: resolver.findings,
+    }
 }
 
 struct Resolver<'v, 'p> {
@@ -71,7 +99,14 @@ struct Resolver<'v, 'p> {
 
 impl Resolver<'_, '_> {
     fn motion(&mut self, followed: Followed, state: State, often: Runs) -> Result<(), Reason> {
-        let Followed { mut motion, rounding, own_speed, open, via_open, .. } = followed;
+        let Followed {
+            mut motion,
+            rounding,
+            own_speed,
+            open,
+            via_open,
+            ..
+        } = followed;
         motion.runs = motion.runs.max(often);
         motion.follows = match state.get(Thing::Place) {
             Slot::Is(index) => Some(index),
@@ -100,7 +135,9 @@ impl Resolver<'_, '_> {
                 _ => Zone::Percent(*number),
             };
         }
-        let before = motion.follows.and_then(|index| self.before(index, &motion).cloned());
+        let before = motion
+            .follows
+            .and_then(|index| self.before(index, &motion).cloned());
         let mut fault = None;
         let mut fill = |target: &mut Target, open: Option<[Option<f64>; 6]>| {
             let (Some(open), Target::Pose(pose)) = (open, &mut *target) else {
@@ -112,7 +149,11 @@ impl Resolver<'_, '_> {
                     pose.position_mm = position_mm;
                     pose.orientation = orientation;
                 }
-                (None, UnknownTargets::LeftAsWritten) => *target = Target::Unknown { reason: OPEN.to_owned() },
+                (None, UnknownTargets::LeftAsWritten) => {
+                    *target = Target::Unknown {
+                        reason: OPEN.to_owned(),
+                    }
+                }
                 (None, UnknownTargets::Refused) => {
                     fault = Some((OPEN.to_owned(), "write all of X, Y, Z, A, B and C"));
                 }
@@ -146,7 +187,9 @@ impl Resolver<'_, '_> {
 
     fn frame(&self, slot: Slot, role: Role, none: FrameUse) -> FrameUse {
         let found = self.settings.frames.get(slot).cloned();
-        found.or_else(|| self.values.stated(role.variable())).unwrap_or(none)
+        found
+            .or_else(|| self.values.stated(role.variable()))
+            .unwrap_or(none)
     }
 
     fn compare_fold(&mut self, around: &[Option<usize>]) {
@@ -155,13 +198,23 @@ impl Resolver<'_, '_> {
         };
         let file = &self.values.files[motion.file];
         let line = file.lines.partition_point(|line| {
-            file.tokens.get(line.tokens.start).is_some_and(|token| token.bytes().start <= motion.span.start)
+            file.tokens
+                .get(line.tokens.start)
+                .is_some_and(|token| token.bytes().start <= motion.span.start)
         });
-        let fold = line.checked_sub(1).and_then(|line| around.get(line).copied().flatten());
+        let fold = line
+            .checked_sub(1)
+            .and_then(|line| around.get(line).copied().flatten());
         let text = fold.map(|fold| text_of(file, fold));
-        if let Some(message) = text.and_then(|text| contradiction(text, &motion.tool, &motion.work_object)) {
+        if let Some(message) =
+            text.and_then(|text| contradiction(text, &motion.tool, &motion.work_object))
+        {
             let (file, line) = (motion.file, motion.line);
-            self.findings.push(Finding { file, line, message });
+            self.findings.push(Finding {
+                file,
+                line,
+                message,
+            });
         }
     }
 }
@@ -178,7 +231,11 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
                 && named.insert(frame.name.clone())
             {
                 let message = format!("where `{}` is, is not known: {reason}", frame.name);
-                findings.push(Finding { file: motion.file, line: motion.line, message });
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
             }
         }
     }

@@ -23,7 +23,8 @@ const ROUNDINGS: [(&str, Thing); 3] = [
 ];
 
 /// The tool stands still and the part is in the hand: base and tool change their parts.
-const EXTERNAL_TOOL: &str = "the tool stands still and the robot holds the part (#TCP), which is not followed";
+const EXTERNAL_TOOL: &str =
+    "the tool stands still and the robot holds the part (#TCP), which is not followed";
 const TAKE_OUT: &str = "take the motions of such a tool into a program of their own";
 
 /// What an assignment to a name may change.
@@ -67,15 +68,24 @@ impl Setter<'_, '_> {
     }
 
     /// `name = value`, of tokens, with the place of the sign.
-    pub(crate) fn assign(&mut self, tokens: &Range<usize>, equals: usize, state: &mut State) -> Result<(), Reason> {
+    pub(crate) fn assign(
+        &mut self,
+        tokens: &Range<usize>,
+        equals: usize,
+        state: &mut State,
+    ) -> Result<(), Reason> {
         let file = self.values.file(self.routine);
         let Some(name) = file.name(tokens.start) else {
             return Ok(());
         };
         let value = equals + 1..tokens.end;
         let whole = equals == tokens.start + 1;
-        let part = (!whole && file.is(tokens.start + 1, b'.')).then(|| file.name(tokens.start + 2)).flatten();
-        let called = file.name(value.start).filter(|_| file.is(value.start + 1, b'('));
+        let part = (!whole && file.is(tokens.start + 1, b'.'))
+            .then(|| file.name(tokens.start + 2))
+            .flatten();
+        let called = file
+            .name(value.start)
+            .filter(|_| file.is(value.start + 1, b'('));
         let argument = value.start + 2..tokens.end.saturating_sub(1).max(value.start);
         match name.letters() {
             b"$BASE" | b"$TOOL" => {
@@ -101,12 +111,19 @@ impl Setter<'_, '_> {
                     }
                     (None, Some(part)) if part.is("CP") => self.values.number(self.routine, &value),
                     (None, Some(_)) => return Ok(()),
-                    (None, None) => aggregate_of(file, &value).and_then(|all| all.number(file, "CP")),
+                    (None, None) => {
+                        aggregate_of(file, &value).and_then(|all| all.number(file, "CP"))
+                    }
                 };
                 let slot = self.speed(metres_per_s, file.text(tokens));
                 state.set(Thing::Speed, slot);
             }
-            b"$APO" => self.rounding(&value, part.map(|part| part.letters().to_vec()), called.is_some(), state),
+            b"$APO" => self.rounding(
+                &value,
+                part.map(|part| part.letters().to_vec()),
+                called.is_some(),
+                state,
+            ),
             b"$IPO_MODE" if file.text(&value).to_uppercase().contains("#TCP") => {
                 return Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT));
             }
@@ -130,14 +147,21 @@ impl Setter<'_, '_> {
     }
 
     /// `$APO.CDIS=3`, `$APO={CDIS 3}`, `$APO=SAPO(LCPDAT1)`.
-    fn rounding(&mut self, value: &Range<usize>, part: Option<Vec<u8>>, is_call: bool, state: &mut State) {
+    fn rounding(
+        &mut self,
+        value: &Range<usize>,
+        part: Option<Vec<u8>>,
+        is_call: bool,
+        state: &mut State,
+    ) {
         let file = self.values.file(self.routine);
         for (name, thing) in ROUNDINGS {
             let stated = match &part {
                 Some(part) if part != name.as_bytes() => continue,
                 Some(_) => self.values.number(self.routine, value),
                 None if is_call => {
-                    let argument = value.start + 2..value.end.saturating_sub(1).max(value.start + 2);
+                    let argument =
+                        value.start + 2..value.end.saturating_sub(1).max(value.start + 2);
                     self.values.member(self.routine, &argument, "APO_DIST")
                 }
                 None => aggregate_of(file, value).and_then(|all| all.number(file, name)),
@@ -178,7 +202,9 @@ impl Setter<'_, '_> {
         let is_command = file.is(tokens.start + 1, b'(') && file.is(tokens.start + 2, b'#');
         let command = is_command.then(|| file.name(command)).flatten();
         let comma = file.find(tokens.start + 2..tokens.end, b',');
-        let close = file.find(tokens.start + 2..tokens.end, b')').unwrap_or(tokens.end);
+        let close = file
+            .find(tokens.start + 2..tokens.end, b')')
+            .unwrap_or(tokens.end);
         let value = comma.map_or(close..close, |comma| comma + 1..close);
         let text = || file.text(tokens);
         let Some(command) = command else {
@@ -203,7 +229,8 @@ impl Setter<'_, '_> {
                     false => (Role::Base, Thing::Base),
                 };
                 let number = number_of(file, &value).filter(|number| *number >= 0.0);
-                let slot = number.map_or(Slot::Unknown, |number| self.numbered(role, number as u32));
+                let slot =
+                    number.map_or(Slot::Unknown, |number| self.numbered(role, number as u32));
                 state.set(thing, slot);
             }
             b"VEL_CP" => {
@@ -223,7 +250,11 @@ impl Setter<'_, '_> {
     }
 
     fn frames_of_point(&mut self, state: &mut State) -> Result<(), Reason> {
-        let point = self.settings.points.get(state.get(Thing::PointData)).copied();
+        let point = self
+            .settings
+            .points
+            .get(state.get(Thing::PointData))
+            .copied();
         if point.is_some_and(|point| point.is_external) {
             return Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT));
         }

@@ -52,7 +52,11 @@ impl Things {
     pub(crate) const ALL: Self = Self((1 << COUNT) - 1);
 
     pub(crate) fn of(things: &[Thing]) -> Self {
-        Self(things.iter().fold(0, |set, thing| set | 1 << (*thing as usize)))
+        Self(
+            things
+                .iter()
+                .fold(0, |set, thing| set | 1 << (*thing as usize)),
+        )
     }
 
     pub(crate) fn with(self, other: Self) -> Self {
@@ -95,7 +99,7 @@ impl State {
     }
 
     /// As it is where it is called from.
-    pub(crate) fn from_call(self, at: Self) -> Self {
+    pub(crate) fn in_call(self, at: Self) -> Self {
         let resolved = |index: usize| match self.0[index] {
             Slot::Entry => at.0[index],
             slot => slot,
@@ -113,7 +117,10 @@ pub(crate) struct Pool<T> {
 
 impl<T> Default for Pool<T> {
     fn default() -> Self {
-        Self { values: Vec::new(), known: BTreeMap::new() }
+        Self {
+            values: Vec::new(),
+            known: BTreeMap::new(),
+        }
     }
 }
 

@@ -90,7 +90,8 @@ impl<'p> Symbols<'p> {
         let mut firsts = Vec::new();
         for (file, content) in files.iter().zip(contents) {
             let stem = stem(file);
-            let is_config = stem == "$CONFIG" || content.list.is_some_and(|name| name.is("$CONFIG"));
+            let is_config =
+                stem == "$CONFIG" || content.list.is_some_and(|name| name.is("$CONFIG"));
             let count = modules.len();
             let module = *modules.entry(stem).or_insert(count);
             if module == count {
@@ -108,7 +109,9 @@ impl<'p> Symbols<'p> {
                 }
             }
             for preset in &content.presets {
-                let known = all.in_module[module].get(&preset.name).or_else(|| all.everywhere.get(&preset.name));
+                let known = all.in_module[module]
+                    .get(&preset.name)
+                    .or_else(|| all.everywhere.get(&preset.name));
                 let index = match known {
                     Some(index) => *index,
                     None => {
@@ -139,11 +142,19 @@ impl<'p> Symbols<'p> {
             for (number, routine) in content.routines.iter().enumerate() {
                 let index = all.routines.len();
                 let is_first = number == 0;
-                all.routines.push(Home { file: file.index, module, is_first, routine });
+                all.routines.push(Home {
+                    file: file.index,
+                    module,
+                    is_first,
+                    routine,
+                });
                 if is_first || routine.is_global {
                     firsts.push((routine.name, index));
                 }
-                if all.routines_in_module[module].insert(routine.name, index).is_some() {
+                if all.routines_in_module[module]
+                    .insert(routine.name, index)
+                    .is_some()
+                {
                     faults.push(twice(file, routine.name_at));
                 }
                 all.routine_data(file, routine, faults);
@@ -155,7 +166,12 @@ impl<'p> Symbols<'p> {
         all
     }
 
-    fn routine_data(&mut self, file: &TokenFile<'_>, routine: &Routine, faults: &mut Vec<ProgramError>) {
+    fn routine_data(
+        &mut self,
+        file: &TokenFile<'_>,
+        routine: &Routine,
+        faults: &mut Vec<ProgramError>,
+    ) {
         let mut locals = BTreeMap::new();
         for node in &routine.data {
             let index = self.add(file.index, node);
@@ -208,7 +224,10 @@ impl<'p> Symbols<'p> {
     /// The routine that a name means in a routine.
     pub(crate) fn routine(&self, from: usize, name: &Name) -> Option<usize> {
         let module = &self.routines_in_module[self.routines[from].module];
-        module.get(name).or_else(|| self.routines_everywhere.get(name)).copied()
+        module
+            .get(name)
+            .or_else(|| self.routines_everywhere.get(name))
+            .copied()
     }
 }
 

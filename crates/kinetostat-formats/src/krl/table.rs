@@ -4,7 +4,8 @@ use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{StatementRow, Treatment};
 use crate::text::name::Name;
 
-const KSS: &str = "KUKA System Software 8.x, Operating and Programming Instructions for System Integrators";
+const KSS: &str =
+    "KUKA System Software 8.x, Operating and Programming Instructions for System Integrators";
 const EXPERT: &str = "KUKA, KR C2 / KR C3 Expert Programming, KSS 5.x";
 const SENSOR: &str = "KUKA.RobotSensorInterface";
 const ETHERNET: &str = "KUKA.Ethernet KRL";
@@ -52,7 +53,8 @@ pub(crate) struct MotionRow {
 
 /// Words before a bracket that call nothing.
 pub(crate) const OPERATORS: [&str; 15] = [
-    "AND", "OR", "NOT", "EXOR", "B_AND", "B_OR", "B_EXOR", "B_NOT", "UNTIL", "TO", "STEP", "THEN", "CASE", "WHEN", "DO",
+    "AND", "OR", "NOT", "EXOR", "B_AND", "B_OR", "B_EXOR", "B_NOT", "UNTIL", "TO", "STEP", "THEN",
+    "CASE", "WHEN", "DO",
 ];
 
 const fn motion(
@@ -62,7 +64,13 @@ const fn motion(
     pass: &'static str,
     source: &'static str,
 ) -> MotionRow {
-    MotionRow { name, ends, straight, pass, source }
+    MotionRow {
+        name,
+        ends,
+        straight,
+        pass,
+        source,
+    }
 }
 
 /// All motions that are understood.
@@ -92,7 +100,11 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
 pub const KRL_STATEMENTS: &[StatementRow] = &SORTED;
 
 const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow { name, treatment, source }
+    StatementRow {
+        name,
+        treatment,
+        source,
+    }
 }
 
 const COUNT: usize = OTHERS.len() + MOTIONS.len();

@@ -30,7 +30,8 @@ pub(crate) struct Targets {
     known: BTreeMap<(usize, usize), usize>,
 }
 
-const SOME: &str = "it states only some of X, Y and Z, or of A, B and C: the others are those of before";
+const SOME: &str =
+    "it states only some of X, Y and Z, or of A, B and C: the others are those of before";
 
 /// A position without the members that it leaves open.
 fn pose_of(position: &Position) -> (PoseTarget, Option<[Option<f64>; 6]>) {
@@ -59,13 +60,21 @@ fn joints_of(position: &Position) -> Result<Option<Vec<f64>>, Reason> {
             "it states only some axes: the others are those of before".to_owned(),
             "write A1 to A6",
         )),
-        _ => Err(("it mixes axes with places".to_owned(), "write A1 to A6, or X, Y, Z, A, B and C")),
+        _ => Err((
+            "it mixes axes with places".to_owned(),
+            "write A1 to A6, or X, Y, Z, A, B and C",
+        )),
     }
 }
 
 impl Targets {
     /// The end that tokens of a motion in a routine are.
-    pub(crate) fn find(&mut self, values: &Values<'_>, routine: usize, tokens: &Range<usize>) -> Result<End, Reason> {
+    pub(crate) fn find(
+        &mut self,
+        values: &Values<'_>,
+        routine: usize,
+        tokens: &Range<usize>,
+    ) -> Result<End, Reason> {
         let file = values.file(routine);
         if tokens.is_empty() {
             return Err(("the motion has no end".to_owned(), "write its target"));
@@ -74,7 +83,8 @@ impl Targets {
             return self.sum(values, routine, tokens, colon);
         }
         if file.is(tokens.start, b'{') {
-            let position = position_of(file, tokens).map_err(|reason| (reason.to_owned(), WRITE_IT))?;
+            let position =
+                position_of(file, tokens).map_err(|reason| (reason.to_owned(), WRITE_IT))?;
             if let Some(values_deg) = joints_of(&position)? {
                 return Ok(joints(values_deg));
             }
@@ -83,7 +93,11 @@ impl Targets {
                 Some(text) => TargetSite::Literal(text),
                 None => TargetSite::Fixed(SOME),
             };
-            return Ok(End { target: Target::Pose(pose), site, open });
+            return Ok(End {
+                target: Target::Pose(pose),
+                site,
+                open,
+            });
         }
         let (datum, stated) = values.datum(routine, tokens)?;
         let home = &values.files[datum.file];
@@ -94,7 +108,11 @@ impl Targets {
         }
         let (pose, open) = pose_of(&position);
         let Some(text) = position.text(datum.file) else {
-            return Ok(End { target: Target::Pose(pose), site: TargetSite::Fixed(SOME), open });
+            return Ok(End {
+                target: Target::Pose(pose),
+                site: TargetSite::Fixed(SOME),
+                open,
+            });
         };
         let key = (datum.file, text.whole.start);
         let declaration = match self.known.get(&key) {
@@ -117,12 +135,25 @@ impl Targets {
                 self.declarations.len() - 1
             }
         };
-        let site = TargetSite::Declared { declaration, name: file.span(tokens) };
-        Ok(End { target: Target::Pose(pose), site, open })
+        let site = TargetSite::Declared {
+            declaration,
+            name: file.span(tokens),
+        };
+        Ok(End {
+            target: Target::Pose(pose),
+            site,
+            open,
+        })
     }
 
     /// `end:{X 0,Y 4,Z 0,A 0,B 0,C 0}`: in the axes of the end.
-    fn sum(&mut self, values: &Values<'_>, routine: usize, tokens: &Range<usize>, colon: usize) -> Result<End, Reason> {
+    fn sum(
+        &mut self,
+        values: &Values<'_>,
+        routine: usize,
+        tokens: &Range<usize>,
+        colon: usize,
+    ) -> Result<End, Reason> {
         let file = values.file(routine);
         if file.find(colon + 1..tokens.end, b':').is_some() {
             return Err((
@@ -132,7 +163,10 @@ impl Targets {
         }
         let base = self.find(values, routine, &(tokens.start..colon))?;
         let (Target::Pose(base_pose), None) = (&base.target, &base.open) else {
-            return Err(("what is added to has not all of X, Y, Z, A, B, C".to_owned(), "write them"));
+            return Err((
+                "what is added to has not all of X, Y, Z, A, B, C".to_owned(),
+                "write them",
+            ));
         };
         if !file.is(colon + 1, b'{') {
             return Err((
@@ -140,12 +174,19 @@ impl Targets {
                 "write the sum with numbers: `XP1:{X 0,Y 0,Z 10,A 0,B 0,C 0}`",
             ));
         }
-        let added = position_of(file, &(colon + 1..tokens.end)).map_err(|reason| (reason.to_owned(), WRITE_IT))?;
-        let by = isometry(added.values().map(Option::unwrap_or_default)).unwrap_or_else(Isometry3::identity);
-        let end = Isometry3::from_parts(Translation3::from(base_pose.position_mm), base_pose.orientation) * by;
+        let added = position_of(file, &(colon + 1..tokens.end))
+            .map_err(|reason| (reason.to_owned(), WRITE_IT))?;
+        let by = isometry(added.values().map(Option::unwrap_or_default))
+            .unwrap_or_else(Isometry3::identity);
+        let end = Isometry3::from_parts(
+            Translation3::from(base_pose.position_mm),
+            base_pose.orientation,
+        ) * by;
         let literal = match &base.site {
             TargetSite::Literal(text) => Some(text.clone()),
-            TargetSite::Declared { declaration, .. } => Some(self.declarations[*declaration].text.clone()),
+            TargetSite::Declared { declaration, .. } => {
+                Some(self.declarations[*declaration].text.clone())
+            }
             TargetSite::Offset { .. } | TargetSite::Fixed(_) => None,
         };
         let site = match (numbers(&added), literal) {
@@ -158,8 +199,16 @@ impl Targets {
             },
             _ => TargetSite::Fixed("what is added states only some of X, Y and Z"),
         };
-        let pose = PoseTarget { position_mm: end.translation.vector, orientation: end.rotation, ..base_pose.clone() };
-        Ok(End { target: Target::Pose(pose), site, open: None })
+        let pose = PoseTarget {
+            position_mm: end.translation.vector,
+            orientation: end.rotation,
+            ..base_pose.clone()
+        };
+        Ok(End {
+            target: Target::Pose(pose),
+            site,
+            open: None,
+        })
     }
 }
 
@@ -193,13 +242,20 @@ fn around(datum: &Datum) -> DeclarationCopy {
 }
 
 /// Fills in what a position leaves open from the pose of before; none where a part of both is missing.
-pub(crate) fn completed(open: &[Option<f64>; 6], before: &PoseTarget) -> Option<(Vector3<f64>, nalgebra::UnitQuaternion<f64>)> {
+pub(crate) fn completed(
+    open: &[Option<f64>; 6],
+    before: &PoseTarget,
+) -> Option<(Vector3<f64>, nalgebra::UnitQuaternion<f64>)> {
     let place = [0, 1, 2].map(|axis| open[axis].unwrap_or(before.position_mm[axis]));
     let turn = match (open[3], open[4], open[5]) {
         (None, None, None) => before.orientation,
         (a, b, c) => {
             let near = OrientationText::Abc.numbers_of(&before.orientation, &[0.0; 3]);
-            let angles: Vec<f64> = [a, b, c].iter().zip(near).map(|(stated, near)| stated.unwrap_or(near)).collect();
+            let angles: Vec<f64> = [a, b, c]
+                .iter()
+                .zip(near)
+                .map(|(stated, near)| stated.unwrap_or(near))
+                .collect();
             OrientationText::Abc.rotation_of(&angles)?
         }
     };

@@ -17,7 +17,9 @@ impl Touched {
     /// Of all routines: what each does itself, then what it calls, until nothing is added.
     pub(crate) fn of(values: &Values<'_>) -> Self {
         let count = values.symbols.routines.len();
-        let mut all = Self { routines: vec![Things::default(); count] };
+        let mut all = Self {
+            routines: vec![Things::default(); count],
+        };
         let mut callers: Vec<Vec<usize>> = vec![Vec::new(); count];
         for routine in 0..count {
             let mut calls = Vec::new();
@@ -44,7 +46,9 @@ impl Touched {
     pub(crate) fn by(&self, values: &Values<'_>, routine: usize, block: &[Statement]) -> Things {
         let mut calls = Vec::new();
         let things = own(values, routine, block, &mut calls);
-        calls.iter().fold(things, |things, called| things.with(self.routines[*called]))
+        calls
+            .iter()
+            .fold(things, |things, called| things.with(self.routines[*called]))
     }
 }
 
@@ -76,7 +80,13 @@ fn own(values: &Values<'_>, routine: usize, block: &[Statement], calls: &mut Vec
     things
 }
 
-fn of_line(values: &Values<'_>, routine: usize, file: &TokenFile<'_>, line: usize, calls: &mut Vec<usize>) -> Things {
+fn of_line(
+    values: &Values<'_>,
+    routine: usize,
+    file: &TokenFile<'_>,
+    line: usize,
+    calls: &mut Vec<usize>,
+) -> Things {
     let tokens = file.lines[line].tokens.clone();
     let mut things = touched(file, tokens.start);
     for at in tokens.clone() {

@@ -13,7 +13,11 @@ use crate::text::name::Name;
 pub(crate) fn note_usage(files: &[TokenFile<'_>], symbols: &mut Symbols<'_>) {
     for routine in 0..symbols.routines.len() {
         let home = symbols.routines[routine];
-        let mut notes = Notes { file: &files[home.file], symbols: &mut *symbols, routine };
+        let mut notes = Notes {
+            file: &files[home.file],
+            symbols: &mut *symbols,
+            routine,
+        };
         notes.statements(&home.routine.body);
     }
 }
@@ -28,7 +32,11 @@ pub(crate) fn place_of(file: &TokenFile<'_>, at: usize, end: usize) -> (Range<us
 }
 
 /// The places of the ends of a motion, by tokens, with what is added to them (`:{...}`).
-pub(crate) fn ends_of(file: &TokenFile<'_>, tokens: &Range<usize>, ends: Ends) -> Vec<Range<usize>> {
+pub(crate) fn ends_of(
+    file: &TokenFile<'_>,
+    tokens: &Range<usize>,
+    ends: Ends,
+) -> Vec<Range<usize>> {
     let count = match ends {
         Ends::Circular => 2,
         Ends::Joint | Ends::Linear => 1,
@@ -44,7 +52,14 @@ pub(crate) fn ends_of(file: &TokenFile<'_>, tokens: &Range<usize>, ends: Ends) -
                 Kind::Symbol(b'}' | b']' | b')') => open = open.saturating_sub(1),
                 Kind::Symbol(b',') if open == 0 => break,
                 // A word behind a whole value begins what is behind the end: C_DIS, WITH.
-                Kind::Word if open == 0 && at > start && !file.is(at - 1, b':') && !file.is(at - 1, b'.') => break,
+                Kind::Word
+                    if open == 0
+                        && at > start
+                        && !file.is(at - 1, b':')
+                        && !file.is(at - 1, b'.') =>
+                {
+                    break;
+                }
                 _ => {}
             }
             at += 1;
@@ -99,7 +114,14 @@ impl Notes<'_, '_, '_, '_> {
         let is_for = first.is_some_and(|name| name.is("FOR"));
         let assigned = tokens.start + usize::from(is_for);
         match self.file.assign(&(assigned..tokens.end)) {
-            Some(equals) if is_for || first.is_none_or(|name| !["IF", "WHILE", "UNTIL", "SWITCH", "WAIT"].iter().any(|word| name.is(word))) => {
+            Some(equals)
+                if is_for
+                    || first.is_none_or(|name| {
+                        !["IF", "WHILE", "UNTIL", "SWITCH", "WAIT"]
+                            .iter()
+                            .any(|word| name.is(word))
+                    }) =>
+            {
                 self.assign(assigned, equals);
                 let (place, _) = place_of(self.file, assigned, equals);
                 self.keep(place.start + 1..equals);
@@ -124,7 +146,12 @@ impl Notes<'_, '_, '_, '_> {
         let Some(index) = self.datum(at) else {
             return;
         };
-        let here = (self.file.index, self.file.source.line_of(self.file.span(&(at..at + 1)).start));
+        let here = (
+            self.file.index,
+            self.file
+                .source
+                .line_of(self.file.span(&(at..at + 1)).start),
+        );
         let (place, element) = place_of(self.file, at, end);
         let datum = &mut self.symbols.data[index];
         match element {
@@ -158,7 +185,10 @@ impl Notes<'_, '_, '_, '_> {
                 Some(name) if self.file.is(at + 1, b'(') && !name.is("BAS") => name,
                 _ => continue,
             };
-            let close = self.file.find(at + 2..tokens.end, b')').unwrap_or(tokens.end);
+            let close = self
+                .file
+                .find(at + 2..tokens.end, b')')
+                .unwrap_or(tokens.end);
             let mut start = at + 2;
             let mut number = 0;
             while start < close {
@@ -178,7 +208,9 @@ impl Notes<'_, '_, '_, '_> {
         match self.symbols.routine(self.routine, called) {
             Some(index) => {
                 let parameters = &self.symbols.routines[index].routine.parameters;
-                parameters.get(argument).is_none_or(|parameter| parameter.changes)
+                parameters
+                    .get(argument)
+                    .is_none_or(|parameter| parameter.changes)
             }
             None => true,
         }

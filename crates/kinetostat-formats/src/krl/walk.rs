@@ -89,7 +89,12 @@ impl<'w, 'p> Walker<'w, 'p> {
             findings: Vec::new(),
             finished: Vec::new(),
             named: BTreeSet::new(),
-            now: Now { routine: 0, runs: Runs::Once, left: None, depth: 0 },
+            now: Now {
+                routine: 0,
+                runs: Runs::Once,
+                left: None,
+                depth: 0,
+            },
         }
     }
 
@@ -113,7 +118,12 @@ impl<'w, 'p> Walker<'w, 'p> {
             true => Runs::Repeatedly,
             false => Runs::Once,
         };
-        let now = Now { routine: index, runs, left: None, depth };
+        let now = Now {
+            routine: index,
+            runs,
+            left: None,
+            depth,
+        };
         let outer = std::mem::replace(&mut self.now, now);
         self.summaries[index].begun = true;
         let mut state = self.block(&home.routine.body, State::ENTRY);
@@ -150,7 +160,11 @@ impl<'w, 'p> Walker<'w, 'p> {
                 self.now.left = Some(left);
                 state
             }
-            Statement::Branches { header, complete, blocks } => {
+            Statement::Branches {
+                header,
+                complete,
+                blocks,
+            } => {
                 let state = self.functions(tokens(self, *header), state);
                 self.now.depth += 1;
                 let runs = self.now.runs;
@@ -164,7 +178,11 @@ impl<'w, 'p> Walker<'w, 'p> {
                 self.now.depth -= 1;
                 after.unwrap_or(state)
             }
-            Statement::Loop { header, least, block } => {
+            Statement::Loop {
+                header,
+                least,
+                block,
+            } => {
                 let state = self.functions(tokens(self, *header), state);
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::Repeatedly);
@@ -213,14 +231,22 @@ impl<'w, 'p> Walker<'w, 'p> {
         }
         let routine = self.now.routine;
         if let Some(equals) = file.assign(&tokens) {
-            let mut setter = Setter { values: self.values, settings: &mut self.settings, routine };
+            let mut setter = Setter {
+                values: self.values,
+                settings: &mut self.settings,
+                routine,
+            };
             if let Err(reason) = setter.assign(&tokens, equals, &mut state) {
                 self.refuse(&tokens, reason);
             }
             return state;
         }
         if name.is("BAS") {
-            let mut setter = Setter { values: self.values, settings: &mut self.settings, routine };
+            let mut setter = Setter {
+                values: self.values,
+                settings: &mut self.settings,
+                routine,
+            };
             if let Err(reason) = setter.bas(&tokens, &mut state) {
                 self.refuse(&tokens, reason);
             }
@@ -245,8 +271,19 @@ impl<'w, 'p> Walker<'w, 'p> {
 
     fn motion(&mut self, row: &'static MotionRow, tokens: &Range<usize>, state: State) -> State {
         let mut state = self.functions(tokens.start + 1..tokens.end, state);
-        let statement = MotionStatement { row, routine: self.now.routine, tokens };
-        let followed = follow(&statement, self.values, self.targets, &mut self.settings, state, self.unknown);
+        let statement = MotionStatement {
+            row,
+            routine: self.now.routine,
+            tokens,
+        };
+        let followed = follow(
+            &statement,
+            self.values,
+            self.targets,
+            &mut self.settings,
+            state,
+            self.unknown,
+        );
         match followed {
             Ok(mut followed) => {
                 followed.motion.runs = self.now.runs;
@@ -281,7 +318,11 @@ impl<'w, 'p> Walker<'w, 'p> {
                 );
             }
             let runs = Runs::Repeatedly;
-            self.summaries[called].calls.push(Call { from: self.now.routine, at: State::UNKNOWN, runs });
+            self.summaries[called].calls.push(Call {
+                from: self.now.routine,
+                at: State::UNKNOWN,
+                runs,
+            });
             if !self.summaries[called].begun && self.now.depth < DEEPEST {
                 self.routine(called, self.now.depth + 1);
             }
@@ -296,7 +337,10 @@ impl<'w, 'p> Walker<'w, 'p> {
             let Some(name) = file.name(at).filter(|_| file.is(at + 1, b'(')) else {
                 continue;
             };
-            if name.is("BAS") || motion_row(&name).is_some() || OPERATORS.iter().any(|word| name.is(word)) {
+            if name.is("BAS")
+                || motion_row(&name).is_some()
+                || OPERATORS.iter().any(|word| name.is(word))
+            {
                 continue;
             }
             if let Some(called) = self.values.symbols.routine(self.now.routine, &name) {
@@ -329,10 +373,17 @@ impl<'w, 'p> Walker<'w, 'p> {
 
     fn enter(&mut self, called: usize, tokens: &Range<usize>, state: State) -> State {
         let now = self.now;
-        self.summaries[called].calls.push(Call { from: now.routine, at: state, runs: now.runs });
+        self.summaries[called].calls.push(Call {
+            from: now.routine,
+            at: state,
+            runs: now.runs,
+        });
         if now.depth >= DEEPEST {
             let reason = "calls and blocks are nested deeper than 200".to_owned();
-            self.refuse(tokens, (reason, "call what is deepest from the first routine"));
+            self.refuse(
+                tokens,
+                (reason, "call what is deepest from the first routine"),
+            );
             return State::UNKNOWN;
         }
         if !self.summaries[called].begun {
@@ -340,7 +391,7 @@ impl<'w, 'p> Walker<'w, 'p> {
         }
         let summary = &mut self.summaries[called];
         match summary.leaves {
-            Some(leaves) => leaves.from_call(state),
+            Some(leaves) => leaves.in_call(state),
             None => {
                 summary.recursive = true;
                 State::UNKNOWN

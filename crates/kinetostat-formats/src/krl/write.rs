@@ -39,9 +39,16 @@ impl Syntax for KrlSyntax {
         names
     }
 
-    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
-        for number in 2..=taken.len() + 2 {
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        // Of so many names one is free.
+        for _ in 0..=2 * taken.len() + 2 {
             let end = format!("_{number}");
+            *number += 1;
             let kept = near.len().min(LONGEST.checked_sub(end.len())?);
             let name = [&near[..kept], end.as_bytes()].concat();
             let upper = name.to_ascii_uppercase();
@@ -69,7 +76,12 @@ impl Syntax for KrlSyntax {
         if let Some(speed) = speed {
             edits.replace(motion.span.start..motion.span.start, speed);
         }
-        replace_word(file.part(&site.keyword), row.straight?, &site.keyword, &mut edits);
+        replace_word(
+            file.part(&site.keyword),
+            row.straight?,
+            &site.keyword,
+            &mut edits,
+        );
         if let Some((span, _)) = &site.via {
             edits.replace(span.clone(), "");
         }
@@ -96,8 +108,13 @@ impl Syntax for KrlSyntax {
         let site = motion.site.speed.as_ref()?;
         let metres_per_s = motion.speed.mm_per_s? / 1000.0;
         let rest = file.bytes().get(motion.span.end..)?;
-        let to_end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
-        let kept = rest[..to_end].strip_suffix(b"\r").map_or(to_end, <[u8]>::len);
+        let to_end = rest
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .unwrap_or(rest.len());
+        let kept = rest[..to_end]
+            .strip_suffix(b"\r")
+            .map_or(to_end, <[u8]>::len);
         let mut text = file.line_ending().to_vec();
         text.extend_from_slice(file.indentation(motion.span.start));
         text.extend_from_slice(format!("{}{metres_per_s}", site.before).as_bytes());
@@ -106,22 +123,38 @@ impl Syntax for KrlSyntax {
 
     /// The text of the fold around the statement, `FDAT_ACT=` in it, and the data of the point.
     fn renamed(&self, program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
-        let files: Vec<TokenFile<'_>> =
-            (program.files.iter().enumerate()).map(|(index, source)| TokenFile::of(index, source)).collect();
+        let files: Vec<TokenFile<'_>> = (program.files.iter().enumerate())
+            .map(|(index, source)| TokenFile::of(index, source))
+            .collect();
         let folds: Vec<Vec<Option<usize>>> = files.iter().map(folds_of).collect();
         let data: Vec<_> = files.iter().map(point_data).collect();
         let (mut copied, mut changed) = (BTreeSet::new(), BTreeSet::new());
-        for Renamed { home, file, place, name } in names {
+        for Renamed {
+            home,
+            file,
+            place,
+            name,
+        } in names
+        {
             let tokens = &files[*file];
             let (Some(old), Some(new)) = (point(tokens.source.part(place)), point(name)) else {
                 continue;
             };
-            let starts = |line: &Line| tokens.tokens.get(line.tokens.start).map_or(0, |token| token.bytes().start);
-            let line = tokens.lines.partition_point(|line| starts(line) <= place.start);
+            let starts = |line: &Line| {
+                tokens
+                    .tokens
+                    .get(line.tokens.start)
+                    .map_or(0, |token| token.bytes().start)
+            };
+            let line = tokens
+                .lines
+                .partition_point(|line| starts(line) <= place.start);
             let Some(line) = line.checked_sub(1) else {
                 continue;
             };
-            let shows = |line: usize| words(tokens, line).any(|word| tokens.source.part(&word).eq_ignore_ascii_case(old));
+            let shows = |line: usize| {
+                words(tokens, line).any(|word| tokens.source.part(&word).eq_ignore_ascii_case(old))
+            };
             // The fold of parameters is inside the fold of the motion.
             let Some(top) = folds[*file][line].filter(|top| shows(*top)) else {
                 continue;
@@ -142,7 +175,9 @@ impl Syntax for KrlSyntax {
                 let source = files[*home].source;
                 let mut copy = Edits::default();
                 copy.replace(letters.clone(), new);
-                let mut text = copy.applied_to_part(source.bytes(), statement).unwrap_or_default();
+                let mut text = copy
+                    .applied_to_part(source.bytes(), statement)
+                    .unwrap_or_default();
                 text.extend_from_slice(source.line_ending());
                 text.extend_from_slice(source.indentation(statement.start));
                 edits[*home].replace(statement.start..statement.start, text);
@@ -161,7 +196,10 @@ fn point_data(file: &TokenFile<'_>) -> BTreeMap<Vec<u8>, (Range<usize>, Range<us
         let of_type = of_type.filter(|at| is_word(*at, b"FDAT"));
         // One of several names of a statement is not copied.
         let alone = file.find(line.tokens.clone(), b',').is_none();
-        if let Some(name) = of_type.map(|at| at + 1).filter(|name| alone && *name < line.tokens.end) {
+        if let Some(name) = of_type
+            .map(|at| at + 1)
+            .filter(|name| alone && *name < line.tokens.end)
+        {
             let place = file.tokens[name].bytes();
             let upper = file.word(name).to_ascii_uppercase();
             all.insert(upper, (file.span(&line.tokens), place.start + 1..place.end));
@@ -180,7 +218,8 @@ fn point(name: &[u8]) -> Option<&[u8]> {
 fn words<'f>(file: &'f TokenFile<'_>, line: usize) -> impl Iterator<Item = Range<usize>> + use<'f> {
     let comment = file.lines[line].comment.clone().unwrap_or(0..0);
     let bytes = file.source.bytes();
-    let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$') || *byte >= 0x80;
+    let is_part =
+        |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$') || *byte >= 0x80;
     let mut at = comment.start;
     std::iter::from_fn(move || {
         while at < comment.end && !is_part(&bytes[at]) {
@@ -213,7 +252,9 @@ fn renamings(
         for at in tokens {
             let place = file.tokens[at].bytes();
             let is_data = file.word(at).split_first();
-            if is_data.is_some_and(|(first, rest)| first.eq_ignore_ascii_case(&b'F') && rest.eq_ignore_ascii_case(old)) {
+            if is_data.is_some_and(|(first, rest)| {
+                first.eq_ignore_ascii_case(&b'F') && rest.eq_ignore_ascii_case(old)
+            }) {
                 found.push((place.start + 1..place.end, new.to_vec()));
             }
         }

@@ -1,6 +1,6 @@
 //! One model of robot programs for all languages: motions with poses, and where in the text these stand.
 //!
-//! A reader fills it, [`crate::write`] takes it. It knows no language; lengths are in mm, angles in degrees where the name
+//! A reader fills it, [`crate::write()`] takes it. It knows no language; lengths are in mm, angles in degrees where the name
 //! says so, poses in the axes of the work object as written.
 
 pub(crate) mod frame;

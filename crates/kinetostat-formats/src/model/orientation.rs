@@ -4,8 +4,7 @@ use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 /// What the numbers of an orientation mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(dead_code, reason = "each language constructs its own")]
-pub(crate) enum OrientationText {
+pub enum OrientationText {
     /// w, x, y, z (RAPID).
     Quaternion,
     /// A about Z, B about the new Y, C about the new X, degrees (KRL).
@@ -23,7 +22,8 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 
 impl OrientationText {
     /// The rotation that numbers mean; none where they mean none.
-    pub(crate) fn rotation_of(self, numbers: &[f64]) -> Option<UnitQuaternion<f64>> {
+    #[must_use]
+    pub fn rotation_of(self, numbers: &[f64]) -> Option<UnitQuaternion<f64>> {
         match (self, numbers) {
             (Self::Quaternion, &[w, x, y, z]) => {
                 let quaternion = Quaternion::new(w, x, y, z);
@@ -51,7 +51,8 @@ impl OrientationText {
 
     /// The numbers of a rotation, of those that mean the same the nearest to `near`: signs of quaternions and turns of
     /// angles stay as they were written.
-    pub(crate) fn numbers_of(self, rotation: &UnitQuaternion<f64>, near: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn numbers_of(self, rotation: &UnitQuaternion<f64>, near: &[f64]) -> Vec<f64> {
         match self {
             Self::Quaternion => {
                 let q = rotation.quaternion();

@@ -1,5 +1,7 @@
 //! A program of any language.
 
+use std::collections::BTreeSet;
+
 use crate::model::motion::Motion;
 use crate::model::site::Declaration;
 use crate::text::source::SourceFile;
@@ -12,6 +14,26 @@ pub enum Language {
     Rapid,
     /// KUKA KRL.
     Krl,
+}
+
+impl Language {
+    /// The language that files of such a name are in, by what follows the last point.
+    ///
+    /// ```
+    /// use kinetostat_formats::Language;
+    ///
+    /// assert_eq!(Language::of_name("T_ROB1/Module1.MODX"), Some(Language::Rapid));
+    /// assert_eq!(Language::of_name("part.ngc"), None);
+    /// ```
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        let (_, ending) = name.rsplit_once('.')?;
+        match ending.to_ascii_lowercase().as_str() {
+            "mod" | "modx" | "prg" | "sys" | "sysx" => Some(Self::Rapid),
+            "src" | "dat" | "sub" => Some(Self::Krl),
+            _ => None,
+        }
+    }
 }
 
 /// Something that a person should know of a program that was taken.
@@ -38,4 +60,22 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
+}
+
+impl RobotProgram {
+    /// Lines of a file, counted from 1, that hold a part of a motion or of a declared target.
+    pub(crate) fn lines_of_targets(&self, file: usize) -> BTreeSet<usize> {
+        let motions = self.motions.iter().filter(|motion| motion.file == file);
+        let declared = self.declarations.iter().filter(|d| d.text.file == file);
+        let spans = motions
+            .map(|motion| &motion.span)
+            .chain(declared.map(|declaration| &declaration.statement));
+        let source = &self.files[file];
+        spans
+            .flat_map(|span| {
+                let last = span.end.saturating_sub(1).max(span.start);
+                source.line_of(span.start)..=source.line_of(last)
+            })
+            .collect()
+    }
 }

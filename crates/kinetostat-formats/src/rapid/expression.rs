@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::text::name::Name;
 use crate::rapid::tree::TokenFile;
+use crate::text::name::Name;
 
 /// Deepest nesting of lists, calls and indices.
 const DEEPEST: usize = 32;
@@ -107,7 +107,9 @@ impl Reader<'_, '_> {
                         value,
                     });
                     // A bracket that nothing opened.
-                    self.at = self.at.max(start + 1);
+                    if self.at == start {
+                        self.at += 1;
+                    }
                 }
             }
         }

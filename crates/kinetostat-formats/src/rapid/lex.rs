@@ -13,6 +13,9 @@ use winnow::token::{any, one_of, take_till, take_while};
 type Input<'i> = LocatingSlice<&'i [u8]>;
 type Nothing = winnow::error::EmptyError;
 
+/// With this old editors end a text.
+const END_OF_FILE: u8 = 0x1a;
+
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -49,6 +52,8 @@ impl Token {
 pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     let mut tokens = Vec::with_capacity(bytes.len() / 3);
     let mut input = LocatingSlice::new(bytes);
+    // What editors put at the beginning of UTF-8.
+    let _: Result<_, Nothing> = opt(b"\xef\xbb\xbf").parse_next(&mut input);
     let _ = header(&mut input);
     // `token` takes at least one byte and matches every byte, so the loop ends with the file.
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {
@@ -81,7 +86,7 @@ fn header(input: &mut Input<'_>) -> Result<(), Nothing> {
 fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
     let first = *input.first().ok_or(winnow::error::EmptyError)?;
     match first {
-        b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c => blank(input).map(|()| None),
+        b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c | END_OF_FILE => blank(input).map(|()| None),
         b'!' => take_till(0.., b'\n').value(None).parse_next(input),
         b'0'..=b'9' | b'.' => alt((number.value(Kind::Number), symbol))
             .map(Some)
@@ -98,9 +103,11 @@ fn token(input: &mut Input<'_>) -> Result<Option<Kind>, Nothing> {
 }
 
 fn blank(input: &mut Input<'_>) -> Result<(), Nothing> {
-    take_while(1.., |byte: u8| byte.is_ascii_whitespace() || byte == 0x0b)
-        .void()
-        .parse_next(input)
+    take_while(1.., |byte: u8| {
+        byte.is_ascii_whitespace() || matches!(byte, 0x0b | END_OF_FILE)
+    })
+    .void()
+    .parse_next(input)
 }
 
 fn symbol(input: &mut Input<'_>) -> Result<Kind, Nothing> {

@@ -1,11 +1,12 @@
 //! ABB RAPID: modules read together, and what the writer must know of the language.
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`]).
+//! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`calls`]).
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
 pub(crate) mod arguments;
+pub(crate) mod calls;
 pub(crate) mod expression;
 pub(crate) mod frames;
 pub(crate) mod lex;

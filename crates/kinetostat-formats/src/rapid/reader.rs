@@ -11,7 +11,7 @@ use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
 use crate::rapid::motion::Followed;
-use crate::rapid::parser::modules_of;
+use crate::rapid::parser::modules::modules_of;
 use crate::rapid::symbols::Symbols;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Module, TokenFile};
@@ -19,8 +19,8 @@ use crate::rapid::usage::note_usage;
 use crate::rapid::walk::walk;
 use crate::text::source::SourceFile;
 
-/// Most bytes of a file; the memory needed is some forty times as much.
-const MOST_BYTES: usize = 1 << 28;
+/// Most bytes of a file; the memory needed is some twenty times as much.
+const MOST_BYTES: usize = 1 << 26;
 
 /// Reads RAPID modules (`.mod`, `.modx`, `.prg`, `.sys`) together: those that run together, with the data they use.
 ///
@@ -58,7 +58,7 @@ pub fn read_rapid(
         faults.push(ProgramError::at(
             file,
             0..0,
-            "the file is larger than 256 MiB",
+            "the file is larger than 64 MiB",
             "divide it",
         ));
     }

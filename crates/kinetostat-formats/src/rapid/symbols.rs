@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::error::ProgramError;
-use crate::text::name::Name;
+use crate::error::{ProgramError, note};
 use crate::rapid::tree::{
     Change, DatumNode, Module, Routine, RoutineKind, Sight, Statement, TokenFile,
 };
+use crate::text::name::Name;
 
 /// A datum of the program.
 #[derive(Debug)]
@@ -70,7 +70,7 @@ impl<'p> Symbols<'p> {
                     Sight::Everywhere => &mut all.everywhere,
                 };
                 if names.insert(node.name, index).is_some() {
-                    faults.push(twice(&files[*file], node.name_at));
+                    note(faults, || twice(&files[*file], node.name_at));
                 }
             }
             all.in_module.push(own);
@@ -88,7 +88,7 @@ impl<'p> Symbols<'p> {
                     Sight::Everywhere => &mut all.routines_everywhere,
                 };
                 if names.insert(routine.name, index).is_some() {
-                    faults.push(twice(&files[*file], routine.name_at));
+                    note(faults, || twice(&files[*file], routine.name_at));
                 }
                 let mut locals = BTreeMap::new();
                 for parameter in &routine.parameters {
@@ -97,7 +97,7 @@ impl<'p> Symbols<'p> {
                 for node in &routine.data {
                     let index = all.add(*file, node);
                     if locals.insert(node.name, Meaning::Datum(index)).is_some() {
-                        faults.push(twice(&files[*file], node.name_at));
+                        note(faults, || twice(&files[*file], node.name_at));
                     }
                 }
                 loop_variables(&files[*file], &routine.body, &mut locals);

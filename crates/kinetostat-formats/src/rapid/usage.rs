@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::text::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::table::{Ends, motion_row, row};
 use crate::rapid::tree::{Change, Statement, TokenFile};
 use crate::table::Treatment;
+use crate::text::name::Name;
 
 /// Notes it in the symbols, for all statements of all routines.
 pub(crate) fn note_usage(files: &[TokenFile<'_>], symbols: &mut Symbols<'_>) {
@@ -151,11 +151,21 @@ impl Notes<'_, '_, '_, '_> {
     /// The ends of a motion are followed by the writer; what an offset begins at is kept.
     fn motion(&mut self, tokens: Range<usize>, targets: usize) {
         let (mut open, mut argument) = (0_usize, 0);
+        // `MoveL\Conc, p1`: what begins with a backslash is no argument in order.
+        let mut begins = true;
+        let mut ordered = false;
         for at in tokens {
-            match self.file.tokens[at].kind {
+            let kind = self.file.tokens[at].kind;
+            if std::mem::take(&mut begins) {
+                ordered = kind != Kind::Symbol(b'\\');
+            }
+            match kind {
                 Kind::Symbol(b'(' | b'[' | b'{') => open += 1,
                 Kind::Symbol(b')' | b']' | b'}') => open = open.saturating_sub(1),
-                Kind::Symbol(b',') if open == 0 => argument += 1,
+                Kind::Symbol(b',') if open == 0 => {
+                    argument += usize::from(ordered);
+                    begins = true;
+                }
                 Kind::Word if argument >= targets || open > 0 => self.keep(at..at + 1),
                 _ => {}
             }

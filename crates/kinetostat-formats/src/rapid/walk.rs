@@ -3,55 +3,37 @@
 //! Where a motion begins is known if it is the same at every run. Each routine is walked once; what depends on where it is
 //! called from stays open until all its calls are known.
 
-use crate::error::ProgramError;
+use std::collections::BTreeSet;
+
+use crate::error::{ProgramError, note};
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
 use crate::options::{ReadOptions, UnknownTargets};
+use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
-use crate::text::name::Name;
 use crate::rapid::table::{motion_row, row};
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
 use crate::table::Treatment;
+use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;
 
-/// Where the tool is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
-    /// Where it was as the routine was called.
-    Entry,
-    /// At the end of a motion.
-    Motion(usize),
-    /// Not known from the text.
-    Unknown,
-}
-
-fn merge(one: Place, other: Place) -> Place {
-    match one == other {
-        true => one,
-        false => Place::Unknown,
-    }
-}
-
-/// What a routine is found to do.
-#[derive(Debug, Clone, Default)]
-struct Summary {
-    /// None while it is walked or was not.
-    leaves: Option<Place>,
-    begun: bool,
-    calls: Vec<Call>,
-    recursive: bool,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Call {
-    from: usize,
-    at: Place,
-    runs: Runs,
-}
+/// Statements that leave the path as it is, and change what deflection depends on.
+const EFFECTS: [(&str, &str); 4] = [
+    ("VelSet", "changes the speeds behind it"),
+    ("SpeedRefresh", "changes the speeds behind it"),
+    (
+        "GripLoad",
+        "changes the load that the controller reckons with",
+    ),
+    (
+        "MechUnitLoad",
+        "changes the load that the controller reckons with",
+    ),
+];
 
 /// What the walk gives: motions in their order, with the external axes at their ends.
 pub(crate) struct Walked {
@@ -82,6 +64,7 @@ pub(crate) fn walk(
         motions: Vec::new(),
         places: Vec::new(),
         findings: Vec::new(),
+        unknown_calls: BTreeSet::new(),
         moving_functions,
         summaries: vec![Summary::default(); count],
         finished: Vec::new(),
@@ -120,6 +103,8 @@ struct Walker<'w, 'p> {
     /// Routine and place at the beginning of each motion.
     places: Vec<(usize, Place)>,
     findings: Vec<Finding>,
+    /// Files and names of what they call and none declares: each is said once.
+    unknown_calls: BTreeSet<(usize, Option<Name>)>,
     /// By routine: a function that may move the tool.
     moving_functions: Vec<bool>,
     summaries: Vec<Summary>,
@@ -198,7 +183,7 @@ impl<'p> Walker<'_, 'p> {
             place = self.statement(statement, place);
             if self.now.left.is_some() {
                 // What is behind a RETURN in a branch runs on a condition.
-                self.now.runs = self.now.runs.max(Runs::OnCondition);
+                self.now.runs = Runs::OnCondition.max(self.now.runs);
             }
         }
         self.now.runs = runs;
@@ -293,8 +278,9 @@ impl<'p> Walker<'_, 'p> {
                     Place::Motion(self.motions.len() - 1)
                 }
                 Err((reason, remedy)) => {
-                    self.faults
-                        .push(ProgramError::at(file.source, span, reason, remedy));
+                    note(self.faults, || {
+                        ProgramError::at(file.source, span, reason, remedy)
+                    });
                     Place::Unknown
                 }
             };
@@ -308,11 +294,26 @@ impl<'p> Walker<'_, 'p> {
         let place = self.functions(tokens.start + 1..tokens.end, place);
         match name.as_ref().and_then(row).map(|row| row.treatment) {
             Some(Treatment::Refused { reason, remedy }) => {
-                self.faults
-                    .push(ProgramError::at(file.source, span, reason, remedy));
+                note(self.faults, || {
+                    ProgramError::at(file.source, span, reason, remedy)
+                });
                 Place::Unknown
             }
-            Some(_) => place,
+            Some(_) => {
+                let name = String::from_utf8_lossy(file.word(tokens.start));
+                let effects = EFFECTS
+                    .iter()
+                    .find(|(word, _)| word.eq_ignore_ascii_case(&name));
+                if let Some((word, effect)) = effects {
+                    self.findings.push(Finding {
+                        file: file.index,
+                        line: file.source.line_of(span.start),
+                        message: format!("{word} {effect}: it is carried, and not followed"),
+                    });
+                }
+                place
+            }
+            None if !self.unknown_calls.insert((file.index, name)) => Place::Unknown,
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
                 self.findings.push(Finding {
@@ -338,12 +339,14 @@ impl<'p> Walker<'_, 'p> {
         });
         if now.depth >= DEEPEST {
             let file = &self.values.files[self.values.symbols.routines[from].file];
-            self.faults.push(ProgramError::at(
-                file.source,
-                span,
-                "calls and blocks are nested deeper than 200",
-                "call what is deepest from main",
-            ));
+            note(self.faults, || {
+                ProgramError::at(
+                    file.source,
+                    span,
+                    "calls and blocks are nested deeper than 200",
+                    "call what is deepest from main",
+                )
+            });
             return Place::Unknown;
         }
         if !self.summaries[called].begun {
@@ -362,34 +365,7 @@ impl<'p> Walker<'_, 'p> {
 
     /// Fills in what depends on the calls of each routine.
     fn resolve(mut self, main: Option<usize>) -> Walked {
-        let count = self.summaries.len();
-        let mut runs = vec![Runs::Elsewhere; count];
-        let mut entry = vec![Place::Unknown; count];
-        // Callers first.
-        for routine in self.finished.iter().rev().copied() {
-            let summary = &self.summaries[routine];
-            let from = |call: &Call| match call.at {
-                Place::Entry => entry[call.from],
-                place => place,
-            };
-            let reached = summary
-                .calls
-                .iter()
-                .filter(|call| runs[call.from] != Runs::Elsewhere);
-            let mut reached = reached.map(|call| runs[call.from].max(call.runs));
-            runs[routine] = match (reached.next(), reached.next()) {
-                _ if summary.recursive => Runs::Repeatedly,
-                (None, _) if Some(routine) == main => Runs::Once,
-                (None, _) => Runs::Elsewhere,
-                (Some(once), None) => once,
-                (Some(_), Some(_)) => Runs::Repeatedly,
-            };
-            let mut places = summary.calls.iter().map(from);
-            entry[routine] = match (Some(routine) == main || summary.recursive, places.next()) {
-                (false, Some(first)) => places.fold(first, merge),
-                _ => Place::Unknown,
-            };
-        }
+        let (runs, entry) = of_calls(&self.summaries, &self.finished, main);
         for (followed, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
             let place = match place {
                 Place::Entry => entry[*routine],
@@ -399,7 +375,7 @@ impl<'p> Walker<'_, 'p> {
                 Place::Motion(index) => Some(index),
                 Place::Entry | Place::Unknown => None,
             };
-            followed.motion.runs = followed.motion.runs.max(runs[*routine]);
+            followed.motion.runs = runs[*routine].max(followed.motion.runs);
         }
         Walked {
             motions: self.motions,

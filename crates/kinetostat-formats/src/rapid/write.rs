@@ -1,14 +1,15 @@
 //! What the writer must know of RAPID.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::options::{ExactStops, WriteOptions};
 use crate::rapid::lex::{Kind, tokens_of};
-use crate::text::name::{LONGEST, Name};
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
+use crate::text::name::{LONGEST, Name};
 use crate::writing::syntax::Syntax;
 
 /// RAPID.
@@ -33,9 +34,16 @@ impl Syntax for RapidSyntax {
         names
     }
 
-    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>> {
-        for number in 2..=taken.len() + 2 {
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        // One of so many is free.
+        for _ in 0..=taken.len() {
             let end = format!("_{number}");
+            *number += 1;
             let kept = near.len().min(LONGEST.checked_sub(end.len())?);
             let name = [&near[..kept], end.as_bytes()].concat();
             if taken.insert(name.to_ascii_uppercase()) {
@@ -59,7 +67,7 @@ impl Syntax for RapidSyntax {
         let mut edits = Edits::default();
         replace_word(file.part(&site.keyword), word, &site.keyword, &mut edits);
         if let Some((span, _)) = &site.via {
-            edits.replace(span.clone(), "");
+            leave_out(span, &site.keyword, &mut edits);
         }
         edits.replace(site.target_span.clone(), literal);
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
@@ -79,14 +87,23 @@ impl Syntax for RapidSyntax {
         if let (Some((_, word)), Some((span, _))) = (words, &site.via) {
             let written = program.files[motion.file].part(&site.keyword);
             replace_word(written, word, &site.keyword, edits);
-            edits.replace(span.clone(), "");
+            leave_out(span, &site.keyword, edits);
         }
     }
 }
 
 /// A word of the same letters stays as it is written.
-fn replace_word(written: &[u8], word: &str, span: &std::ops::Range<usize>, edits: &mut Edits) {
+fn replace_word(written: &[u8], word: &str, span: &Range<usize>, edits: &mut Edits) {
     if !written.eq_ignore_ascii_case(word.as_bytes()) {
         edits.replace(span.clone(), word);
     }
+}
+
+/// Takes the pose on a circle out; a blank stays between the word and what follows (`MoveC[[...]],p1`).
+fn leave_out(via: &Range<usize>, keyword: &Range<usize>, edits: &mut Edits) {
+    let blank = match via.start == keyword.end {
+        true => " ",
+        false => "",
+    };
+    edits.replace(via.clone(), blank);
 }

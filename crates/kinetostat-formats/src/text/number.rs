@@ -13,11 +13,10 @@ pub(crate) struct NumberText {
 
 /// Whether a number may become longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Width {
+pub enum Width {
     /// As many bytes as needed.
     Free,
     /// As wide as it was where it fits: columns stay.
-    #[allow(dead_code, reason = "for files with columns: FANUC LS, CATIA's APT")]
     Kept,
 }
 
@@ -40,7 +39,8 @@ const MOST_DECIMALS: usize = 12;
 
 /// The value as the text would print it: with as many decimals as it had, but at least so many; with its plus sign and
 /// without the zero before the point if it had none. A value that prints as the old one keeps the old text, byte for byte.
-pub(crate) fn printed(
+#[must_use]
+pub fn printed(
     original: &[u8],
     old: f64,
     value: f64,

@@ -54,10 +54,12 @@ impl Demands {
                 edits[home].replace(declaration.text.whole.clone(), kept);
             }
             let mut new: BTreeMap<&[u8], Vec<u8>> = BTreeMap::new();
+            let mut number = 2;
             for demand in demands.iter().filter(|demand| demand.literal != kept) {
                 if !new.contains_key(demand.literal.as_slice()) {
                     let taken = taken.get_or_insert_with(|| syntax.names(program));
-                    let name = syntax.free_name(file.part(&declaration.name), taken)?;
+                    let name =
+                        syntax.free_name(file.part(&declaration.name), &mut number, taken)?;
                     let text = further(program, declaration, &name, &demand.literal)?;
                     // Before it: what stands behind it on its line may be a comment on it.
                     let start = declaration.statement.start;

@@ -1,6 +1,6 @@
 //! From pieces of motions to edits of files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::UnitQuaternion;
 
@@ -12,6 +12,7 @@ use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::text::number::Width;
+use crate::text::source::SourceFile;
 use crate::writing::declared::Demands;
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
@@ -62,9 +63,36 @@ pub(crate) fn write_with(
         .map(|(index, edits)| {
             let file = &program.files[index];
             let bytes = edits.applied_to(file.bytes());
-            Ok((file.name().to_owned(), bytes.ok_or_else(|| overlap(index))?))
+            let bytes = bytes.ok_or_else(|| overlap(index))?;
+            check_lines(file, &bytes, options)?;
+            Ok((file.name().to_owned(), bytes))
         })
         .collect()
+}
+
+/// No line that changed is longer than allowed.
+fn check_lines(
+    file: &SourceFile,
+    written: &[u8],
+    options: &WriteOptions,
+) -> Result<(), WriteError> {
+    let Some(limit) = options.max_line_bytes else {
+        return Ok(());
+    };
+    let old = file.bytes().split(|byte| *byte == b'\n');
+    let old: BTreeSet<&[u8]> = old.filter(|line| line.len() > limit).collect();
+    for (index, line) in written.split(|byte| *byte == b'\n').enumerate() {
+        let bytes = line.strip_suffix(b"\r").unwrap_or(line).len();
+        if bytes > limit && !old.contains(line) {
+            return Err(WriteError::LineTooLong {
+                file: file.name().to_owned(),
+                line: index + 1,
+                bytes,
+                limit,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Why a motion cannot be written, and what to do.
@@ -98,7 +126,9 @@ impl Writer<'_> {
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
         let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
         if self.text_of(&motion.site.target).is_some_and(states_none)
-            && pieces.iter().any(|piece| piece.orientation.is_some_and(turns))
+            && pieces
+                .iter()
+                .any(|piece| piece.orientation.is_some_and(turns))
         {
             return Err((
                 "the end states no orientation that could be corrected",

@@ -13,8 +13,13 @@ pub(crate) trait Syntax {
     /// All names of the program, as the language compares them.
     fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>>;
 
-    /// A name like `near` that is not taken, and takes it.
-    fn free_name(&self, near: &[u8], taken: &mut BTreeSet<Vec<u8>>) -> Option<Vec<u8>>;
+    /// A name like `near` with a number, from this one on, that is not taken; it is taken then, and the number is the next.
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>>;
 
     /// A statement that goes straight to a pose (its literal) before the end of a motion, as that motion is written
     /// otherwise; without line ending.
@@ -31,7 +36,11 @@ pub(crate) trait Syntax {
     fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits);
 
     /// Where a written speed stays in force for the motions behind: where to restore the speed of before, and how.
-    fn restored_speed(&self, _program: &RobotProgram, _motion: &Motion) -> Option<(usize, Vec<u8>)> {
+    fn restored_speed(
+        &self,
+        _program: &RobotProgram,
+        _motion: &Motion,
+    ) -> Option<(usize, Vec<u8>)> {
         None
     }
 

@@ -9,5 +9,7 @@
 )]
 
 mod krl;
+mod numbers;
+mod orientations;
 mod rapid;
 mod real_files;

@@ -40,7 +40,7 @@ fn shifts(
     };
     in_chunks(points, |[own, without], points| {
         let shift = |point: &&PointResult| {
-            let pose = task.placement.tool_pose(&point.position_mm.into());
+            let pose = point.wanted_pose(&task.placement);
             let none = Wrench::zero();
             let (_, sagged) = own.rest(mechanism, &pose, &none, orientation).ok()?;
             let (_, straight) = without.rest(&bare, &pose, &none, orientation).ok()?;

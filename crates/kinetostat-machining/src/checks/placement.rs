@@ -63,9 +63,7 @@ pub(crate) fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Opti
     };
     let slack = 1e-3;
     let outside = |p: &&PointResult| {
-        let at = (task.placement.tool_pose(&p.position_mm.into()) * flange)
-            .translation
-            .vector;
+        let at = (p.wanted_pose(&task.placement) * flange).translation.vector;
         (0..3).any(|k| at[k] < low[k] - slack || at[k] > high[k] + slack)
     };
     let first = points

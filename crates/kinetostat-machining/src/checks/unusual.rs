@@ -60,7 +60,7 @@ pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
 pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
     let beyond = of_task(task).into_iter();
     let mut list: Vec<Warning> = beyond.map(|beyond| as_warning(&beyond)).collect();
-    let motion = no_motion(task.path);
+    let motion = no_motion(task.path());
     list.extend(motion.map(|reason| Warning::new(WarningCode::Program, reason.to_string())));
     list
 }
@@ -94,7 +94,11 @@ pub(crate) fn unusual(
     let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(never_acts(task, points));
     list.extend(odd_tools(task));
-    list.extend(origin_in_metres(task.mechanism, &task.placement, task.path));
+    list.extend(origin_in_metres(
+        task.mechanism,
+        &task.placement,
+        task.path(),
+    ));
     list.extend(outside_workspace(task, points));
     let limits = &task.bounds.limits;
     if let Some((size, at)) = most(points, |p| size(&p.correction_mm)).filter(|_| compensated) {

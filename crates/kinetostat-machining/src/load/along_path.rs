@@ -7,7 +7,8 @@
 //! f = F_r e_r + F_t e_t + F_a z,   e_t along the feed (seen along the tool axis z), e_r = e_t x z
 //! ```
 //!
-//! so that on a counter-clockwise circle `e_r` points outwards. At a gentle corner the load turns
+//! so that on a counter-clockwise circle `e_r` points outwards. Where the program turns the tool, z is the direction from its tip
+//! to its holder and the feed is seen along that. At a gentle corner the load turns
 //! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
 //! while the written program steps there is a matter of reading ([`CornerLoad`]).
 
@@ -18,11 +19,11 @@ use kinetostat_program::{Curve, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::profile::{CutAxes, ForceAlongPath};
-use crate::cut::station::heading;
 use crate::cut::vertices::Scale;
 use crate::load::headings::{Headings, headings};
 use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::load::tool::{Tool, tool_on};
+use crate::load::tool_frame::{heading_on, tool_frame};
 use crate::placement::Placement;
 use crate::profile::by_move::Profile;
 
@@ -154,7 +155,11 @@ impl<'a> LoadAlongPath<'a> {
         share: f64,
         direction: &Vector3<f64>,
     ) -> Wrench {
-        let along = heading(direction.try_normalize(1e-9));
+        let along = heading_on(
+            self.path,
+            (move_index, share),
+            direction.try_normalize(1e-9),
+        );
         self.wrench_headed(placement, move_index, share, along)
     }
 
@@ -212,6 +217,14 @@ impl<'a> LoadAlongPath<'a> {
         }
         let in_base =
             |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
+        // Radial, tangential and axial belong to the tool, whichever way the program turns it.
+        let of_tool = |w: Wrench| match motion.tool_turn {
+            None => w,
+            Some(_) => {
+                let frame = tool_frame(self.path, move_index, share);
+                w.rotated(&frame.to_rotation_matrix())
+            }
+        };
         let full = match load.cutting {
             CuttingLoad::None => Wrench::zero(),
             CuttingLoad::Constant {
@@ -221,11 +234,14 @@ impl<'a> LoadAlongPath<'a> {
             CuttingLoad::Constant {
                 axes: LoadAxes::Tool,
                 wrench,
-            } => wrench.rotated(&placement.tool_orientation.to_rotation_matrix()),
+            } => {
+                let orientation = placement.orientation_on(motion, share);
+                wrench.rotated(&orientation.to_rotation_matrix())
+            }
             CuttingLoad::Constant {
                 axes: LoadAxes::Feed,
                 wrench,
-            } => in_base(headed(&wrench, heading)),
+            } => in_base(of_tool(headed(&wrench, heading))),
             CuttingLoad::FromCut { .. } => {
                 let Some(cut) = &self.cut else {
                     return Wrench::zero();
@@ -235,7 +251,7 @@ impl<'a> LoadAlongPath<'a> {
                 in_base(match cut.axes {
                     CutAxes::Part => wrench,
                     // Along the tool axis, forces of the cut are in axes of the part.
-                    CutAxes::Feed => headed(&wrench, heading.or(Some(0.0))),
+                    CutAxes::Feed => of_tool(headed(&wrench, heading.or(Some(0.0)))),
                 })
             }
             CuttingLoad::Milling {
@@ -249,7 +265,7 @@ impl<'a> LoadAlongPath<'a> {
                     force +=
                         Vector3::new(s, -c, 0.0) * radial + Vector3::new(c, s, 0.0) * tangential;
                 }
-                in_base(Wrench::new(force, Vector3::zeros()))
+                in_base(of_tool(Wrench::new(force, Vector3::zeros())))
             }
         };
         Wrench(full.0 * part)
@@ -273,7 +289,9 @@ impl<'a> LoadAlongPath<'a> {
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
         let h = self.headings.get(move_index).copied().unwrap_or_default();
-        let own = h.around.or_else(|| heading(motion.tangent(share)))?;
+        let own = h
+            .around
+            .or_else(|| heading_on(self.path, (move_index, share), motion.tangent(share)))?;
         let length = motion.length_mm();
         let load = self.load_of(move_index);
         let zone = load.turning_length_mm;

@@ -2,10 +2,11 @@
 
 use kinetostat_program::{Move, MoveKind, Path};
 
-use crate::cut::station::{SHORT_MM, heading};
+use crate::cut::station::SHORT_MM;
 use crate::load::law::ProgramLoad;
+use crate::load::tool_frame::heading_on;
 
-/// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
+/// Heading of a move at its two ends, seen along z of the part frame (along the tool where the program turns it), rad, and how far the heading
 /// of the load differs there because a corner is gentle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Headings {
@@ -45,7 +46,7 @@ fn around(path: &Path, move_index: usize) -> Option<f64> {
     let to = reach(&mut path.moves[move_index + 1..].iter(), false);
     let chord = to - from;
     match chord.norm() > SHORT_MM {
-        true => heading(chord.try_normalize(0.0)),
+        true => heading_on(path, (move_index, 0.5), chord.try_normalize(0.0)),
         false => None,
     }
 }
@@ -64,8 +65,12 @@ pub(crate) fn headings<'l>(
     for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
         if m.kind == MoveKind::Feed && load_of(i).turns() {
             h.around = around(path, i);
-            h.at_start = h.around.or_else(|| heading(m.tangent(0.0)));
-            h.at_end = h.around.or_else(|| heading(m.tangent(1.0)));
+            h.at_start = h
+                .around
+                .or_else(|| heading_on(path, (i, 0.0), m.tangent(0.0)));
+            h.at_end = h
+                .around
+                .or_else(|| heading_on(path, (i, 1.0), m.tangent(1.0)));
         }
     }
     for i in 1..headings.len() {

@@ -36,7 +36,7 @@ pub enum CuttingLoad {
         radial: f64,
         /// Along the feed.
         tangential: f64,
-        /// Along the part frame's z.
+        /// Along the part frame's z; along the tool, away from the part, where the program turns the tool.
         axial: f64,
     },
     /// Computed from the cut or measured, another at every place: see [`crate::ForceAlongPath`].

@@ -10,3 +10,4 @@ pub(crate) mod ramp_findings;
 pub(crate) mod ramps;
 pub(crate) mod runs;
 pub(crate) mod tool;
+pub(crate) mod tool_frame;

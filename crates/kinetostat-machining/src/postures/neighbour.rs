@@ -54,7 +54,7 @@ impl Neighbour {
         mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
-        orientation: Orientation,
+        (orientation, corrected): (Orientation, Directions),
     ) -> Result<Posture, Error> {
         let answer = if orientation.follows {
             let near = self.near(pose).map(|(posture, _)| posture);
@@ -72,7 +72,7 @@ impl Neighbour {
                     (posture, state)
                 }
             };
-            target_under_load(&near, pose, wrench, Directions::POSITION, state)?
+            target_under_load(&near, pose, wrench, corrected, state)?
         };
         answer.0.within_limits()?;
         self.last = Some(answer.clone());

@@ -1,8 +1,11 @@
 //! One place of the path: what happens there, where the tool is and what the machine carries.
 
+use kinetostat::Pose;
 use kinetostat::chain::FoundBy;
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
+
+use crate::placement::Placement;
 
 /// What happens at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,6 +43,9 @@ impl PointKind {
 pub struct PointResult {
     /// Line of the input program, from 1.
     pub line: usize,
+    /// Index of its move in the path.
+    #[serde(skip)]
+    pub move_index: usize,
     /// Line of the written program, from 1 (0 if none).
     pub output_line: usize,
     /// Kind of move.
@@ -60,6 +66,9 @@ pub struct PointResult {
     pub path_mm: f64,
     /// Where the tool should be, program coordinates, mm.
     pub position_mm: [f64; 3],
+    /// Orientation of the tool in a program that states it, program axes from tool axes: quaternion, scalar first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool_orientation: Option<[f64; 4]>,
     /// Where the tool is without compensation minus where it should be, mm.
     pub error_before_mm: [f64; 3],
     /// The same for the written program.
@@ -106,6 +115,16 @@ pub struct PointResult {
 
 fn is_direct(found_by: &FoundBy) -> bool {
     found_by.unless_directly().is_none()
+}
+
+impl PointResult {
+    /// Where the tool should be, base frame, m.
+    pub(crate) fn wanted_pose(&self, placement: &Placement) -> Pose {
+        let stated = self
+            .tool_orientation
+            .map(|[w, i, j, k]| UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k)));
+        placement.pose(&self.position_mm.into(), placement.orientation_of(stated))
+    }
 }
 
 pub(crate) fn size(v: &[f64; 3]) -> f64 {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::flat_program::FlatProgram;
 use crate::load::law::CornerLoad;
 
 /// Model, program, load and tolerances of a run, in words and numbers.
@@ -16,6 +17,9 @@ pub struct RunInputs {
     pub model_deviations: Vec<String>,
     /// File name of the program.
     pub program: String,
+    /// The flat program that the run goes along, where the program was run once and written flat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flat: Option<FlatProgram>,
     /// Files that were read, with their hashes.
     #[serde(default)]
     pub files: Vec<FileRead>,

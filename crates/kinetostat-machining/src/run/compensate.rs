@@ -1,10 +1,7 @@
 //! A run over a program: deflections along it, the compensated program, and the proof from the
 //! written bytes.
 
-use kinetostat_program::{
-    Corrected, CorrectionField, Monitor, NoCorrection, Verification, verify_written,
-    write_corrected,
-};
+use kinetostat_program::{Corrected, CorrectionField, Monitor, NoCorrection, Verification};
 
 use crate::checks::motion::no_motion;
 use crate::checks::refused::{of_accounting, of_points, of_task};
@@ -40,7 +37,7 @@ fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
 }
 
 fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
-    match no_motion(task.path) {
+    match no_motion(task.path()) {
         Some(reason) => Err(RunError::NoMotion(reason)),
         None => Ok(()),
     }
@@ -52,7 +49,7 @@ fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
 /// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
+    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
     let looked = FirstLook::new(task, &load, watch)?;
     refuse(looked.folding_load(task))?;
     let Ramped {
@@ -60,7 +57,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         findings: ramps,
         ..
     } = load.ramped(looked.stiffness());
-    let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
+    let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
     let (mut points, _) = solve(task, sites, false, watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
@@ -77,7 +74,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     refuse(of_task(task))?;
     has_motion(task)?;
-    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools).with_cut(task.cut);
+    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
     let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
     refuse(looked.gross(task))?;
     let Ramped {
@@ -85,7 +82,8 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         acting: load,
         findings: ramps,
     } = load.ramped(looked.stiffness());
-    let field = ModelField::new(task.mechanism, task.placement, &followed);
+    let field =
+        ModelField::new(task.mechanism, task.placement, &followed).correcting(task.corrected);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
@@ -98,7 +96,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         )?;
         let stable = points.iter().all(|p| p.stable);
         let allowed_mm = bound_mm(&task.writing, arcs, &written.accounting);
-        if !stable || !again.divides(task.path, &field, &points, allowed_mm) {
+        if !stable || !again.divides(task.path(), &field, &points, allowed_mm) {
             break (written, check, points, worse, allowed_mm);
         }
     };
@@ -149,7 +147,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
             false => again.description(allowed_mm),
         },
         within_before,
-        changes: changes(task.path, &written, &task.writing, |line| {
+        changes: changes(task.path(), &written, &task.writing, |line| {
             task.load_on(line).largest_step
         }),
         ramps,
@@ -174,15 +172,9 @@ fn write_and_read_again(
 ) -> Result<(Corrected, Verification), RunError> {
     watch.stage("corrections", 0);
     let monitor = Forward(watch);
-    let written = write_corrected(task.program, task.path, field, &task.writing, &monitor)?;
+    let written = task.program.write(field, &task.writing, &monitor)?;
     watch.stage("check of the written program", 0);
-    let check = verify_written(
-        task.program,
-        task.path,
-        &written,
-        &task.reading,
-        &task.writing,
-    )?;
+    let check = task.program.verify(&written, &task.writing)?;
     Ok((written, check))
 }
 

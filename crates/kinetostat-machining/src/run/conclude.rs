@@ -77,7 +77,7 @@ pub(crate) fn conclude(
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
         tolerance: ToleranceResult::default(),
         summary,
-        cutting: task.cut.map(|forces| cutting_result(forces, task.path)),
+        cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
@@ -168,7 +168,7 @@ fn warnings(
     checked: &Checked,
 ) -> Vec<Warning> {
     let of_writer = written.map(|w| w.accounting.warnings.as_slice());
-    let mut warnings = of_program(task.path, of_writer);
+    let mut warnings = of_program(task.path(), of_writer);
     warnings.extend(checked.divided_again.clone());
     warnings.extend(changes_fast(task, checked));
     warnings.extend(changes_faster_than_stated(task, load, points, checked));

@@ -9,7 +9,9 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat_program::{CorrectionField, FieldFailure, Move, Path, Request, Structure};
+use kinetostat_program::{
+    Correction, CorrectionField, FieldFailure, Move, Path, Request, Structure,
+};
 use nalgebra::Vector3;
 
 use crate::field::ModelField;
@@ -37,7 +39,7 @@ pub(crate) struct Refined<'a> {
 }
 
 impl CorrectionField for Refined<'_> {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         self.field.corrections(requests)
     }
 
@@ -81,8 +83,8 @@ impl Again {
         let answers = field.corrections(&off.iter().map(|(r, _)| *r).collect::<Vec<_>>());
         let mut found = false;
         for ((request, point), answer) in off.into_iter().zip(answers) {
-            let Ok(mut missing) = answer else { continue };
-            missing -= Vector3::from(point.correction_mm);
+            let Ok(answer) = answer else { continue };
+            let mut missing = answer.shift_mm - Vector3::from(point.correction_mm);
             for axis in (0..3).filter(|axis| !path.stated[*axis]) {
                 missing[axis] = 0.0;
             }
@@ -130,15 +132,15 @@ impl Again {
 
 /// The place of a point inside a block that can be divided.
 fn inside(path: &Path, point: &PointResult) -> Option<Request> {
-    let move_index = path.moves.binary_search_by_key(&point.line, |m| m.line);
-    let move_index = move_index.ok()?;
-    let motion = &path.moves[move_index];
+    let move_index = point.move_index;
+    let motion = path.moves.get(move_index)?;
     let divided = motion.is_known_feed();
     (divided && point.share > 0.0 && point.share < 1.0).then(|| Request {
         move_index,
         share: point.share,
         position_mm: motion.point(point.share),
         tangent: motion.tangent(point.share),
+        orientation: motion.orientation(point.share),
         turning: None,
     })
 }

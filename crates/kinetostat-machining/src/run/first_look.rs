@@ -42,7 +42,7 @@ impl FirstLook {
         load: &LoadAlongPath<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, RunError> {
-        let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
+        let sites = || of_path(task.path(), load, &task.placement, spacing_mm(task));
         let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
         let machines = Machines::new(task);
         let mut look = Self {

@@ -29,7 +29,7 @@ impl<'t, 'm> Machines<'t, 'm> {
     }
 
     fn tool(&self, site: &Site) -> Option<&'t Tool<'m>> {
-        tool_on(self.task.tools, self.task.path, site.line)
+        tool_on(self.task.tools, self.task.path(), site.line)
     }
 
     /// Whether two places are cut with one tool.

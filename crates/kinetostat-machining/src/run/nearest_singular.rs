@@ -23,7 +23,7 @@ pub(crate) fn nearest_singular(
     let mut last: Option<Posture> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for point in points.iter().step_by(stride) {
-        let pose = task.placement.tool_pose(&point.position_mm.into());
+        let pose = point.wanted_pose(&task.placement);
         let mechanism = task.mechanism_on(point.line);
         let near = last
             .as_ref()

@@ -33,7 +33,12 @@ pub(crate) fn errors_under(
             in_chunks(run, |memory, sites| {
                 let poses: Vec<Pose> = sites
                     .iter()
-                    .map(|(site, _)| place.tool_pose(&site.commanded))
+                    .map(|(site, _)| {
+                        place.pose(
+                            &site.commanded,
+                            place.orientation_of(site.commanded_orientation),
+                        )
+                    })
                     .collect();
                 let wrenches: Vec<Wrench> = sites.iter().map(|(_, wrench)| *wrench).collect();
                 let found = machine.rest(&poses, &wrenches);

@@ -66,6 +66,9 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
     }
 }
 
+/// A position in mm and the orientation there, if the program states it.
+type Place<'s> = (&'s Vector3<f64>, Option<UnitQuaternion<f64>>);
+
 /// Points of a chunk, by vector kernels where there are some, else one after the other; up to the first that has no
 /// answer.
 pub(crate) fn chunk(
@@ -76,14 +79,18 @@ pub(crate) fn chunk(
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
     let (place, mechanism) = (&task.placement, machine.mechanism());
-    let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
-        sites.iter().map(|s| place.tool_pose(of(s))).collect()
+    let poses = |of: fn(&Site) -> Place<'_>| -> Vec<Pose> {
+        let pose = |s: &Site| {
+            let (position, orientation) = of(s);
+            place.pose(position, place.orientation_of(orientation))
+        };
+        sites.iter().map(pose).collect()
     };
-    let wanted = poses(|s| &s.desired);
+    let wanted = poses(|s| (&s.desired, s.orientation));
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
     let before = written.then(|| machine.rest(&wanted, &wrenches));
     let commanded = match written {
-        true => poses(|s| &s.commanded),
+        true => poses(|s| (&s.commanded, s.commanded_orientation)),
         false => wanted.clone(),
     };
     let after = machine.with_stability(&commanded, &wrenches);
@@ -205,6 +212,7 @@ fn point(
     };
     PointResult {
         line: site.line,
+        move_index: site.move_index,
         output_line: site.output_line,
         end: site.end,
         kind: site.kind,
@@ -213,6 +221,7 @@ fn point(
         start_mm: site.start_mm,
         programmed: site.programmed,
         position_mm: site.desired.into(),
+        tool_orientation: site.orientation.map(|o| [o.w, o.i, o.j, o.k]),
         error_before_mm,
         error_after_mm,
         error_if_force_larger_mm: None,
@@ -220,7 +229,11 @@ fn point(
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
         moment_n_m: place.to_part_axes(&site.wrench.moment()).into(),
-        residual_rotation_deg: after.rotation.to_degrees(),
+        residual_rotation_deg: match site.orientation {
+            Some(_) => after.tool.rotation.angle_to(&wanted.rotation),
+            None => after.rotation,
+        }
+        .to_degrees(),
         tool_turn_deg: place
             .orientation_follows
             .then(|| turn_deg(&wanted.rotation, &after.nominal)),

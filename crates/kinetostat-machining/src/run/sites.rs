@@ -2,9 +2,9 @@
 
 use kinetostat::Wrench;
 use kinetostat_program::{
-    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, Turn, irregular,
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, ToolTurn, Turn, irregular,
 };
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
@@ -17,6 +17,8 @@ use crate::task::Task;
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     pub line: usize,
+    /// Index of its move in the path.
+    pub move_index: usize,
     pub output_line: usize,
     pub kind: PointKind,
     pub share: f64,
@@ -29,6 +31,10 @@ pub(crate) struct Site {
     pub desired: Vector3<f64>,
     /// What the written program commands, mm; the same without compensation.
     pub commanded: Vector3<f64>,
+    /// Orientation of the tool in the program, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// What the written program commands; the same without compensation, or where only the position is corrected.
+    pub commanded_orientation: Option<UnitQuaternion<f64>>,
     pub wrench: Wrench,
     /// On a corner step, the load by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
@@ -124,6 +130,7 @@ pub(crate) fn of_path<'a>(
             let desired = motion.point(share);
             Site {
                 line: motion.line,
+                move_index: i,
                 output_line: 0,
                 kind: kind(motion),
                 share,
@@ -132,6 +139,8 @@ pub(crate) fn of_path<'a>(
                 programmed: true,
                 desired,
                 commanded: desired,
+                orientation: motion.orientation(share),
+                commanded_orientation: motion.orientation(share),
                 wrench: load.wrench(placement, i, share),
                 other_wrench: None,
                 end,
@@ -184,11 +193,13 @@ pub(crate) fn of_written<'a>(
             1.0 => piece.share_to,
             _ => piece.share_from + place * width,
         };
+        let turn = commanded_turn(path, written, index);
         let mut push = |(place, share): (f64, f64),
                         (wrench, other_wrench): (Wrench, Option<Wrench>),
                         (end, programmed): (bool, bool)| {
             sites.push(Site {
                 line: motion.line,
+                move_index: piece.move_index,
                 output_line: piece.output_line,
                 kind: match piece.corner_step {
                     true if piece.turn.is_some_and(|turn| turn.is_entry(path)) => PointKind::Entry,
@@ -202,6 +213,8 @@ pub(crate) fn of_written<'a>(
                 programmed,
                 desired: motion.point(share),
                 commanded: commanded(motion, piece, place),
+                orientation: motion.orientation(share),
+                commanded_orientation: turn.map(|turn: ToolTurn| turn.at(place)),
                 wrench,
                 other_wrench,
                 end,
@@ -283,6 +296,16 @@ fn on_step(
     }
 }
 
+/// How the written program turns the tool along a piece; none in a program of positions.
+fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<ToolTurn> {
+    let end = *written.orientations.get(index)?;
+    let start = match index.checked_sub(1) {
+        Some(before) => written.orientations[before],
+        None => path.moves[written.pieces[index].move_index].orientation(0.0)?,
+    };
+    Some(ToolTurn { start, end })
+}
+
 fn kind(motion: &Move) -> PointKind {
     match motion.kind {
         MoveKind::Rapid => PointKind::Rapid,
@@ -303,7 +326,13 @@ pub(crate) fn sites_of_written<'s>(
     load: &'s LoadAlongPath<'s>,
     written: &'s Corrected,
 ) -> impl Iterator<Item = Site> + 's {
-    of_written(task.path, written, load, &task.placement, spacing_mm(task))
+    of_written(
+        task.path(),
+        written,
+        load,
+        &task.placement,
+        spacing_mm(task),
+    )
 }
 
 /// Length from which on a block is looked at in more places, mm of the program.

@@ -45,10 +45,10 @@ pub(crate) fn summarise(
     };
     let mut summary = Summary {
         points: points.len(),
-        blocks: task.program.block_count(),
+        blocks: task.program.statement_count(),
         bytes_in: task.program.bytes().len(),
         feed_length_mm: task
-            .path
+            .path()
             .moves
             .iter()
             .filter(|m| m.is_known_feed())
@@ -195,7 +195,7 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
 }
 
 pub(crate) fn feed_arcs(task: &Task<'_>) -> usize {
-    let moves = task.path.moves.iter();
+    let moves = task.path().moves.iter();
     moves
         .filter(|m| m.kind == MoveKind::Feed && matches!(m.curve, Curve::Arc(_)))
         .count()

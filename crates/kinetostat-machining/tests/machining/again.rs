@@ -2,14 +2,14 @@
 //! again until the claim is true.
 
 use kinetostat::{
-    ActuatorSpec, Chain, Limb, Load, Mechanism, MotionKind, Platform, Pose, Wrench,
+    ActuatorSpec, Chain, Directions, Limb, Load, Mechanism, MotionKind, Platform, Pose, Wrench,
     model::FunctionLoad,
 };
 use kinetostat_machining::{
     Bounds, CuttingLoad, Placement, ProgramLoad, Run, RunInputs, Task, Unwatched, WarningCode,
     compensate_program,
 };
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
 use kinetostat_testing::Worst;
 use nalgebra::{Vector3, vector};
 
@@ -59,9 +59,12 @@ fn run(bump: [f64; 2]) -> Run {
     let path = interpret(&program, &reading).expect("path");
     let task = Task {
         mechanism: &machine,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement: Placement::at(vector![0.0, 0.0, 0.2]),
         load: ProgramLoad::new(CuttingLoad::None),
         tools: &[],

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use kinetostat::Mechanism;
+use kinetostat::{Directions, Mechanism};
 use kinetostat_cutting::{Engagement, Linear, Shape, Side, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
@@ -10,7 +10,7 @@ use kinetostat_machining::{
     cut_places, cutting_result,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
 
 use crate::springs::{self, STIFF};
@@ -55,9 +55,12 @@ fn run(
     let forces = question.along(&path, &Unwatched).expect("forces");
     let task = Task {
         mechanism: machine,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement: Placement::at(origin),
         load: ProgramLoad::new(CuttingLoad::FromCut {
             largest: forces.largest(),

@@ -18,6 +18,7 @@ mod measured_forces;
 mod orientation_follows;
 mod ramp_lengths;
 mod ramps;
+mod robot_programs;
 mod runs;
 mod sampled_models;
 mod springs;

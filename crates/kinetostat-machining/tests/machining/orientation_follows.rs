@@ -1,12 +1,12 @@
 //! Programs and maps on machines that turn their tool as they move, against closed forms.
 
-use kinetostat::{Mechanism, Pose, PostureRequest, Wrench};
+use kinetostat::{Directions, Mechanism, Pose, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
     Run, RunError, RunInputs, Task, Unwatched, analyse, compensate_program, map, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, MachineProgram, Program, ReadOptions, WriteOptions, interpret};
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
 
@@ -57,16 +57,14 @@ fn turned(place: &Vector3<f64>) -> UnitQuaternion<f64> {
 
 fn task<'a>(
     mechanism: &'a Mechanism,
-    program: &'a Program,
-    path: &'a kinetostat_program::Path,
+    program: &'a dyn MachineProgram,
     load: ProgramLoad,
 ) -> Task<'a> {
     let home = home(mechanism);
     Task {
         mechanism,
         program,
-        reading: ReadOptions::default(),
-        path,
+        corrected: Directions::POSITION,
         placement: Placement {
             tool_orientation: home.rotation,
             orientation_follows: true,
@@ -86,7 +84,12 @@ fn run(mechanism: &Mechanism, axes: LoadAxes, write: bool) -> Result<Run, RunErr
     let path = interpret(&program, &ReadOptions::default()).expect("path");
     let wrench = Wrench::new(vector![400.0, -300.0, -500.0], Vector3::zeros());
     let load = ProgramLoad::new(CuttingLoad::Constant { axes, wrench });
-    let task = task(mechanism, &program, &path, load);
+    let gcode = Gcode {
+        program: &program,
+        path: &path,
+        reading: &ReadOptions::default(),
+    };
+    let task = task(mechanism, &gcode, load);
     if write {
         compensate_program(&task, &Unwatched)
     } else {

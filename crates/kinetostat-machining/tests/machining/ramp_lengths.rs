@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use kinetostat::Wrench;
+use kinetostat::{Directions, Wrench};
 use kinetostat_cutting::{Engagement, Linear, Shape, Side, Stock, StockSettings, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceChoice, ForceOrigin,
     LoadAxes, LoadBegins, Placement, PointKind, ProgramLoad, Run, RunInputs, Task, Unwatched,
     Warning, WarningCode, compensate_program,
 };
-use kinetostat_program::{MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
 
 use crate::springs::{self, STIFF};
@@ -60,9 +60,12 @@ fn run_with(
     let mechanism = springs::machine(stiffness);
     let task = Task {
         mechanism: &mechanism,
-        program: &program,
-        reading: ReadOptions::default(),
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &ReadOptions::default(),
+        },
+        corrected: Directions::POSITION,
         placement: Placement::at(Vector3::zeros()),
         load,
         tools: &[],

@@ -1,6 +1,6 @@
 //! A load that comes and goes in the air: the written program neither jumps nor goes back, and in the cut nothing is lost.
 
-use kinetostat::Mechanism;
+use kinetostat::{Directions, Mechanism};
 use kinetostat_cutting::{Linear, Shape, Stock, StockSettings, Tool};
 use kinetostat_machining::{
     Bounds, CutQuestion, CuttingLoad, CuttingTool, EngagementSource, ForceAlongPath, ForceChoice,
@@ -8,7 +8,7 @@ use kinetostat_machining::{
     compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, MoveKind, Path, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
 use std::sync::Arc;
 
@@ -34,9 +34,12 @@ fn with_task<T>(
     let mechanism = machine();
     ask(&Task {
         mechanism: &mechanism,
-        program: &program,
-        reading: ReadOptions::default(),
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &ReadOptions::default(),
+        },
+        corrected: Directions::POSITION,
         placement: Placement::at(vector![0.01, -0.02, 0.1]),
         load,
         tools: &[],

@@ -1,12 +1,12 @@
 //! Runs over programs on preset machines.
 
-use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Run, RunError, RunInputs, Task,
     Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
 use nalgebra::{Vector3, vector};
 
 const GROOVE: &str = "G21 G90 G17\nG0 X25 Y0 Z5\nG1 Z-2 F300\nG3 X25 Y0 I-25 J0 F600\nG0 Z5\nM2\n";
@@ -77,9 +77,12 @@ fn run(
     let path = interpret(&program, &reading).expect("path");
     let task = Task {
         mechanism,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement: Placement::at(origin),
         load,
         tools: &[],
@@ -237,9 +240,12 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
     };
     let task = Task {
         mechanism: &model.mechanism,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement,
         load: milling(),
         tools: &[],
@@ -324,9 +330,12 @@ fn points_of_a_run_are_those_of_the_general_engine() {
         let path = interpret(&program, &reading).expect("path");
         let task = Task {
             mechanism: &mechanism,
-            program: &program,
-            reading,
-            path: &path,
+            program: &Gcode {
+                program: &program,
+                path: &path,
+                reading: &reading,
+            },
+            corrected: Directions::POSITION,
             placement: Placement {
                 tool_orientation: home.rotation,
                 orientation_follows: false,

@@ -2,14 +2,14 @@
 //! is asked where the tool goes in random places that neither the division nor the check chose.
 
 // Helpers of tests, which clippy does not count as tests.
-use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_machining::number::largest_length;
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Run,
     RunInputs, Task, Unwatched, WarningCode, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Piece, Program, ReadOptions, WriteOptions, interpret, irregular};
+use kinetostat_program::{Gcode, Piece, Program, ReadOptions, WriteOptions, interpret, irregular};
 use kinetostat_testing::{Worst, largest};
 use nalgebra::{UnitQuaternion, Vector3, vector};
 use rayon::prelude::*;
@@ -66,9 +66,12 @@ fn run(
     let path = interpret(&program, &reading).expect("path");
     let task = Task {
         mechanism,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement,
         load,
         tools: &[],

@@ -1,12 +1,12 @@
 //! Programs with several tools: each block has the length and the load of its own tool.
 
-use kinetostat::Mechanism;
+use kinetostat::{Directions, Mechanism};
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, Placement, ProgramLoad, Run, RunError, RunInputs, Task, Tool,
     Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use kinetostat_program::{Gcode, Program, ReadOptions, WriteOptions, interpret};
 use kinetostat_testing::Worst;
 use nalgebra::vector;
 
@@ -55,9 +55,12 @@ fn run(
     let path = interpret(&program, &reading).expect("path");
     let task = Task {
         mechanism,
-        program: &program,
-        reading,
-        path: &path,
+        program: &Gcode {
+            program: &program,
+            path: &path,
+            reading: &reading,
+        },
+        corrected: Directions::POSITION,
         placement: placement(),
         load,
         tools,

@@ -174,6 +174,7 @@ impl Look {
                 share,
                 position_mm: motion.point(share),
                 tangent: motion.tangent(share),
+                orientation: motion.orientation(share),
                 turning,
             },
             line: motion.line,
@@ -264,7 +265,7 @@ fn look(
             message,
         };
         let mut correction: Vector3<f64> = match answers.next() {
-            Some(Ok(correction)) => correction,
+            Some(Ok(correction)) => correction.shift_mm,
             Some(Err(reason)) => return Err(failure(reason.message)),
             None => return Err(failure("the field gave too few answers".to_owned())),
         };

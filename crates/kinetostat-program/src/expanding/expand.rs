@@ -51,11 +51,12 @@ pub fn expand(
     let mut runner = Runner::new(bytes, options, subprograms);
     runner.run()?;
     let files = runner.sources.iter().map(|s| s.name.clone()).collect();
-    let (program, path, origins) = runner.flat.finish()?;
+    let (program, path, origins, warnings) = runner.flat.finish()?;
     Ok(Expanded {
         program,
         path,
         origins,
+        warnings,
         files,
     })
 }

@@ -1,6 +1,6 @@
 //! A program that was run once and written flat.
 
-use crate::path::moves::Path;
+use crate::path::moves::{Path, Warning};
 use crate::text::program::Program;
 
 /// Where a flat block came from.
@@ -23,6 +23,8 @@ pub struct Expanded {
     pub path: Path,
     /// Of each line of the flat program, where it came from.
     pub origins: Vec<Origin>,
+    /// What is to be known about blocks, by their lines in the flat program, beside the warnings of the path.
+    pub warnings: Vec<Warning>,
     /// Names of the files that blocks came from; the first is the program and has none.
     pub files: Vec<String>,
 }

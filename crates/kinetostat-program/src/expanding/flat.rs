@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
-use crate::path::moves::Path;
+use crate::path::moves::{Path, Warning};
 use crate::reading::interpret::Interpreter;
 use crate::text::program::{Program, Reader};
 
@@ -17,6 +19,8 @@ pub(crate) struct Flat<'o> {
     /// Names of the files that blocks came from, by their index.
     files: BTreeMap<usize, String>,
     comments: OriginComments,
+    /// What the path does not say.
+    warnings: Vec<Warning>,
     options: &'o ExpandOptions,
 }
 
@@ -28,6 +32,7 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: options.origin_comments,
+            warnings: Vec::new(),
             options,
         }
     }
@@ -40,8 +45,32 @@ impl<'o> Flat<'o> {
             origins: Vec::new(),
             files: BTreeMap::new(),
             comments: OriginComments::Left,
+            warnings: Vec::new(),
             options: self.options,
         }
+    }
+
+    /// Says something about the last block.
+    pub fn warn(&mut self, text: &str) {
+        self.warnings.push(Warning {
+            line: self.origins.len(),
+            text: text.to_owned(),
+        });
+    }
+
+    /// Where the tool's point is at the machine's zero, mm, where that is known.
+    pub fn machine_zero_mm(&self) -> Option<Vector3<f64>> {
+        self.options.reading.machine_zero_mm
+    }
+
+    /// Whether the closing tape mark is behind us.
+    pub fn is_closed(&self) -> bool {
+        self.reader.is_closed()
+    }
+
+    /// Blocks so far.
+    pub fn blocks(&self) -> usize {
+        self.origins.len()
     }
 
     /// Blocks come from a file of this name.
@@ -51,10 +80,6 @@ impl<'o> Flat<'o> {
 
     /// Adds a block that came from a line of a file; what is wrong with it is said of that line.
     pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
-        let of_source = |error: ProgramError| ProgramError {
-            line: origin.line,
-            ..error
-        };
         if self.origins.len() >= self.options.most_blocks {
             return Err(self.too_many(text, origin));
         }
@@ -66,6 +91,8 @@ impl<'o> Flat<'o> {
             OriginComments::Left => None,
         };
         let text = commented.as_deref().unwrap_or(text);
+        let file = self.files.get(&origin.file).map_or("", String::as_str);
+        let of_source = |error: ProgramError| of_source(error, origin.line, file);
         self.reader.add_line(text).map_err(of_source)?;
         self.origins.push(origin);
         let index = self.origins.len() - 1;
@@ -87,17 +114,32 @@ impl<'o> Flat<'o> {
         }
     }
 
-    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>), ProgramError> {
+    pub fn finish(self) -> Result<(Program, Path, Vec<Origin>, Vec<Warning>), ProgramError> {
         let program = self.reader.into_program();
-        let origins = self.origins;
+        let (origins, files) = (self.origins, self.files);
         let path = self.interpreter.finish(&program).map_err(|error| {
-            let line = origins.get(error.line.wrapping_sub(1));
-            ProgramError {
-                line: line.map_or(error.line, |origin| origin.line),
-                ..error
+            match origins.get(error.line.wrapping_sub(1)) {
+                Some(origin) => {
+                    let file = files.get(&origin.file).map_or("", String::as_str);
+                    of_source(error, origin.line, file)
+                }
+                None => error,
             }
         })?;
-        Ok((program, path, origins))
+        Ok((program, path, origins, self.warnings))
+    }
+}
+
+/// What is wrong with a flat block, said of the line that it came from.
+fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
+    let reason = match file {
+        "" => error.reason,
+        name => format!("in the subprogram '{name}': {}", error.reason),
+    };
+    ProgramError {
+        line,
+        reason,
+        ..error
     }
 }
 

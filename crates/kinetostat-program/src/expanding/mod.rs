@@ -4,6 +4,7 @@
 //! gives a program of plain blocks, each with the line that it came from, and its path. What can move the tool and is not
 //! followed is refused by line. The words are those of LinuxCNC and, where they differ in form, of Fanuc.
 
+mod coordinates;
 pub(crate) mod expand;
 pub(crate) mod expanded;
 mod expression;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::MapError;
+use crate::field::correction::Correction;
 use crate::field::request::{CorrectionField, Course, FieldFailure, Request, Structure};
 use crate::path::moves::Move;
 
@@ -193,11 +194,9 @@ impl CorrectionMap {
 }
 
 impl CorrectionField for CorrectionMap {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        requests
-            .iter()
-            .map(|request| self.at(&request.position_mm))
-            .collect()
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
+        let shifts = requests.iter().map(|r| self.at(&r.position_mm));
+        shifts.map(|shift| shift.map(Correction::from)).collect()
     }
 
     /// In a cell the correction is linear in each coordinate, so along a line of third degree at most;

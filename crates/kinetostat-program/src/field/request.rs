@@ -1,7 +1,8 @@
 //! Queries to a field of corrections, and its answers.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::field::correction::Correction;
 use crate::path::moves::Move;
 
 /// A point of the path for which a correction is wanted.
@@ -16,6 +17,8 @@ pub struct Request {
     /// Direction of motion there, a unit vector; `None` where the move has no length or its start is
     /// not known.
     pub tangent: Option<Vector3<f64>>,
+    /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
     /// Inside a corner step: how far the load has turned. `None` on the path itself.
     pub turning: Option<Turning>,
 }
@@ -51,14 +54,14 @@ impl FieldFailure {
 }
 
 /// A field of corrections: what to add to the position so that the tool comes to be where the
-/// program wants it.
+/// program wants it, and to the orientation where the program states one.
 ///
 /// The writer evaluates it in batches of some thousand points in the order of the path; an implementor may
 /// work on them in parallel. The answer has one entry for each request, in order. Equal requests must
 /// get equal answers, or the output would not be reproducible.
 pub trait CorrectionField: Sync {
-    /// Corrections in mm, part axes, to be added to the positions of the query.
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>>;
+    /// Corrections, part axes, to be added to the poses of the query.
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>>;
 
     /// Whether the field knows what happens inside a corner step ([`Request::turning`]). Otherwise
     /// such a step is one straight piece.
@@ -104,13 +107,14 @@ impl Default for Course {
     }
 }
 
-/// A closure that answers one request is a field.
+/// A closure that answers one request is a field of positions, in mm.
 impl<F> CorrectionField for F
 where
     F: Fn(&Request) -> Result<Vector3<f64>, FieldFailure> + Sync,
 {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        requests.iter().map(self).collect()
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
+        let answers = requests.iter().map(self);
+        answers.map(|shift| shift.map(Correction::from)).collect()
     }
 }
 
@@ -119,8 +123,8 @@ where
 pub struct NoCorrection;
 
 impl CorrectionField for NoCorrection {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        vec![Ok(Vector3::zeros()); requests.len()]
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
+        vec![Ok(Correction::default()); requests.len()]
     }
 }
 

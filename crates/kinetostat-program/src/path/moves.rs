@@ -8,6 +8,7 @@ use crate::path::pause::Pause;
 use crate::path::position_offset::OffsetChange;
 use crate::path::spindle::SpindleChange;
 use crate::path::tool_change::ToolChange;
+use crate::path::tool_turn::ToolTurn;
 
 /// Whether a move is made at rapid rate or at the programmed feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -92,6 +93,8 @@ pub struct Move {
     pub start: Vector3<f64>,
     /// Where the move ends, in mm.
     pub end: Vector3<f64>,
+    /// Orientation of the tool; `None` in a program of positions, where the caller knows it.
+    pub tool_turn: Option<Box<ToolTurn>>,
     /// Words of other axes, in the order of the block.
     pub extra: Vec<ExtraAxis>,
     /// The F in force, `None` before the first F word.
@@ -181,6 +184,9 @@ impl Move {
 pub struct Path {
     /// The motions, in the order of the program; at most one a line.
     pub moves: Vec<Move>,
+    /// Unit vector from the tool's tip to its holder, in axes of the tool, where moves state the orientation
+    /// ([`Move::tool_turn`]).
+    pub tool_axis: Vector3<f64>,
     /// Whether X, Y, Z are ever stated (or given by the start position). The others are never
     /// written.
     pub stated: [bool; 3],

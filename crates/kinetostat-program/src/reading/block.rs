@@ -31,6 +31,8 @@ pub(crate) struct Codes {
     pub overrides: Option<u32>,
     pub stop: Option<u32>,
     pub dwell: bool,
+    /// G10.
+    pub sets: bool,
     pub ends: bool,
 }
 
@@ -193,6 +195,7 @@ impl<'p> Block<'p> {
             ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
             ('G', 280 | 300 | 530) => codes.machine.replace(tenths).is_some(),
             ('M', 820 | 830) => codes.extruder.replace(tenths).is_some(),
+            ('G', 100) => std::mem::replace(&mut codes.sets, true),
             ('G', 40) => std::mem::replace(&mut codes.dwell, true),
             ('G', 610 | 611 | 640) => codes.path_mode.replace(tenths).is_some(),
             ('G', 960 | 970) => codes.speed_mode.replace(tenths).is_some(),
@@ -248,6 +251,9 @@ impl<'p> Block<'p> {
             let named = b"XYZ".map(|letter| self.value(letter).is_some());
             self.codes.length_axes = named;
             dropped.extend(b"XYZIJK");
+        }
+        if self.codes.sets {
+            dropped.extend(b"XYZABCUVWRPIJQLKD");
         }
         if takes(b'G', |code| code == 64) {
             dropped.extend(b"PQ");

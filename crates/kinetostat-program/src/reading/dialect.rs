@@ -77,9 +77,10 @@ pub const CODES: &[Code] = &[
     ),
     g(&[80], "lathe radius mode", Carried),
     g(&[90], "exact stop in this block", Carried),
+    g(&[100], "set offsets or tool data", Understood),
     g(
-        &[100, 110],
-        "set offsets or tool data",
+        &[110],
+        "setting of data off",
         refused(
             "it changes offsets that the path depends on",
             "set the offsets at the machine and give work offsets (--work-offset, or work_offset_mm under [reading] in the job file)",

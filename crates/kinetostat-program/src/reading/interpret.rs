@@ -22,6 +22,7 @@ use crate::reading::options::{BlockDelete, ReadOptions, Units};
 use crate::reading::pause::pause;
 use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
+use crate::reading::settings::{Setting, has_other_axes, setting};
 use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
@@ -54,10 +55,12 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
 
 /// What is known while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
-    options: &'o ReadOptions,
+    pub(super) options: &'o ReadOptions,
     pub(super) modes: Modes,
     pub(super) offset: PositionOffset,
-    shifts: Shifts,
+    pub(super) shifts: Shifts,
+    /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
+    pub(super) origins_mm: [Option<Vector3<f64>>; 9],
     pub(super) places: Places,
     pub(super) ended: Option<usize>,
     no_feed_warned: bool,
@@ -82,6 +85,7 @@ impl<'o> Interpreter<'o> {
             modes: Modes::new(options.units),
             offset: PositionOffset::default(),
             shifts: Shifts::default(),
+            origins_mm: options.work_offsets_mm,
             places: Places::new(options.start_position_mm),
             ended: None,
             no_feed_warned: false,
@@ -103,6 +107,7 @@ impl<'o> Interpreter<'o> {
             modes: self.modes.clone(),
             offset: self.offset,
             shifts: self.shifts,
+            origins_mm: self.origins_mm,
             places: self.places.clone(),
             ended: self.ended,
             first_system: self.first_system,
@@ -132,7 +137,7 @@ impl<'o> Interpreter<'o> {
     fn warn_of_systems_without_offsets(&mut self, line: usize) {
         let now = self.modes.work_offset;
         let first = *self.first_system.get_or_insert(now);
-        let offsets = &self.options.work_offsets_mm;
+        let offsets = &self.origins_mm;
         let origin = |system: usize| offsets[system].unwrap_or_default();
         if offsets[now].is_none() && offsets.iter().any(Option::is_some) {
             self.repeated.note(line, "the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
@@ -193,7 +198,9 @@ impl<'o> Interpreter<'o> {
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
         self.pauses.extend(pause(block));
-        if block.codes.machine.is_some() {
+        if block.codes.sets {
+            self.set_offsets(block)?;
+        } else if block.codes.machine.is_some() {
             match machine_place(block, &self.modes, self.options)? {
                 Some(place) => self.go_to_machine_place(block, &place),
                 None => self.note_no_motion(block),
@@ -243,7 +250,29 @@ impl<'o> Interpreter<'o> {
     }
 
     pub(super) fn work_offset_mm(&self) -> Vector3<f64> {
-        self.options.work_offsets_mm[self.modes.work_offset].unwrap_or_default()
+        self.origins_mm[self.modes.work_offset].unwrap_or_default()
+    }
+
+    /// G10: the tool stands still; where it is in the part stays known.
+    fn set_offsets(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        match setting(block, &self.modes, self.options.machine_zero_mm)? {
+            Setting::Tools => {
+                self.modes.forget_length_number();
+                self.repeated.note(block.line_number, "the program changes the machine's table of tools (G10): corrections are made for the tools as they are given here");
+            }
+            Setting::Origin { system, origin_mm } => {
+                self.modes.use_units();
+                let origin = self.origins_mm[system].get_or_insert_default();
+                for axis in 0..3 {
+                    origin[axis] = origin_mm[axis].unwrap_or(origin[axis]);
+                }
+                if has_other_axes(block) {
+                    self.modes.extra.forget(block, true);
+                }
+            }
+        }
+        self.note_no_motion(block);
+        Ok(())
     }
 
     fn set_position_offset(
@@ -421,6 +450,7 @@ impl<'o> Interpreter<'o> {
             curve,
             start,
             end,
+            tool_turn: None,
             extra,
             feed: self.modes.feed,
             known: Knowledge::Whole,
@@ -478,6 +508,7 @@ impl<'o> Interpreter<'o> {
             curve: Curve::Line,
             start,
             end: self.places.position,
+            tool_turn: None,
             extra: Vec::new(),
             feed: self.modes.feed,
             known: Knowledge::Nothing,
@@ -625,6 +656,7 @@ impl<'o> Interpreter<'o> {
         self.warn_of_moved_axes();
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
+            tool_axis: Vector3::z(),
             moves: self.moves,
             stated,
             warnings: self.warnings,

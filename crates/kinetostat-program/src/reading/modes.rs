@@ -193,6 +193,11 @@ impl Modes {
         }
     }
 
+    /// The table of tools has changed: the next G43 may bring another length.
+    pub fn forget_length_number(&mut self) {
+        self.length_number = None;
+    }
+
     /// Whether a tool offset is in force along an axis.
     pub fn has_tool_length(&self, axis: usize) -> bool {
         self.tool_length_on[axis]
@@ -218,6 +223,11 @@ impl Modes {
             None => None,
         };
         self.units_are_assumed && named.is_some_and(|named| self.units != Some(named))
+    }
+
+    /// G93, G94, G95.
+    pub fn feed_mode(&self) -> FeedMode {
+        self.feed_mode
     }
 
     /// Units in force, where they are named.

@@ -16,12 +16,29 @@ pub(crate) struct Shifts {
     saved: Option<[bool; 3]>,
     /// Line of the last change.
     pub line: usize,
+    /// G92 or G92.1 was met, and none that suspends or resumes it after that.
+    stated: [bool; 3],
 }
 
 impl Shifts {
+    /// Whether the program has said what G92 shifts the coordinates of an axis by: it has been cleared, or set where the tool
+    /// was known.
+    pub fn is_sure(&self, axis: usize) -> bool {
+        self.stated[axis] && !self.bare[axis] && !self.now[axis]
+    }
+
     /// `stated`: axes whose coordinates were used, in the offset in force.
     pub fn apply(&mut self, change: &OffsetChange, stated: &[bool; 3], line: usize) {
         self.line = line;
+        for axis in 0..3 {
+            self.stated[axis] = match change {
+                OffsetChange::Here { coordinates_mm, .. } => {
+                    self.stated[axis] || coordinates_mm[axis].is_some()
+                }
+                OffsetChange::Clear => true,
+                OffsetChange::Suspend | OffsetChange::Resume => false,
+            };
+        }
         match change {
             OffsetChange::Here {
                 coordinates_mm,

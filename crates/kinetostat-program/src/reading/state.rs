@@ -1,7 +1,9 @@
 //! What a controller would answer about its state, after the last block.
 
-use crate::path::moves::Motion;
-use crate::path::spindle::SpindleRotation;
+use nalgebra::Vector3;
+
+use crate::path::moves::{FeedMode, Motion};
+use crate::path::spindle::{Spindle, SpindleRotation};
 use crate::reading::interpret::Interpreter;
 use crate::reading::options::Units;
 
@@ -57,9 +59,59 @@ impl Interpreter<'_> {
         (place_mm - offset[axis]) / unit
     }
 
+    /// G93, G94, G95.
+    pub(crate) fn feed_mode(&self) -> FeedMode {
+        self.modes.feed_mode()
+    }
+
+    /// The F in force, in program units; none where there is none.
+    pub(crate) fn feed_in_units(&self) -> Option<f64> {
+        let feed = self.modes.feed?;
+        let unit = self.modes.units().map_or(1.0, Units::mm_per_unit);
+        Some(match feed.mode {
+            FeedMode::InverseTime => feed.value,
+            _ => feed.value / unit,
+        })
+    }
+
+    /// Index of the work coordinate system, 0 for G54.
+    pub(crate) fn work_system(&self) -> usize {
+        self.modes.work_offset
+    }
+
+    /// Whether a tool length is in force along an axis.
+    pub(crate) fn has_tool_length_along(&self, axis: usize) -> bool {
+        self.modes.has_tool_length(axis)
+    }
+
+    /// Whether a tool length is in force.
+    pub(crate) fn has_tool_length(&self) -> bool {
+        (0..3).any(|axis| self.has_tool_length_along(axis))
+    }
+
+    /// The offset of G92 along an axis, mm; none where only the machine knows it.
+    pub(crate) fn position_offset_mm(&self, axis: usize) -> Option<f64> {
+        (!self.shifts.now[axis]).then_some(self.offset.active_mm[axis])
+    }
+
+    /// Where the origin of the program's coordinates is, mm, part frame.
+    pub(crate) fn origin_mm(&self) -> Vector3<f64> {
+        self.work_offset_mm() + self.offset.active_mm
+    }
+
+    /// The program counts from another place now; the tool stands still.
+    pub(crate) fn stand_at(&mut self, place_mm: Vector3<f64>) {
+        self.places.position = place_mm;
+    }
+
     /// Whether cycles go back to their level R (G99) or to where they began (G98); none before the program says it.
     pub(crate) fn retracts_to_level(&self) -> Option<bool> {
         self.modes.retract_mode.map(|code| code == 990)
+    }
+
+    /// How the spindle turns.
+    pub(crate) fn spindle(&self) -> Spindle {
+        self.spindle.now()
     }
 
     pub(crate) fn spindle_rotation(&self) -> SpindleRotation {
@@ -94,9 +146,34 @@ impl Interpreter<'_> {
         match number {
             PLACE..=5422 => Some(self.coordinate((number - PLACE) as usize)),
             5220 => Some(Ok(1.0 + self.modes.work_offset as f64)),
-            5161..=5390 | 5400..=5428 => Some(Err(format!(
-                "#{number} is kept by the controller, and its value is not known here"
+            5161..=5390 | 5400..=5428 => Some(self.kept(number).ok_or_else(|| format!(
+                "#{number} is kept by the controller, and its value is not known here: give it as a parameter, or with the machine's zero and work offsets"
             ))),
+            _ => None,
+        }
+    }
+
+    /// Reference points, offsets of G92 and origins of systems, in mm, where they are known.
+    fn kept(&self, number: u32) -> Option<f64> {
+        let zero = || self.options.machine_zero_mm;
+        match number {
+            5161..=5163 => Some(self.options.reference_points_mm[0]?[(number - 5161) as usize]),
+            5181..=5183 => Some(self.options.reference_points_mm[1]?[(number - 5181) as usize]),
+            5211..=5213 => {
+                let axis = (number - 5211) as usize;
+                let sure = self.shifts.is_sure(axis);
+                sure.then_some(self.offset.active_mm[axis])
+            }
+            5221..=5390 => {
+                let (system, index) = ((number - 5221) / 20, (number - 5221) % 20);
+                let origin = self.origins_mm[system as usize]?;
+                match index {
+                    0..=2 => Some(origin[index as usize] - zero()?[index as usize]),
+                    // The system is not turned.
+                    9 => Some(0.0),
+                    _ => None,
+                }
+            }
             _ => None,
         }
     }

@@ -47,7 +47,7 @@ pub(crate) fn only_definitions(bytes: &[u8]) -> Option<ProgramError> {
             names.join(", ")
         ),
         remedy: format!(
-            "call it from a program ({call} call), and flatten that program with `kinetostat expand`"
+            "call it from a program ({call} call), and run that program with --expand (in a job file: a table [expand])"
         ),
     })
 }

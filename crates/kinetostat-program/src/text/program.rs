@@ -231,6 +231,11 @@ impl Reader {
         fault.map_or(Ok(()), Err)
     }
 
+    /// Whether the closing tape mark was read.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.tape_marks == 2
+    }
+
     fn check_size(&self) -> Result<(), ProgramError> {
         let bytes = &self.program.bytes;
         let problem = if bytes.len() == byte_order_mark(bytes) {

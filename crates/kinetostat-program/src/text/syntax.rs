@@ -19,10 +19,8 @@ pub(crate) struct Refused {
     pub remedy: &'static str,
 }
 
-const FLATTEN: &str =
-    "flatten the program with `kinetostat expand`, or post-process it without subprograms";
-const NO_VARIABLES: &str =
-    "flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
+const FLATTEN: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or post-process it without subprograms";
+const NO_VARIABLES: &str = "add --expand (in a job file: a table [expand]), flatten the program with `kinetostat expand`, or let the CAM system write plain numbers";
 
 /// Why a line with variables is refused.
 pub(crate) const VARIABLES: &str = "variables and expressions are not read";

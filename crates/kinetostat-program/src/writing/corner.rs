@@ -4,7 +4,7 @@
 //! corrected place to the other. Between the two the correction is no straight line, so a long step is
 //! divided like a block is: until straight pieces are within the tolerance.
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 use crate::error::WriteError;
 use crate::field::request::{Request, Turning};
@@ -25,7 +25,7 @@ struct Stretch {
     jump: usize,
     node: usize,
     part: [f64; 2],
-    ends: [Vector3<f64>; 2],
+    ends: [Vector6<f64>; 2],
     depth: u32,
 }
 
@@ -103,7 +103,7 @@ pub(crate) fn follow_turns(
             let (middle, beside) = (answers[0], answers[1]);
             let [from, to] = stretch.part;
             let [first, last] = stretch.ends;
-            let off = |value: Vector3<f64>, place| (value - first.lerp(&last, place)).norm();
+            let off = |value: Vector6<f64>, place| (value - first.lerp(&last, place)).norm();
             if off(middle, 0.5).max(off(beside, BESIDE)) <= options.tolerance_mm
                 || stretch.depth == DEPTH
             {

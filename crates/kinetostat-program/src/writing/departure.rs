@@ -7,18 +7,18 @@
 //!
 //! Whether the correction is that polynomial is another question, [`remainder`].
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 use crate::number::larger;
 
 /// Values of a correction on a stretch, at its ends and quarters.
-pub type Values = [Vector3<f64>; 5];
+pub type Values = [Vector6<f64>; 5];
 
 /// Steps of the grid in one quarter of the stretch.
 const STEPS: usize = 4;
 
 /// The polynomial through five values at a part of the stretch.
-pub fn polynomial(values: &Values, part: f64) -> Vector3<f64> {
+pub fn polynomial(values: &Values, part: f64) -> Vector6<f64> {
     // Newton's forward differences, x from 0 to 4.
     let x = 4.0 * part;
     let mut row = *values;
@@ -35,7 +35,7 @@ pub fn polynomial(values: &Values, part: f64) -> Vector3<f64> {
 }
 
 /// Values at the quarters of the parabola through ends and middle.
-pub fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>) -> Values {
+pub fn parabola(first: Vector6<f64>, middle: Vector6<f64>, last: Vector6<f64>) -> Values {
     let bulge = middle - first.lerp(&last, 0.5);
     let quarter = |part: f64| first.lerp(&last, part) + bulge * (4.0 * part * (1.0 - part));
     [first, quarter(0.25), middle, quarter(0.75), last]
@@ -43,7 +43,7 @@ pub fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>) -
 
 /// Upper bound of the distance between the polynomial through the values and the straight line from
 /// `chord[0]` to `chord[1]`, at equal parts.
-pub fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
+pub fn departure(values: &Values, chord: [Vector6<f64>; 2]) -> f64 {
     let mut off = *values;
     for (i, value) in off.iter_mut().enumerate() {
         *value -= chord[0].lerp(&chord[1], 0.25 * i as f64);

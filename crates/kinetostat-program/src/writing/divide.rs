@@ -19,7 +19,7 @@
 //! ([`crate::writing::merge`]). All blocks are divided together, in rounds, so that the field is evaluated
 //! in large batches.
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Course, Monitor, Request};
@@ -60,14 +60,14 @@ struct Stretch {
     /// The whole of a straight move, or a chord of an arc: what is good as it is needs no joining.
     entire: bool,
     share: [f64; 2],
-    ends: [Vector3<f64>; 2],
+    ends: [Vector6<f64>; 2],
     /// Where the piece begins that the tool goes along; differs from the first end where a jump too
     /// small for a step is taken up.
-    begins: Vector3<f64>,
-    middle: Option<Vector3<f64>>,
-    quarters: Option<[Vector3<f64>; 2]>,
+    begins: Vector6<f64>,
+    middle: Option<Vector6<f64>>,
+    quarters: Option<[Vector6<f64>; 2]>,
     /// An irregular part of the stretch and the correction there.
-    irregular: Option<(f64, Vector3<f64>)>,
+    irregular: Option<(f64, Vector6<f64>)>,
 }
 
 /// What becomes of a stretch with the values known of it.
@@ -118,7 +118,7 @@ impl Stretch {
                 let size = values
                     .iter()
                     .chain(seen)
-                    .map(Vector3::norm)
+                    .map(Vector6::norm)
                     .fold(tolerance, larger);
                 let radius = match &motion.curve {
                     Curve::Line => radius_mm,
@@ -181,6 +181,7 @@ pub(crate) fn divide(
         monitor,
         answered: 0,
         left_out_mm: 0.0,
+        lever_mm: options.turn_lever_mm,
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
@@ -301,7 +302,7 @@ fn first_round(
     let mut answer = || answers.next().unwrap_or_default();
     let mut open = Vec::new();
     // What holds before a move: the last answer of the one before it.
-    let mut before: Option<(usize, Vector3<f64>)> = None;
+    let mut before: Option<(usize, Vector6<f64>)> = None;
     for (move_index, list, course) in first {
         let mut value = answer();
         if list.is_empty() {
@@ -421,7 +422,7 @@ fn next_round(
                     Some([low, high]) => [Some(low), Some(high)],
                     None => [None, None],
                 };
-                let half = |share, ends: [Vector3<f64>; 2], begins, middle| Stretch {
+                let half = |share, ends: [Vector6<f64>; 2], begins, middle| Stretch {
                     share,
                     ends,
                     begins,

@@ -1,6 +1,6 @@
 //! A jump of the correction: at a corner the load turns, a cut begins.
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 use serde::Serialize;
 
 use crate::path::moves::{MoveKind, Path};
@@ -46,7 +46,7 @@ pub(crate) struct Jump {
     pub from_share: f64,
     pub to_share: f64,
     /// Part of the turn and correction, in order, without the ends.
-    pub inner: Vec<(f64, Vector3<f64>)>,
+    pub inner: Vec<(f64, Vector6<f64>)>,
 }
 
 impl Jump {

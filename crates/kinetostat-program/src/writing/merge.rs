@@ -1,7 +1,7 @@
 //! Fewer pieces from a division: halving leaves a trail of ever shorter pieces beside a jump, and up
 //! to twice the pieces needed elsewhere; a field with many breaks is first divided at all of them.
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 use crate::writing::departure::{Values, departure};
 use crate::writing::node::{Node, taken_up};
@@ -53,7 +53,7 @@ fn merge_move(
     let open = |index: usize| !group[index].fixed && group[index].before == group[index].after;
     let fits = |from: usize, to: usize| {
         let (a, b) = (&group[from], &group[to]);
-        let chord = |share: f64| -> Vector3<f64> {
+        let chord = |share: f64| -> Vector6<f64> {
             begins(from).lerp(&b.before, (share - a.share) / (b.share - a.share))
         };
         let first = accepted.partition_point(|stretch| stretch.share < a.share);

@@ -1,6 +1,6 @@
 //! Ends of pieces, with the corrections that hold before and after them.
 
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 use crate::path::moves::{Knowledge, Move, MoveKind};
 use crate::writing::options::WriteOptions;
@@ -11,8 +11,9 @@ use crate::writing::options::WriteOptions;
 pub(crate) struct Node {
     pub move_index: usize,
     pub share: f64,
-    pub before: Vector3<f64>,
-    pub after: Vector3<f64>,
+    /// Corrections as lengths, in mm: of the position, and of the orientation at [`WriteOptions::turn_lever_mm`].
+    pub before: Vector6<f64>,
+    pub after: Vector6<f64>,
     /// Shares between which the correction jumps, where it jumps inside the move.
     pub bracket: [f64; 2],
     /// Index of the jump at this node, see [`crate::writing::divide::Division::jumps`].
@@ -22,7 +23,7 @@ pub(crate) struct Node {
 }
 
 impl Node {
-    pub(crate) fn smooth(move_index: usize, share: f64, value: Vector3<f64>) -> Self {
+    pub(crate) fn smooth(move_index: usize, share: f64, value: Vector6<f64>) -> Self {
         Self {
             move_index,
             share,
@@ -49,10 +50,10 @@ pub(crate) fn is_corrected_at_end(motion: &Move) -> bool {
 /// Where the first piece of a move begins: at its own first correction, or at the last one before it
 /// where the jump between them is too small for a step and small enough to be part of the tolerance.
 pub(crate) fn taken_up(
-    before: Option<Vector3<f64>>,
-    first: Vector3<f64>,
+    before: Option<Vector6<f64>>,
+    first: Vector6<f64>,
     options: &WriteOptions,
-) -> Vector3<f64> {
+) -> Vector6<f64> {
     let smallest = options.smallest_step_mm().min(options.tolerance_mm);
     before
         .filter(|before| (before - first).norm() <= smallest)

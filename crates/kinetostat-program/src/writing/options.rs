@@ -13,6 +13,9 @@ pub struct WriteOptions {
     /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
     /// piece that follows. `None`, the default, is `tolerance_mm`.
     pub corner_step_mm: Option<f64>,
+    /// Distance from the tool's tip, in mm, at which a correction of the orientation is held to these tolerances: where a turn
+    /// of the tool varies, a point so far from the tip is within `tolerance_mm`. Default 50.
+    pub turn_lever_mm: f64,
     /// How far the chords of an arc may leave it, in mm. Default 0.0004.
     pub chord_tolerance_mm: f64,
     /// A stretch this short (in mm) over which the correction still varies by more than the
@@ -42,6 +45,7 @@ impl Default for WriteOptions {
         Self {
             tolerance_mm: 0.0005,
             corner_step_mm: None,
+            turn_lever_mm: 50.0,
             chord_tolerance_mm: 0.0004,
             smallest_piece_mm: 0.001,
             max_feed_factor: 1.2,
@@ -72,6 +76,13 @@ impl WriteOptions {
                     allowed: "0.000001 to 10 mm are allowed",
                 });
             }
+        }
+        if !(0.001..=10_000.0).contains(&self.turn_lever_mm) {
+            return Err(WriteError::Option {
+                name: "turn_lever_mm",
+                found: self.turn_lever_mm.to_string(),
+                allowed: "0.001 to 10000 mm are allowed",
+            });
         }
         if !(1.0..=1000.0).contains(&self.max_feed_factor) {
             return Err(WriteError::Option {

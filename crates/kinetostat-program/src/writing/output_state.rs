@@ -27,6 +27,8 @@ pub(crate) struct OutputMove {
     pub share_to: f64,
     /// Where to go, before rounding, in mm.
     pub target: Vector3<f64>,
+    /// Rotation vector by which the tool is turned there from the orientation of the program, part axes, rad.
+    pub tilt: Vector3<f64>,
     pub corner_step: bool,
     pub turn: Option<Turn>,
     pub corrected: bool,

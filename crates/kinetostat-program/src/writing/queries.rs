@@ -1,6 +1,6 @@
 //! Queries to a field of corrections, in large batches, with a count of its evaluations.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request};
@@ -14,6 +14,8 @@ pub(crate) struct FieldQueries<'a> {
     pub(crate) monitor: &'a dyn Monitor,
     pub(crate) answered: usize,
     pub(crate) left_out_mm: f64,
+    /// [`WriteOptions::turn_lever_mm`](crate::WriteOptions::turn_lever_mm).
+    pub(crate) lever_mm: f64,
 }
 
 impl FieldQueries<'_> {
@@ -29,11 +31,12 @@ impl FieldQueries<'_> {
             share,
             position_mm: motion.point(share),
             tangent,
+            orientation: motion.orientation(share),
             turning: None,
         }
     }
 
-    pub fn evaluate(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
+    pub fn evaluate(&mut self, requests: &[Request]) -> Result<Vec<Vector6<f64>>, WriteError> {
         let mut values = Vec::with_capacity(requests.len());
         let total = self.answered + requests.len();
         for batch in requests.chunks(BATCH) {
@@ -51,12 +54,22 @@ impl FieldQueries<'_> {
                     position_mm: request.position_mm,
                     message,
                 };
-                let mut value = match answers.next() {
-                    Some(Ok(value)) if value.iter().all(|number| number.is_finite()) => value,
-                    Some(Ok(_)) => {
+                let answer = answers.next();
+                let mut value = match answer.map(|a| a.map(|c| c.in_lengths(self.lever_mm))) {
+                    Some(Ok(value)) if !value.iter().all(|number| number.is_finite()) => {
                         return Err(failure(
                             "the field answered with no finite number".to_owned(),
                         ));
+                    }
+                    Some(Ok(value)) => {
+                        let turns = value.fixed_rows::<3>(3) != Vector3::zeros();
+                        if turns && request.orientation.is_none() {
+                            return Err(failure(
+                                "the field turns the tool, and the program states no orientation"
+                                    .to_owned(),
+                            ));
+                        }
+                        value
                     }
                     Some(Err(reason)) => return Err(failure(reason.message)),
                     None => return Err(failure("the field gave too few answers".to_owned())),

@@ -1,6 +1,6 @@
 //! A written program and its motions.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use serde::Serialize;
 
 use crate::writing::accounting::Accounting;
@@ -42,6 +42,11 @@ pub struct Corrected {
     pub bytes: Vec<u8>,
     /// Its motions, in order.
     pub pieces: Vec<Piece>,
+    /// Other files of the program, in their order, by name: declarations of targets that changed with it. Empty in G-code.
+    pub beside: Vec<(String, Vec<u8>)>,
+    /// Orientation of the tool at the end of every piece as written, part axes from tool axes; empty where the program does not
+    /// state it.
+    pub orientations: Vec<UnitQuaternion<f64>>,
     /// What was done.
     pub accounting: Accounting,
 }

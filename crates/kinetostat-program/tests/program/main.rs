@@ -17,6 +17,7 @@ mod expanding_radius;
 mod fault_lists;
 mod internal;
 mod map;
+mod nc_files;
 mod properties;
 mod real_programs;
 mod refusal_kinds;

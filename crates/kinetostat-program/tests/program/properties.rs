@@ -64,10 +64,10 @@ impl Waves {
 }
 
 impl CorrectionField for Waves {
-    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         requests
             .iter()
-            .map(|request| Ok(self.at(request)))
+            .map(|request| Ok(Correction::from(self.at(request))))
             .collect()
     }
 }
@@ -156,6 +156,7 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
                 share,
                 position_mm: motion.point(share),
                 tangent: motion.tangent(share).filter(|_| whole),
+                orientation: None,
                 turning: None,
             })
         };

@@ -107,7 +107,7 @@ pub(crate) fn worst(result: &Shown<'_>) -> Value {
         .iter()
         .map(|point| {
             context! {
-                line => number::count(point.line),
+                line => line_of(result, point.line),
                 output_line => (point.output_line > 0).then(|| number::count(point.output_line)),
                 place => vector(&point.position_mm, 1.0, 3),
                 motion => motion(point),
@@ -117,6 +117,20 @@ pub(crate) fn worst(result: &Shown<'_>) -> Value {
         })
         .collect();
     context! { rows, before_unit => before.0, after_unit => after.0 }
+}
+
+/// A line, and of a flat program the one that it came from.
+fn line_of(result: &Shown<'_>, line: usize) -> String {
+    let flat = result.run_inputs.flat.as_ref();
+    match flat.and_then(|flat| flat.source_of(line)) {
+        Some((file, from)) => format!(
+            "{} (from {} of {})",
+            number::count(line),
+            number::count(from),
+            text::shorten(file, 40)
+        ),
+        None => number::count(line),
+    }
 }
 
 fn motion(point: &PointResult) -> String {
@@ -279,6 +293,9 @@ pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
         fact("Machine", first_screen(&run_inputs.model)),
         fact("Load", first_screen(&run_inputs.load)),
     ]);
+    if let Some(flat) = &run_inputs.flat {
+        rows.push(fact("Lines", first_screen(&flat.description())));
+    }
     if run_inputs.compensated {
         rows.push(fact(
             "Tolerance",
@@ -381,6 +398,9 @@ pub(crate) fn inputs_of_run(result: &Shown<'_>) -> Vec<Value> {
             ),
         ),
     ];
+    if let Some(flat) = &run_inputs.flat {
+        rows.push(list("Written flat with", &flat.settings));
+    }
     if run_inputs.compensated {
         rows.extend(written(result));
     } else {

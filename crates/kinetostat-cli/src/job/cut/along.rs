@@ -8,12 +8,13 @@ use kinetostat_program::Path as ToolPath;
 
 use crate::job::cut::measured::MeasuredSetup;
 use crate::job::cut::question::CutSetup;
+use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Code, Failure};
 
 /// The forces along a program, where the job asks for them.
 pub(crate) fn forces(
     cut: Option<&CutSetup>,
-    program: &str,
+    setting: &Setting,
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<Option<ForceAlongPath>> {
@@ -23,28 +24,28 @@ pub(crate) fn forces(
     let along = cut.question.along(path, watch);
     along
         .map(Some)
-        .map_err(|failure| stopped_or_within(failure, program))
+        .map_err(|failure| stopped_or_within(failure, setting))
 }
 
 /// Measured forces along the program.
 pub(crate) fn measured(
     setup: &MeasuredSetup,
-    program: &str,
+    setting: &Setting,
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<ForceAlongPath> {
     let along = setup.forces.along(path, ExpectedForce::InFeedMoves, watch);
     along.map_err(|failure| match failure {
         CutFailure::Log { .. } => Failure::input(failure).within(&setup.name),
-        _ => stopped_or_within(failure, program),
+        _ => stopped_or_within(failure, setting),
     })
 }
 
 /// Why a program has no cutting force, as a failure of the command.
-pub(crate) fn stopped_or_within(failure: CutFailure, program: &str) -> Failure {
+pub(crate) fn stopped_or_within(failure: CutFailure, setting: &Setting) -> Failure {
     match failure {
         CutFailure::Cancelled => Failure::new(Code::Stopped, failure),
-        _ => Failure::input(failure).within(program),
+        _ => setting.within(Failure::input(failure)),
     }
 }
 
@@ -63,7 +64,7 @@ pub(crate) fn breaks_the_tool(forces: Option<&ForceAlongPath>) -> Option<&CutFin
 /// Refuses it, with the worst line.
 pub(crate) fn refuse_what_breaks_the_tool(
     forces: Option<&ForceAlongPath>,
-    program: &str,
+    setting: &Setting,
 ) -> Answer<()> {
     let Some(found) = breaks_the_tool(forces) else {
         return Ok(());
@@ -73,7 +74,7 @@ pub(crate) fn refuse_what_breaks_the_tool(
         _ => "write a smaller feed or a higher speed, or correct the tool",
     };
     let what = format!("line {}: {}; {help}", found.line, text_of(found));
-    Err(Failure::input(what).within(program))
+    Err(setting.within(Failure::input(what)))
 }
 
 /// What was found on the worst line, and on how many.

@@ -31,12 +31,16 @@ fn main_with(data: &str, statements: &str) -> RobotProgram {
 /// The files of a program with pieces, one behind the other.
 fn written(program: &RobotProgram, pieces: &[Piece]) -> String {
     let files = write(program, pieces, &WriteOptions::default()).unwrap();
-    let texts = files.into_iter().map(|(_, bytes)| String::from_utf8(bytes).unwrap());
+    let texts = files
+        .into_iter()
+        .map(|(_, bytes)| String::from_utf8(bytes).unwrap());
     texts.collect()
 }
 
 /// The line that begins so, of a text.
 fn line_with<'t>(text: &'t str, beginning: &str) -> &'t str {
-    let found = text.lines().find(|line| line.trim_start().starts_with(beginning));
+    let found = text
+        .lines()
+        .find(|line| line.trim_start().starts_with(beginning));
     found.unwrap_or_else(|| panic!("no line begins with {beginning} in\n{text}"))
 }

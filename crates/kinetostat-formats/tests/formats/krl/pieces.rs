@@ -14,7 +14,12 @@ fn at(motion: usize, place: [f64; 3]) -> Piece {
 #[test]
 fn pieces_stand_before_the_end_with_all_else_as_written() {
     let program = main_with(DATA, "\tLIN XP1 ; groove\n\tSLIN XP2 C_DIS");
-    let pieces = [at(0, [33.0, 0.0, 5.01]), at(0, [100.0, 0.0, 5.03]), at(1, [75.0, 25.0, 5.0]), at(1, [50.0, 50.0, 5.0])];
+    let pieces = [
+        at(0, [33.0, 0.0, 5.01]),
+        at(0, [100.0, 0.0, 5.03]),
+        at(1, [75.0, 25.0, 5.0]),
+        at(1, [50.0, 50.0, 5.0]),
+    ];
     let text = written(&program, &pieces);
     let expected = "\tLIN {X 33.000,Y 0,Z 5.010,A 0,B 0,C 180,S 2,T 35} C_DIS\n\tLIN XP1 ; groove\n\
         \tSLIN {X 75.000,Y 25.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n\tSLIN XP2 C_DIS\n";
@@ -30,20 +35,37 @@ fn pieces_stand_before_the_end_with_all_else_as_written() {
 fn circles_stay_circles_with_a_via_and_become_chords_with_pieces() {
     let program = main_with(DATA, "LIN {X 0,Y 0,Z 5,A 0,B 0,C 180}\nCIRC XP2, XP1 C_DIS");
     let mut piece = at(1, [100.0, 0.1, 5.0]);
-    let error = write(&program, &[piece.clone()], &WriteOptions::default()).unwrap_err().to_string();
+    let error = write(&program, &[piece.clone()], &WriteOptions::default())
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("one piece of a circle states no place between"));
     piece.via_mm = Some(Vector3::new(50.0, 50.2, 5.0));
     let text = written(&program, &[piece]);
     assert!(text.contains("CIRC XP2, XP1 C_DIS") && text.contains("XP2={X 50,Y 50.200,Z 5,"));
-    let text = written(&program, &[at(1, [50.0, 50.0, 5.0]), at(1, [100.0, 0.0, 5.0])]);
-    assert!(text.contains("LIN {X 50.000,Y 50.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\nLIN XP1 C_DIS\n"), "{text}");
+    let text = written(
+        &program,
+        &[at(1, [50.0, 50.0, 5.0]), at(1, [100.0, 0.0, 5.0])],
+    );
+    assert!(
+        text.contains("LIN {X 50.000,Y 50.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\nLIN XP1 C_DIS\n"),
+        "{text}"
+    );
 }
 
 #[test]
 fn joint_motions_are_not_divided() {
     let program = main_with(DATA, "PTP XP1");
-    let error = write(&program, &[at(0, [1.0; 3]), at(0, [2.0; 3])], &WriteOptions::default()).unwrap_err();
-    assert!(error.to_string().contains("a joint motion cannot be divided"));
+    let error = write(
+        &program,
+        &[at(0, [1.0; 3]), at(0, [2.0; 3])],
+        &WriteOptions::default(),
+    )
+    .unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("a joint motion cannot be divided")
+    );
 }
 
 #[test]
@@ -52,7 +74,8 @@ fn a_changed_speed_is_stated_and_the_one_before_restored() {
     let mut piece = at(0, [100.0, 0.0, 5.0]);
     piece.speed_factor = 0.5;
     let text = written(&program, &[piece.clone()]);
-    let expected = "$VEL.CP=0.02\n  $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
+    let expected =
+        "$VEL.CP=0.02\n  $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
     assert!(text.contains(expected), "{text}");
     // Each of several pieces states its own.
     let text = written(&program, &[at(0, [50.0, 0.0, 5.0]), piece]);
@@ -66,12 +89,19 @@ fn a_changed_speed_is_stated_and_the_one_before_restored() {
         ],
         &ReadOptions::default(),
     );
-    let speeds: Vec<Option<f64>> = again.unwrap().motions.iter().map(|motion| motion.speed.mm_per_s).collect();
+    let speeds: Vec<Option<f64>> = again
+        .unwrap()
+        .motions
+        .iter()
+        .map(|motion| motion.speed.mm_per_s)
+        .collect();
     assert_eq!(speeds, [Some(20.0), Some(10.0), Some(20.0)]);
     // What is not known cannot be changed.
     let program = main_with(DATA, "LIN XP1");
     let mut piece = at(0, [100.0, 0.0, 5.0]);
     piece.speed_factor = 0.5;
-    let error = write(&program, &[piece], &WriteOptions::default()).unwrap_err().to_string();
+    let error = write(&program, &[piece], &WriteOptions::default())
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("its speed cannot be changed"));
 }

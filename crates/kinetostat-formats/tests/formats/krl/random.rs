@@ -48,7 +48,11 @@ fn pose(chance: &mut Chance) -> String {
     let angles = [180.0, 89.0, 180.0].map(|size| number(chance, size));
     let comma = chance.of(&[",", ", ", " , "]);
     let start = chance.of(&["{", "{ ", "{E6POS: ", "{POS:"]);
-    let end = chance.of(&["", ",S 2,T 35", ",S 'B010',T 'B00100011',E1 0.0,E2 0,E3 0,E4 0,E5 0,E6 0"]);
+    let end = chance.of(&[
+        "",
+        ",S 2,T 35",
+        ",S 'B010',T 'B00100011',E1 0.0,E2 0,E3 0,E4 0,E5 0,E6 0",
+    ]);
     let members = [
         format!("X {}", place[0]),
         format!("Y {}", place[1]),
@@ -68,7 +72,11 @@ fn end(chance: &mut Chance) -> String {
     match chance.below(4) {
         0 | 1 => name,
         2 => {
-            let (x, y, turn) = (number(chance, 50.0), number(chance, 50.0), number(chance, 180.0));
+            let (x, y, turn) = (
+                number(chance, 50.0),
+                number(chance, 50.0),
+                number(chance, 180.0),
+            );
             format!("{name}:{{X {x},Y {y},Z 0.0,A {turn},B 0,C 0}}")
         }
         _ => pose(chance),
@@ -109,8 +117,14 @@ fn statements(chance: &mut Chance, depth: usize) -> String {
             3 => "$OUT[1]=TRUE\nWAIT SEC 0.5\n".to_owned(),
             4 => "sub()\n".to_owned(),
             5 => format!("  $VEL.CP={}\n", chance.of(&["0.02", "1", "20/1000.0"])),
-            6 => format!("$BASE={}\n", chance.of(&["BASE_DATA[2]", "$NULLFRAME", "{X 1,Y 2,Z 3,A 0,B 0,C 0}"])),
-            7 => format!("$TOOL=TOOL_DATA[{}]\n$APO.CDIS=0.5\n", chance.of(&["0", "1"])),
+            6 => format!(
+                "$BASE={}\n",
+                chance.of(&["BASE_DATA[2]", "$NULLFRAME", "{X 1,Y 2,Z 3,A 0,B 0,C 0}"])
+            ),
+            7 => format!(
+                "$TOOL=TOOL_DATA[{}]\n$APO.CDIS=0.5\n",
+                chance.of(&["0", "1"])
+            ),
             _ => motion(chance),
         };
     }
@@ -130,7 +144,11 @@ pub fn module(chance: &mut Chance) -> [String; 2] {
     }
     data += "DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\nDECL FDAT FP2={TOOL_NO 1,BASE_NO 2}\n";
     data += "DECL LDAT LCPDAT1={VEL 2,ACC 100,APO_DIST 3.5}\n";
-    data += &format!("POS XG={},XH={}\nDECL FRAME way[2]\n", pose(chance), pose(chance));
+    data += &format!(
+        "POS XG={},XH={}\nDECL FRAME way[2]\n",
+        pose(chance),
+        pose(chance)
+    );
     data += &format!("way[1]={}\n  way[2]={}\nENDDAT", pose(chance), pose(chance));
     match chance.below(3) {
         0 => [source.replace('\n', "\r\n"), data.replace('\n', "\r\n")],
@@ -160,8 +178,21 @@ pub fn broken(chance: &mut Chance, text: &str) -> Vec<u8> {
             }
             3 => {
                 let words = [
-                    "\nEND\n", "\nIF ", " THEN\n", "\nENDIF\n", "DEF x()\n", "CASE 1\n", "LIN ", "DECL POS ", "=", "\n;FOLD ", "\n;ENDFOLD",
-                    "\nGOTO a\na:\n", " CA 30", " C_DIS ", "WITH $VEL.CP=0.1,",
+                    "\nEND\n",
+                    "\nIF ",
+                    " THEN\n",
+                    "\nENDIF\n",
+                    "DEF x()\n",
+                    "CASE 1\n",
+                    "LIN ",
+                    "DECL POS ",
+                    "=",
+                    "\n;FOLD ",
+                    "\n;ENDFOLD",
+                    "\nGOTO a\na:\n",
+                    " CA 30",
+                    " C_DIS ",
+                    "WITH $VEL.CP=0.1,",
                 ];
                 bytes.splice(at..at, chance.of(&words).bytes());
             }
@@ -174,7 +205,13 @@ pub fn broken(chance: &mut Chance, text: &str) -> Vec<u8> {
 /// The program that bytes are.
 pub fn read_bytes(files: &[Vec<u8>; 2]) -> Result<RobotProgram, Vec<ProgramError>> {
     let [source, data] = files.clone();
-    read_krl(vec![SourceFile::new("part.src", source), SourceFile::new("part.dat", data)], &ReadOptions::default())
+    read_krl(
+        vec![
+            SourceFile::new("part.src", source),
+            SourceFile::new("part.dat", data),
+        ],
+        &ReadOptions::default(),
+    )
 }
 
 /// Corrections by chance for the motions of a program.
@@ -209,7 +246,8 @@ pub fn corrections(chance: &mut Chance, program: &RobotProgram) -> Vec<Piece> {
 pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, f64), String> {
     let files =
         write(program, pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
-    let again = read_bytes(&[files[0].1.clone(), files[1].1.clone()]).map_err(|errors| format!("read again: {}", errors[0]))?;
+    let again = read_bytes(&[files[0].1.clone(), files[1].1.clone()])
+        .map_err(|errors| format!("read again: {}", errors[0]))?;
     if again.motions.len() != program.motions.len() {
         return Err("another number of motions".to_owned());
     }
@@ -217,10 +255,10 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
     let mut compare = |found: &PoseTarget, to: Vector3<f64>, orientation: UnitQuaternion<f64>| {
         let far = (found.position_mm - to).amax();
         let turned = found.orientation.angle_to(&orientation);
-        if !(far <= place) {
+        if far > place || far.is_nan() {
             place = far;
         }
-        if !(turned <= turn) {
+        if turned > turn || turned.is_nan() {
             turn = turned;
         }
     };
@@ -283,16 +321,30 @@ pub fn check(seed: u64) -> Result<bool, String> {
             };
         }
     };
-    let same = write(&program, &[], &WriteOptions::default()).map_err(|error| at(error.to_string()))?;
-    if same.iter().zip(&bytes).any(|((_, written), given)| written != given) {
+    let same =
+        write(&program, &[], &WriteOptions::default()).map_err(|error| at(error.to_string()))?;
+    if same
+        .iter()
+        .zip(&bytes)
+        .any(|((_, written), given)| written != given)
+    {
         return Err(at("bytes changed without pieces".to_owned()));
     }
     let pieces = corrections(&mut chance, &program);
     // Ends that leave something open go with the motion before, which is said.
-    if program.findings.iter().any(|finding| finding.message.contains("states only some of")) {
+    if program
+        .findings
+        .iter()
+        .any(|finding| finding.message.contains("states only some of"))
+    {
         return Ok(true);
     }
-    let said = ["states only some of", "states no orientation", "a piece has no finite place", "its speed cannot be changed"];
+    let said = [
+        "states only some of",
+        "states no orientation",
+        "a piece has no finite place",
+        "its speed cannot be changed",
+    ];
     let (place, turn) = match write_and_read(&program, &pieces) {
         Err(what) if said.iter().any(|reason| what.contains(reason)) => return Ok(true),
         found => found.map_err(at)?,

@@ -259,3 +259,24 @@ fn blocks_nested_without_end_are_refused_once() {
     );
     assert_eq!(errors(&text).len(), 1);
 }
+
+#[test]
+fn files_of_nothing_but_faults_are_bounded() {
+    let files = |text: String| vec![SourceFile::new("a.mod", text)];
+    let endless = "MODULE A\nPROC main()\n".to_owned() + &"TEST\n".repeat(300_000);
+    assert_eq!(
+        read_rapid(files(endless), &ReadOptions::default())
+            .unwrap_err()
+            .len(),
+        100_000
+    );
+    let calls =
+        "MODULE A\nPROC main()\n".to_owned() + &"x;".repeat(300_000) + "\nENDPROC\nENDMODULE";
+    assert_eq!(
+        read_rapid(files(calls), &ReadOptions::default())
+            .unwrap()
+            .findings
+            .len(),
+        1
+    );
+}

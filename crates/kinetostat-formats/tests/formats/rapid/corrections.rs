@@ -230,3 +230,21 @@ fn joints_unknown_motions_and_absurd_pieces_are_refused() {
     still.speed_factor = 0.0;
     assert!(refused(still).contains("no finite place, orientation or speed"));
 }
+
+#[test]
+fn options_before_the_target_do_not_hide_it() {
+    let program = main_with(P, "MoveL\\Conc, p1,v20,fine,tool0;");
+    let text = written(&program, &[moved(&program, 0, [0.0, 0.0, 0.1])]);
+    assert!(text.contains("p1:=[[100,0.0,5.100]") && text.contains("MoveL\\Conc, p1,v20"));
+}
+
+#[test]
+fn one_declaration_for_thousands_of_motions_is_copied_at_once() {
+    let program = main_with(P, &"MoveL p1,v20,fine,tool0;\n".repeat(20_000));
+    let pieces: Vec<Piece> = (0..20_000)
+        .map(|index| moved(&program, index, [0.01 * index as f64, 0.0, 0.0]))
+        .collect();
+    let text = written(&program, &pieces);
+    assert!(text.contains("CONST robtarget p1_20000:=[[299.990,0.0,5]"));
+    assert_eq!(super::program(&text).motions.len(), 20_000);
+}

@@ -155,3 +155,21 @@ fn deep_nesting_of_calls_is_refused_with_its_line() {
         errors[0]
     );
 }
+
+#[test]
+fn what_changes_speeds_and_loads_is_said() {
+    let text = "MODULE A\nPROC main()\nvelset 50,800;\nGripLoad piece;\nTPErase;\nown 3;\nENDPROC\nENDMODULE";
+    let program = super::program(text);
+    let found: Vec<(usize, &str)> = (program.findings.iter())
+        .map(|finding| (finding.line, finding.message.split(':').next().unwrap()))
+        .collect();
+    let expected = [
+        (3, "VelSet changes the speeds behind it"),
+        (
+            4,
+            "GripLoad changes the load that the controller reckons with",
+        ),
+        (6, "`own` is in none of these files"),
+    ];
+    assert_eq!(found, expected);
+}

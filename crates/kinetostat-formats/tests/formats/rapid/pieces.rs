@@ -69,6 +69,19 @@ fn circles_stay_circles_with_a_via_and_become_chords_with_pieces() {
     let expected = "  MoveL [[50.000,50.000,5],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v20, z1, tool0;\n  MoveL p1, v20, z1, tool0;";
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("p2:=[[50,50,5]"));
+    // Without a blank behind the word: found by the fuzz.
+    let program = main_with(
+        DATA,
+        "MoveC[[50,50,5],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],p1,v20,z1,tool0;",
+    );
+    let text = written(
+        &program,
+        &[at(0, [50.0, 50.0, 5.0]), at(0, [100.0, 0.0, 5.0])],
+    );
+    assert!(
+        text.contains("v20,z1,tool0;\nMoveL p1,v20,z1,tool0;"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -147,5 +160,24 @@ fn pieces_of_an_offset_have_its_configuration() {
     assert_eq!(
         line_with(&text, "MoveL R"),
         "MoveL RelTool(p1,0,0,-10.100),v20,z1,tool0;"
+    );
+}
+
+#[test]
+fn lines_longer_than_allowed_are_refused() {
+    let program = main_with(
+        DATA,
+        "MoveL [[1,2,3],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0;",
+    );
+    let mut options = WriteOptions::default();
+    options.max_line_bytes = Some(74);
+    // The declarations are longer, and stay.
+    assert!(write(&program, &[], &options).is_ok());
+    let error = write(&program, &[at(0, [1.0, 2.0, 3.5])], &options).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("line 5 would be written with 79 bytes, 74 are allowed"),
+        "{error}"
     );
 }

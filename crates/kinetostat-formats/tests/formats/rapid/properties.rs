@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::random::{Chance, PLACE_MM, TURN_RAD, check, corrections, module, write_and_read};
+use super::random::{
+    Chance, PLACE_MM, TURN_RAD, check, corrections, divide_and_read, module, write_and_read,
+};
 use super::{program, written};
 
 proptest! {
@@ -18,10 +20,11 @@ proptest! {
         let (place, turn) = write_and_read(&program, &pieces).map_err(TestCaseError::fail)?;
         prop_assert!(place <= PLACE_MM, "{} mm away", place);
         prop_assert!(turn <= TURN_RAD, "{} rad away", turn);
+        divide_and_read(&mut chance, &program).map_err(TestCaseError::fail)?;
     }
 
     #[test]
     fn broken_programs_are_refused_with_a_place_or_come_back(seed in any::<u64>()) {
-        prop_assert!(check(seed).map_err(TestCaseError::fail).is_ok());
+        check(seed).map_err(TestCaseError::fail)?;
     }
 }

@@ -2,6 +2,7 @@
 //! with a line; what is read comes back byte for byte, and with corrections is read again with those corrections.
 
 use kinetostat_formats::*;
+use kinetostat_testing::Worst;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A sequence of numbers by its seed (xorshift64*, Vigna 2016).
@@ -227,10 +228,13 @@ pub fn corrections(chance: &mut Chance, program: &RobotProgram) -> Vec<Piece> {
             );
             piece.orientation = Some(turn * end.orientation);
         }
-        if chance.below(4) == 0 {
+        if chance.below(4) == 0 && motion.speed.mm_per_s.is_some() {
             piece.speed_factor = 1.0 + chance.within(0.1);
         }
-        pieces.push(piece);
+        let near = |place: Vector3<f64>| place.norm() < 9e5;
+        if near(piece.position_mm) && piece.via_mm.is_none_or(near) {
+            pieces.push(piece);
+        }
     }
     pieces
 }
@@ -243,16 +247,10 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
     if again.motions.len() != program.motions.len() {
         return Err("another number of motions".to_owned());
     }
-    let (mut place, mut turn) = (0.0_f64, 0.0_f64);
+    let (mut place, mut turn) = (Worst::new(), Worst::new());
     let mut compare = |found: &PoseTarget, to: Vector3<f64>, orientation: UnitQuaternion<f64>| {
-        let far = (found.position_mm - to).amax();
-        let turned = found.orientation.angle_to(&orientation);
-        if !(far <= place) {
-            place = far;
-        }
-        if !(turned <= turn) {
-            turn = turned;
-        }
+        place.add((found.position_mm - to).norm());
+        turn.add(found.orientation.angle_to(&orientation));
     };
     for (index, (before, after)) in program.motions.iter().zip(&again.motions).enumerate() {
         let (Some(old), Some(new)) = (before.target.pose(), after.target.pose()) else {
@@ -287,7 +285,63 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
             return Err(format!("motion {index}: another zone, tool or work object"));
         }
     }
-    Ok((place, turn))
+    let largest = |worst: &Worst| worst.measured().unwrap_or(0.0);
+    Ok((largest(&place), largest(&turn)))
+}
+
+/// Straight motions and circles divided: whether what is written again goes through all places, in their order.
+pub fn divide_and_read(chance: &mut Chance, program: &RobotProgram) -> Result<(), String> {
+    let mut pieces = Vec::new();
+    let mut places = Vec::new();
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some(end) = motion
+            .target
+            .pose()
+            .filter(|end| end.position_mm.norm() < 9e5)
+        else {
+            places.push(None);
+            continue;
+        };
+        let divisible = motion.kind != MotionKind::Joint && motion.target.pose().is_some();
+        let count = match chance.below(3) {
+            0 if divisible => 2 + chance.below(3),
+            _ => 0,
+        };
+        let mut own = Vec::new();
+        for step in 1..count {
+            own.push(end.position_mm + Vector3::new(chance.within(5.0), step as f64, 0.0));
+        }
+        own.push(end.position_mm);
+        if count > 0 {
+            pieces.extend(own.iter().map(|place| Piece::to(index, *place)));
+        }
+        places.extend(own.into_iter().map(Some));
+    }
+    let files = match write(program, &pieces, &WriteOptions::default()) {
+        Ok(files) => files,
+        // What cannot be divided says so.
+        Err(WriteError::Motion { .. }) => return Ok(()),
+        Err(error) => return Err(error.to_string()),
+    };
+    let again = read_bytes(&files[0].1).map_err(|errors| format!("divided: {}", errors[0]))?;
+    let found: Vec<Option<Vector3<f64>>> = again
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().map(|pose| pose.position_mm))
+        .collect();
+    let near = |(found, place): (&Option<Vector3<f64>>, &Option<Vector3<f64>>)| match (found, place)
+    {
+        (Some(found), Some(place)) => (found - place).norm() <= PLACE_MM,
+        (found, place) => place.is_none() || found.is_none(),
+    };
+    match found.len() == places.len() && found.iter().zip(&places).all(near) {
+        true => Ok(()),
+        false => Err(format!(
+            "divided: {} motions instead of {}, or elsewhere",
+            found.len(),
+            places.len()
+        )),
+    }
 }
 
 /// One case of the fuzz: whether it was read.
@@ -316,6 +370,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     }
     let pieces = corrections(&mut chance, &program);
     let (place, turn) = write_and_read(&program, &pieces).map_err(at)?;
+    divide_and_read(&mut chance, &program).map_err(at)?;
     match place <= PLACE_MM && turn <= TURN_RAD {
         true => Ok(true),
         false => Err(at(format!("{place} mm and {turn} rad away"))),

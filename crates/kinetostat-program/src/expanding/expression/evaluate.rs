@@ -14,11 +14,36 @@ pub(crate) trait Parameters {
     fn numbered(&self, number: u32) -> Result<f64, String>;
     /// The value of a named one; none where it has not been given any.
     fn named(&self, name: &str) -> Result<Option<f64>, String>;
+    /// Whether a numbered parameter has not been given a value; none where that makes no difference (LinuxCNC).
+    fn is_vacant(&self, number: u32) -> Option<bool>;
     /// Whether a number is that of a parameter.
     fn has_number(&self, number: u32) -> bool;
 }
 
 impl Expression {
+    /// `#0`, which never has a value.
+    pub fn is_number_zero(&self) -> bool {
+        matches!(self, Self::Parameter(of) if **of == Parameter::Number(Self::Number(0.0)))
+    }
+
+    /// Whether this is a parameter that has not been given a value (Fanuc).
+    pub fn is_vacant(&self, parameters: &dyn Parameters) -> Result<bool, String> {
+        let Self::Parameter(of) = self else {
+            return Ok(false);
+        };
+        match &**of {
+            Parameter::Number(number) => {
+                let number = whole(number.value(parameters)?, "a parameter")?;
+                match parameters.is_vacant(number) {
+                    Some(vacant) => Ok(vacant),
+                    None if number == 0 => Err("#0 is no parameter".to_owned()),
+                    None => Ok(false),
+                }
+            }
+            Parameter::Name(_) => Ok(false),
+        }
+    }
+
     /// The value, or why there is none.
     pub fn value(&self, parameters: &dyn Parameters) -> Result<f64, String> {
         let value = match self {
@@ -38,10 +63,24 @@ impl Expression {
                 Parameter::Name(name) => parameters.named(name)?.is_some(),
             }),
             Self::Negative(of) => -of.value(parameters)?,
+            Self::Function(function @ (Function::Floor | Function::Ceiling), of)
+                if parameters.is_vacant(0).is_some() =>
+            {
+                // Fanuc's FIX drops the digits behind the point, its FUP goes away from zero.
+                let value = of.value(parameters)?;
+                value.signum() * function.of(value.abs())?
+            }
             Self::Function(function, of) => function.of(of.value(parameters)?)?,
             Self::ArcTangent(y, x) => {
                 let (y, x) = (y.value(parameters)?, x.value(parameters)?);
                 y.atan2(x).to_degrees()
+            }
+            Self::Operation(operator @ (Operator::Equal | Operator::NotEqual), left, right)
+                if left.is_number_zero() || right.is_number_zero() =>
+            {
+                let [left, right] = [left, right].map(|side| side.is_vacant(parameters));
+                let same = left? == right?;
+                truth(same == (*operator == Operator::Equal))
             }
             Self::Operation(operator, left, right) => {
                 operator.of(left.value(parameters)?, right.value(parameters)?)?

@@ -17,18 +17,23 @@ pub(crate) fn begin(
     diameters_mm: &BTreeMap<u32, f64>,
     state: &Interpreter<'_>,
 ) -> Result<Option<Contour>, Wrong> {
-    if state.plane_axes() != [0, 1, 2] {
+    let [first, second, across] = state.plane_axes();
+    if across == 0 {
         return Err((
-            "cutter radius compensation outside the plane XY is not followed".to_owned(),
-            "write G17, or let the CAM system write the centre line of the tool",
+            "there is no cutter radius compensation in the plane YZ (G19): LinuxCNC refuses it too"
+                .to_owned(),
+            "write G17 or G18, or let the CAM system write the centre line of the tool",
         ));
     }
     let unit = state.units().map(Units::mm_per_unit);
-    let places = [0, 1].map(|axis| state.place_mm(axis));
+    let places = [first, second].map(|axis| state.place_mm(axis));
     let (Some(unit), [Some(x), Some(y)]) = (unit, places) else {
         return Err((
             "where the tool is before cutter radius compensation is not known".to_owned(),
-            "state units, X and Y before it",
+            match across {
+                2 => "state units, X and Y before it",
+                _ => "state units, Z and X before it",
+            },
         ));
     };
     let found = side_and_radius(switch, spindle, diameters_mm, unit)?;

@@ -3,6 +3,8 @@
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::radius::contour::{Contour, Programmed};
+use crate::expanding::radius::geometry::in_plane;
+use crate::expanding::radius::machine::to_machine_place;
 use crate::expanding::radius::motion::{Motion, no_motion};
 use crate::expanding::radius::pending::write;
 use crate::expanding::radius::piece::Shape;
@@ -47,7 +49,8 @@ pub(crate) fn within(
         words,
         origin,
     } = block;
-    words.check_within()?;
+    let axes = programmed.interpreter.plane_axes();
+    words.check_within(axes)?;
     let Some(motion) = Motion::of(text, &programmed.interpreter) else {
         programmed.add(text, origin)?;
         if words.stops() {
@@ -59,12 +62,12 @@ pub(crate) fn within(
     if !motion.before.is_empty() {
         contour.words(&motion.before, origin, flat)?;
     }
-    let now = Programmed::of(&made)?;
+    let now = Programmed::of(&made, axes)?;
     if first == First::Straight {
         now.straight_only()?;
     }
     let after = motion.after.clone();
-    contour.go(now, motion.dress(&made, origin), flat)?;
+    contour.go(now, motion.dress(&made, axes, origin), flat)?;
     if !after.is_empty() {
         contour.settle(flat)?;
         programmed.add(&after, origin)?;
@@ -94,6 +97,12 @@ pub(crate) fn behind(
         flat.add(text, origin)?;
         return Ok(next);
     };
+    if let Some(text) = to_machine_place(text, words, programmed)? {
+        // The programmed run goes there by the words of the program, the flat one by all axes.
+        programmed.add(block.text, origin)?;
+        flat.add(text.as_bytes(), origin)?;
+        return Ok(Next::Together);
+    }
     words.check_behind()?;
     let Some(motion) = Motion::of(text, &programmed.interpreter) else {
         programmed.add(text, origin)?;
@@ -104,10 +113,12 @@ pub(crate) fn behind(
     if !motion.before.is_empty() {
         flat.add(&motion.before, origin)?;
     }
-    let code = Programmed::of(&made)?.straight_only()?;
+    let axes = flat.interpreter.plane_axes();
+    let code = Programmed::of(&made, axes)?.straight_only()?;
     let after = motion.after.clone();
-    let dress = motion.dress(&made, origin);
-    write(&dress.last(Shape::Straight(code), made.end.xy()), flat)?;
+    let dress = motion.dress(&made, axes, origin);
+    let to = in_plane(&made.end, axes);
+    write(&dress.last(Shape::Straight(code), to), flat)?;
     if !after.is_empty() {
         flat.add(&after, origin)?;
     }

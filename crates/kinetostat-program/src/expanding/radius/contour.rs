@@ -2,7 +2,7 @@
 
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
-use crate::expanding::radius::geometry::{Point, Sense, Side};
+use crate::expanding::radius::geometry::{Axes, Point, Sense, Side, in_plane};
 use crate::expanding::radius::pending::Pending;
 use crate::expanding::radius::piece::{Piece, Shape};
 use crate::expanding::radius::trouble::Trouble;
@@ -35,7 +35,7 @@ pub(crate) struct ProgrammedArc {
 
 impl Programmed {
     /// What the block of a move means.
-    pub fn of(motion: &Move) -> Result<Self, Wrong> {
+    pub fn of(motion: &Move, axes: Axes) -> Result<Self, Wrong> {
         if motion
             .feed
             .is_some_and(|feed| feed.mode == FeedMode::InverseTime)
@@ -51,7 +51,7 @@ impl Programmed {
                 MoveKind::Feed => "G1",
             }),
             Curve::Arc(arc) => ProgrammedShape::Arc(ProgrammedArc {
-                centre: arc.centre.xy(),
+                centre: in_plane(&arc.centre, axes),
                 sense: match arc.sweep > 0.0 {
                     true => Sense::CounterClockwise,
                     false => Sense::Clockwise,
@@ -61,7 +61,7 @@ impl Programmed {
             }),
         };
         Ok(Self {
-            to: motion.end.xy(),
+            to: in_plane(&motion.end, axes),
             shape,
         })
     }

@@ -24,7 +24,7 @@ impl Contour {
         if length <= self.tool + LONGER_MM {
             return Err((
                 format!(
-                    "the first move with cutter radius compensation is {length:.4} mm long in X and Y; it must be longer than the tool's radius, {:.4} mm",
+                    "the first move with cutter radius compensation is {length:.4} mm long in the plane; it must be longer than the tool's radius, {:.4} mm",
                     self.tool
                 ),
                 "begin further away from the contour",

@@ -1,11 +1,19 @@
-//! Points, sides and senses in the plane XY, in mm of the part frame.
+//! Points, sides and senses in the plane in force (XY, or ZX), in mm of the part frame.
 
 use std::f64::consts::TAU;
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 /// A place or a direction.
 pub(crate) type Point = Vector2<f64>;
+
+/// Axes of a plane, and the one across it.
+pub(crate) type Axes = [usize; 3];
+
+/// A place as the plane has it.
+pub(crate) fn in_plane(place: &Vector3<f64>, axes: Axes) -> Point {
+    Point::new(place[axes[0]], place[axes[1]])
+}
 
 /// On which side of the contour the tool is, looking along the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +69,13 @@ pub(crate) enum Sense {
 }
 
 impl Sense {
+    pub fn other(self) -> Self {
+        match self {
+            Self::CounterClockwise => Self::Clockwise,
+            Self::Clockwise => Self::CounterClockwise,
+        }
+    }
+
     /// 1 for counter-clockwise.
     pub fn sign(self) -> f64 {
         match self {

@@ -5,6 +5,7 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::number::number;
 use crate::expanding::radius::contour::{Dress, arc_behind};
+use crate::expanding::radius::geometry::Axes;
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::moves::Move;
@@ -23,7 +24,8 @@ pub(crate) struct Motion {
     tail: Vec<u8>,
     /// M0 and its like, run behind it.
     pub after: Vec<u8>,
-    has_depth: bool,
+    /// X, Y and Z words.
+    has: [bool; 3],
     is_arc: bool,
 }
 
@@ -63,7 +65,7 @@ impl Motion {
             tail,
             after: block.after.trim_ascii().to_vec(),
             is_arc,
-            has_depth: block.value(b'Z').is_some(),
+            has: b"XYZ".map(|letter| block.value(letter).is_some()),
         })
     }
 
@@ -73,6 +75,11 @@ impl Motion {
             true => Err(arc_behind()),
             false => Ok(()),
         }
+    }
+
+    /// Which of X, Y, Z it names.
+    pub fn states(&self) -> [bool; 3] {
+        self.has
     }
 
     /// Runs the block where it is programmed; gives its motion.
@@ -90,9 +97,9 @@ impl Motion {
     }
 
     /// What stands around the motion in the flat program.
-    pub fn dress(self, made: &Move, origin: Origin) -> Dress {
+    pub fn dress(self, made: &Move, axes: Axes, origin: Origin) -> Dress {
         Dress {
-            depth: self.has_depth.then_some(made.end.z),
+            depth: self.has[axes[2]].then_some(made.end[axes[2]]),
             lead: self.lead,
             tail: self.tail,
             origin,

@@ -39,18 +39,22 @@ impl Piece {
     /// The block from where the tool is, in the modes in force; none for a straight move that goes nowhere.
     pub fn text(&self, state: &Interpreter<'_>) -> Result<Option<Vec<u8>>, Wrong> {
         let mut words = String::new();
-        for axis in 0..2 {
-            if let Some(value) = word(state, axis, self.to[axis])? {
-                words.push_str(&format!(" {}{value}", ["X", "Y"][axis]));
+        let [first, second, across] = state.plane_axes();
+        // X before Y before Z.
+        let mut in_plane = [(first, self.to.x), (second, self.to.y)];
+        in_plane.sort_by_key(|(axis, _)| *axis);
+        for (axis, to) in in_plane {
+            if let Some(value) = word(state, axis, to)? {
+                words.push_str(&format!(" {}{value}", ["X", "Y", "Z"][axis]));
             }
         }
         if let Some(depth) = self.depth {
-            let value = match (state.is_incremental(), state.coordinate(2)) {
-                (true, Ok(here)) => state.in_program(2, depth) - here,
-                (true, Err(reason)) => return Err((reason, "state Z before")),
-                (false, _) => state.in_program(2, depth),
+            let value = match (state.is_incremental(), state.coordinate(across)) {
+                (true, Ok(here)) => state.in_program(across, depth) - here,
+                (true, Err(reason)) => return Err((reason, "state X, Y and Z before")),
+                (false, _) => state.in_program(across, depth),
             };
-            words.push_str(&format!(" Z{}", rounded(value)));
+            words.push_str(&format!(" {}{}", ["X", "Y", "Z"][across], rounded(value)));
         }
         let code = match self.shape {
             Shape::Straight(code) => code,
@@ -60,14 +64,16 @@ impl Piece {
             },
         };
         if let Shape::Arc { centre, .. } = self.shape {
-            for axis in 0..2 {
-                let place = state.in_program(axis, centre[axis]);
+            let mut centres = [(first, centre.x), (second, centre.y)];
+            centres.sort_by_key(|(axis, _)| *axis);
+            for (axis, centre) in centres {
+                let place = state.in_program(axis, centre);
                 let here = here(state, axis)?;
                 let value = match state.centres_are_places() {
                     true => place,
                     false => place - here,
                 };
-                words.push_str(&format!(" {}{}", ["I", "J"][axis], rounded(value)));
+                words.push_str(&format!(" {}{}", ["I", "J", "K"][axis], rounded(value)));
             }
         }
         let moves = !words.is_empty();
@@ -89,10 +95,10 @@ impl Piece {
 
 fn here(state: &Interpreter<'_>, axis: usize) -> Result<f64, Wrong> {
     let place = state.coordinate(axis);
-    place.map_err(|reason| (reason, "state X and Y before cutter radius compensation"))
+    place.map_err(|reason| (reason, "state X, Y and Z before cutter radius compensation"))
 }
 
-/// A word of X or Y; none where the axis stands still.
+/// A word of an axis of the plane; none where the axis stands still.
 fn word(state: &Interpreter<'_>, axis: usize, to: f64) -> Result<Option<String>, Wrong> {
     let (to, here) = (state.in_program(axis, to), here(state, axis)?);
     if (to - here).abs() * DIGITS < 1.0 {

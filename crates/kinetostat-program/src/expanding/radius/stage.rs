@@ -4,6 +4,8 @@
 //! programmed places; the flat program knows where the tool's centre is. Behind G40 the two places stay apart until a
 //! straight move brings the tool to a place that the program says.
 
+use std::collections::BTreeMap;
+
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
 use crate::expanding::options::ExpandOptions;
@@ -34,8 +36,9 @@ enum State {
 
 /// Stands between the blocks that a program runs and the flat program.
 pub(crate) struct Radius<'o> {
-    options: &'o ExpandOptions,
     spindle: InSpindle,
+    /// Diameters of tools, mm, by number: those of the options, and those that the program states.
+    diameters_mm: BTreeMap<u32, f64>,
     state: State,
     /// The blocks as programmed, where these are others than the flat ones.
     programmed: Option<Flat<'o>>,
@@ -44,7 +47,7 @@ pub(crate) struct Radius<'o> {
 impl<'o> Radius<'o> {
     pub fn new(options: &'o ExpandOptions) -> Self {
         Self {
-            options,
+            diameters_mm: options.tool_diameters_mm.clone(),
             spindle: InSpindle::default(),
             state: State::Off,
             programmed: None,
@@ -55,6 +58,11 @@ impl<'o> Radius<'o> {
     pub fn interpreter<'a>(&'a self, flat: &'a Flat<'o>) -> &'a Interpreter<'o> {
         let programmed = self.programmed.as_ref();
         programmed.map_or(&flat.interpreter, |programmed| &programmed.interpreter)
+    }
+
+    /// The program states the diameter of a tool.
+    pub fn know_diameter(&mut self, tool: u32, diameter_mm: f64) {
+        self.diameters_mm.insert(tool, diameter_mm);
     }
 
     /// Why cycles cannot be run here; none where they can.
@@ -125,7 +133,7 @@ impl<'o> Radius<'o> {
             )));
         }
         let begins_beside = matches!(self.state, State::Beside);
-        let diameters = &self.options.tool_diameters_mm;
+        let diameters = &self.diameters_mm;
         let begun = begin(switch, self.spindle, diameters, self.interpreter(flat))?;
         self.state = match begun {
             Some(contour) => {
@@ -199,7 +207,7 @@ impl<'o> Radius<'o> {
                 Ok(())
             }
             (State::Without, _) => {
-                words.check_within()?;
+                words.check_within(flat.interpreter.plane_axes())?;
                 flat.add(text, origin).map_err(Trouble::from)
             }
             _ => flat.add(text, origin).map_err(Trouble::from),

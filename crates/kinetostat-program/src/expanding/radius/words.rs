@@ -1,12 +1,12 @@
 //! The words of a block that have to do with cutter radius compensation, and which words may stand while it is on.
 
-use crate::expanding::radius::geometry::Side;
+use crate::expanding::radius::geometry::{Axes, Side};
 use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// G4, the moves, and modes that change nothing about the contour; in tenths.
 const CODES: &[u32] = &[
-    0, 10, 20, 30, 40, 170, 200, 210, 800, 900, 901, 910, 911, 940, 950, 960, 970,
+    0, 10, 20, 30, 40, 200, 210, 800, 900, 901, 910, 911, 940, 950, 960, 970,
 ];
 
 /// Stops, spindle and coolant.
@@ -83,7 +83,7 @@ pub(crate) fn words(text: &[u8]) -> Result<Words, Wrong> {
             b'L' if switches > 0 => {
                 return Err((
                     "L beside G41.1 and G42.1 means the tool of a lathe".to_owned(),
-                    "remove it; the plane must be XY (G17)",
+                    "remove it; the tool is taken to be round about its place",
                 ));
             }
             _ => {}
@@ -96,6 +96,28 @@ pub(crate) fn words(text: &[u8]) -> Result<Words, Wrong> {
         other => other,
     };
     Ok(found)
+}
+
+/// The switch of a block with its D word, and the rest.
+pub(crate) fn divided(text: &[u8]) -> Result<(Vec<u8>, Vec<u8>), Wrong> {
+    let found = words(text)?;
+    if found.switch.is_none() {
+        return Ok((Vec::new(), text.to_vec()));
+    }
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(text, &mut tokens);
+    let pieces = tokens.iter().filter(|one| match one.token {
+        Token::Word { letter, value, .. } => {
+            letter == b'D' || letter == b'G' && switch_of(tenths(value)).is_some()
+        }
+        _ => false,
+    });
+    let mut switch = Vec::new();
+    for piece in pieces {
+        switch.extend_from_slice(&text[piece.span.clone()]);
+        switch.push(b' ');
+    }
+    Ok((switch.trim_ascii_end().to_vec(), found.rest))
 }
 
 fn tenths(value: f64) -> u32 {
@@ -125,9 +147,11 @@ impl Words {
     }
 
     /// The first code that may not stand in a contour.
-    pub fn check_within(&self) -> Result<(), Wrong> {
+    pub fn check_within(&self, axes: Axes) -> Result<(), Wrong> {
         let remedy = "write it before G41 and G42, or behind G40 and the move after it";
-        let code = self.g.iter().find(|code| !CODES.contains(code));
+        let plane = [190, 180, 170][axes[2]];
+        let may_be = |code: &u32| CODES.contains(code) || *code == plane;
+        let code = self.g.iter().find(|code| !may_be(code));
         let function = self.m.iter().find(|code| !may_stand(**code));
         let name = match (code, function) {
             (Some(code), _) => format!("G{}", f64::from(*code) / 10.0),
@@ -172,6 +196,12 @@ impl Words {
     /// M6 and M61.
     pub fn changes_tool(&self) -> bool {
         CHANGES.iter().any(|code| self.m.contains(code))
+    }
+
+    /// G53, with nothing else that asks where the tool is.
+    pub fn is_in_machine_coordinates(&self) -> bool {
+        let others = |code: &u32| ASKING.contains(code) && *code != 530;
+        self.g.contains(&530) && !self.g.iter().any(others) && !self.has_other_axes
     }
 
     /// Codes that ask where the tool is cannot stand between G40 and the next move.

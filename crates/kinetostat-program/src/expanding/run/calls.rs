@@ -2,7 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
-use crate::expanding::run::frame::{Frame, LOCAL, Label, Opened};
+use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened, Rules};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
 use crate::text::lex::{Token, tokens_of};
@@ -13,9 +13,9 @@ impl Runner<'_> {
         if values.len() > LOCAL {
             return Err(self.refuse("a call takes at most 30 values", "give it fewer"));
         }
-        let mut numbered = [0.0; LOCAL];
-        for (slot, value) in numbered.iter_mut().zip(values) {
-            *slot = self.value(value)?;
+        let mut numbered = Locals::new(Rules::LinuxCnc);
+        for (number, value) in (1..).zip(values) {
+            numbered.set(number, self.value(value)?);
         }
         let (file, line) = self.find_sub(&label)?;
         let mut frame = Frame::new(file, line + 1, Opened::Call);
@@ -59,6 +59,7 @@ impl Runner<'_> {
                 "call it, or take the line out",
             ));
         }
+        self.restore_at_return()?;
         let named = &mut self.shared.named;
         named.insert("_value".to_owned(), value.unwrap_or(0.0));
         named.insert(
@@ -71,6 +72,13 @@ impl Runner<'_> {
 
     /// Runs on where the file of a subprogram, or the program, ends.
     pub fn end_of_file(&mut self) -> Result<Next, ProgramError> {
+        if let Some(open) = self.frame().loops.last().map(|open| open.line) {
+            self.frame_mut().next = open + 1;
+            return Err(self.refuse(
+                "the loop does not end before its file does",
+                "write its end: endwhile, endrepeat, or while behind do",
+            ));
+        }
         match self.frame().opened {
             Opened::Program => Ok(Next::End),
             Opened::Call => Err(self.refuse("a subprogram does not end", "write its endsub")),
@@ -109,7 +117,17 @@ impl Runner<'_> {
             })
         };
         if is_m(99.0) {
-            return self.return_from_m98().map(Some);
+            if let (Some(_), 1) = (word(b'P'), self.frames.len()) {
+                return Err(self.refuse(
+                    "M99 P in the program itself goes on at a block, again and again",
+                    "write GOTO, or M30 at the end",
+                ));
+            }
+            let next = self.return_from_m98()?;
+            if let Some(number) = word(b'P') {
+                self.go_on_at(number)?;
+            }
+            return Ok(Some(next));
         }
         if !is_m(98.0) {
             return Ok(None);
@@ -177,13 +195,19 @@ impl Runner<'_> {
                 "end it with endsub",
             )),
             Opened::Repeated(left) => {
-                let numbered = frame.numbered;
+                self.restore_at_return()?;
+                let frame = self.frame();
+                let (numbered, arguments) = (frame.numbered, frame.arguments);
                 let first = frame.first;
                 match left.checked_sub(1) {
                     Some(left) => {
                         let frame = self.frame_mut();
+                        frame.numbered = arguments.unwrap_or(numbered);
                         (frame.opened, frame.next) = (Opened::Repeated(left), first);
                         frame.loops.clear();
+                    }
+                    None if arguments.is_some() => {
+                        self.frames.pop();
                     }
                     None => {
                         let named = self.frames.pop().map(|frame| frame.named);

@@ -86,20 +86,6 @@ impl Runner<'_> {
     /// The N word to go on at: behind the line, then from the beginning.
     fn go_to(&mut self, to: &Expression) -> Result<(), ProgramError> {
         let number = self.whole(to, "a block")?;
-        let line = self.running();
-        let frame = self.frame();
-        let lines = &self.sources[frame.file].lines;
-        let is = |i: &usize| lines[*i].label == Some(number);
-        let mut from_here = (line + 1..lines.len()).chain(frame.first..=line);
-        match from_here.find(is) {
-            Some(found) => {
-                self.frame_mut().next = found;
-                Ok(())
-            }
-            None => Err(self.refuse(
-                &format!("GOTO {number}: there is no block N{number}"),
-                "give the block that is meant this number",
-            )),
-        }
+        self.go_to_block(number)
     }
 }

@@ -2,8 +2,68 @@
 
 use std::collections::BTreeMap;
 
+use crate::expanding::run::modal::Context;
+
 /// Numbered parameters that are a subprogram's own: 1 to 30.
 pub(crate) const LOCAL: usize = 30;
+
+/// So many are they on Fanuc: 1 to 33.
+const LOCAL_OF_FANUC: usize = 33;
+
+/// Whose rules parameters follow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Rules {
+    LinuxCnc,
+    /// A number that was not given is vacant: `#1 EQ #0`.
+    Fanuc,
+}
+
+/// Numbered parameters of an open subprogram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Locals {
+    values: [f64; LOCAL_OF_FANUC],
+    /// Bit n: number n has been given.
+    given: u64,
+    pub rules: Rules,
+}
+
+impl Locals {
+    pub fn new(rules: Rules) -> Self {
+        Self {
+            values: [0.0; LOCAL_OF_FANUC],
+            given: 0,
+            rules,
+        }
+    }
+
+    /// Whether a number is one of a subprogram's own.
+    pub fn has(&self, number: u32) -> bool {
+        let most = match self.rules {
+            Rules::LinuxCnc => LOCAL,
+            Rules::Fanuc => LOCAL_OF_FANUC,
+        };
+        (1..=most).contains(&(number as usize))
+    }
+
+    /// The value of one of them, 0 where none was given.
+    pub fn value(&self, number: u32) -> f64 {
+        self.values[number as usize - 1]
+    }
+
+    pub fn is_vacant(&self, number: u32) -> bool {
+        self.given & (1 << number) == 0
+    }
+
+    pub fn set(&mut self, number: u32, value: f64) {
+        self.values[number as usize - 1] = value;
+        self.given |= 1 << number;
+    }
+
+    pub fn vacate(&mut self, number: u32) {
+        self.values[number as usize - 1] = 0.0;
+        self.given &= !(1 << number);
+    }
+}
 
 /// A label, its value known.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,10 +110,14 @@ pub(crate) struct Frame {
     /// Index of its first line.
     pub first: usize,
     pub opened: Opened,
-    /// Parameters 1 to 30.
-    pub numbered: [f64; LOCAL],
+    /// Parameters 1 to 30, or 33.
+    pub numbered: Locals,
+    /// With what G65 called it: each repeat begins with these.
+    pub arguments: Option<Locals>,
     pub named: BTreeMap<String, f64>,
     pub loops: Vec<Loop>,
+    /// Modes that M70 or M73 have saved.
+    pub context: Option<Context>,
 }
 
 impl Frame {
@@ -64,9 +128,11 @@ impl Frame {
             next: first,
             first,
             opened,
-            numbered: [0.0; LOCAL],
+            numbered: Locals::new(Rules::LinuxCnc),
+            arguments: None,
             named: BTreeMap::new(),
             loops: Vec::new(),
+            context: None,
         }
     }
 }

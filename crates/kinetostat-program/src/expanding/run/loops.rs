@@ -2,6 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
+use crate::expanding::options::Dialect;
 use crate::expanding::run::frame::{Label, Loop, LoopKind};
 use crate::expanding::run::runner::Runner;
 use crate::expanding::run::source::constant;
@@ -190,5 +191,38 @@ impl Runner<'_> {
         self.skip(open.line, label)?;
         self.frame_mut().next -= 1;
         Ok(())
+    }
+
+    /// M99 P: back in the program that has called.
+    pub fn go_on_at(&mut self, number: f64) -> Result<(), ProgramError> {
+        if self.options.dialect == Dialect::LinuxCnc {
+            return Ok(());
+        }
+        match number.fract() == 0.0 && (0.0..1e9).contains(&number) {
+            true => self.go_to_block(number as u32),
+            false => Err(self.refuse(
+                "M99 P goes on at a block of the program that has called",
+                "write the whole number of its N word",
+            )),
+        }
+    }
+
+    /// Goes on at the block of an N word: behind the line, then from the beginning.
+    pub fn go_to_block(&mut self, number: u32) -> Result<(), ProgramError> {
+        let line = self.running();
+        let frame = self.frame();
+        let lines = &self.sources[frame.file].lines;
+        let is = |i: &usize| lines[*i].label == Some(number);
+        let mut from_here = (line + 1..lines.len()).chain(frame.first..=line);
+        match from_here.find(is) {
+            Some(found) => {
+                self.frame_mut().next = found;
+                Ok(())
+            }
+            None => Err(self.refuse(
+                &format!("GOTO {number}: there is no block N{number}"),
+                "give the block that is meant this number",
+            )),
+        }
     }
 }

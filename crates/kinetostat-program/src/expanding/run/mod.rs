@@ -2,11 +2,18 @@
 //!
 //! Takes statements; gives plain blocks to the flat program, one after the other, with the line of each.
 
+pub(crate) mod adding;
 pub(crate) mod calls;
 pub(crate) mod control;
 pub(crate) mod frame;
 pub(crate) mod loops;
+pub(crate) mod macros;
+pub(crate) mod modal;
+pub(crate) mod offsets;
 pub(crate) mod parameters;
 pub(crate) mod runner;
+pub(crate) mod saves;
 pub(crate) mod source;
+pub(crate) mod splines;
 pub(crate) mod steps;
+pub(crate) mod taps;

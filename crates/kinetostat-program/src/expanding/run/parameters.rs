@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::expanding::expression::evaluate::Parameters;
 use crate::expanding::expression::tree::Parameter;
-use crate::expanding::run::frame::{Frame, LOCAL};
+use crate::expanding::run::frame::{Frame, Rules};
 use crate::reading::interpret::Interpreter;
 
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
@@ -36,9 +36,13 @@ impl Parameters for Seen<'_, '_> {
         match number {
             0 => Err("#0 is no parameter".to_owned()),
             5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
-            n if n as usize <= LOCAL => Ok(self.frame.numbered[n as usize - 1]),
+            n if self.frame.numbered.has(n) => Ok(self.frame.numbered.value(n)),
             n if n < NUMBERS => match self.state.numbered_state(n) {
-                Some(of_state) => of_state,
+                // Where the state does not know it, the user may.
+                Some(of_state) => of_state.or_else(|reason| {
+                    let given = self.shared.numbered.get(&n);
+                    given.copied().ok_or(reason)
+                }),
                 // As a controller has it that nobody has told a value.
                 None => Ok(self.shared.numbered.get(&n).copied().unwrap_or(0.0)),
             },
@@ -63,6 +67,19 @@ impl Parameters for Seen<'_, '_> {
         }
     }
 
+    fn is_vacant(&self, number: u32) -> Option<bool> {
+        let own = &self.frame.numbered;
+        match own.rules {
+            Rules::LinuxCnc => None,
+            Rules::Fanuc if number == 0 => Some(true),
+            Rules::Fanuc if own.has(number) => Some(own.is_vacant(number)),
+            Rules::Fanuc => {
+                let kept = self.state.numbered_state(number).is_some();
+                Some(!kept && !self.shared.numbered.contains_key(&number))
+            }
+        }
+    }
+
     fn has_number(&self, number: u32) -> bool {
         (1..NUMBERS).contains(&number)
     }
@@ -82,8 +99,8 @@ pub(crate) fn assign(
         (Parameter::Name(name), _) => {
             frame.named.insert(name.clone(), value);
         }
-        (Parameter::Number(_), Some(n @ 1..)) if n as usize <= LOCAL => {
-            frame.numbered[n as usize - 1] = value;
+        (Parameter::Number(_), Some(n)) if frame.numbered.has(n) => {
+            frame.numbered.set(n, value);
         }
         (Parameter::Number(_), Some(n)) if (1..NUMBERS).contains(&n) => {
             if matches!(n, 5161..=5390 | 5400..=5428) {

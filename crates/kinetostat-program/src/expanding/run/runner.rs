@@ -1,17 +1,21 @@
 //! A program while it runs, and what its statements ask of it.
 
 use crate::error::{ProgramError, ProgramErrorKind, excerpt};
+use crate::expanding::coordinates::stage::Coordinates;
 use crate::expanding::expanded::Origin;
 use crate::expanding::expression::evaluate::whole;
 use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
-use crate::expanding::options::ExpandOptions;
+use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::stage::Radius;
-use crate::expanding::run::frame::{Frame, Label, Opened};
+use crate::expanding::run::frame::{Frame, Label, Locals, Opened, Rules};
+use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
 use crate::expanding::translate::cycle::Cycle;
+use crate::expanding::translate::spline::Spline;
+use crate::reading::interpret::Interpreter;
 
 /// Subprograms within each other.
 const DEEPEST: usize = 100;
@@ -31,9 +35,28 @@ pub(crate) struct Runner<'o> {
     pub shared: Shared,
     pub flat: Flat<'o>,
     pub radius: Radius<'o>,
+    pub coordinates: Coordinates<'o>,
     /// The cycle that bare places repeat.
     pub cycle: Option<Cycle>,
+    /// The spline that bare places go on with.
+    pub spline: Option<Spline>,
     pub steps: usize,
+    /// What blocks leave in force and the path does not know.
+    pub functions: Functions,
+    /// M72 has put back the modes from before the first F.
+    pub no_feed: bool,
+}
+
+/// The frame of the program itself.
+fn program_frame(dialect: Dialect) -> Frame {
+    let rules = match dialect {
+        Dialect::Fanuc => Rules::Fanuc,
+        Dialect::LinuxCnc | Dialect::Undecided => Rules::LinuxCnc,
+    };
+    Frame {
+        numbered: Locals::new(rules),
+        ..Frame::new(0, 0, Opened::Program)
+    }
 }
 
 impl<'o> Runner<'o> {
@@ -44,13 +67,23 @@ impl<'o> Runner<'o> {
             options,
             library,
             sources: vec![Source::new(String::new(), bytes)],
-            frames: vec![Frame::new(0, 0, Opened::Program)],
+            frames: vec![program_frame(options.dialect)],
             shared,
             flat: Flat::new(options),
             radius: Radius::new(options),
+            coordinates: Coordinates::default(),
             cycle: None,
+            spline: None,
             steps: 0,
+            functions: Functions::default(),
+            no_feed: false,
         }
+    }
+
+    /// The run that knows the modes and the programmed places.
+    pub fn state(&self) -> &Interpreter<'o> {
+        let own = self.coordinates.interpreter();
+        own.unwrap_or_else(|| self.radius.interpreter(&self.flat))
     }
 
     pub fn frame(&self) -> &Frame {
@@ -101,15 +134,24 @@ impl<'o> Runner<'o> {
 
     /// The value of an expression at the line that runs.
     pub fn value(&self, of: &Expression) -> Result<f64, ProgramError> {
-        let seen = Seen {
+        let found = of.value(&self.seen());
+        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+    }
+
+    /// Whether an expression is a parameter without a value (Fanuc).
+    pub fn is_vacant(&self, of: &Expression) -> Result<bool, ProgramError> {
+        let found = of.is_vacant(&self.seen());
+        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+    }
+
+    fn seen(&self) -> Seen<'_, 'o> {
+        Seen {
             shared: &self.shared,
             frame: self.frame(),
-            state: self.radius.interpreter(&self.flat),
+            state: self.state(),
             place_is_hidden: self.radius.hides_the_place(),
             depth: self.frames.len() - 1,
-        };
-        let found = of.value(&seen);
-        found.map_err(|reason| self.refuse(&reason, "correct the expression"))
+        }
     }
 
     pub fn whole(&self, of: &Expression, what: &str) -> Result<u32, ProgramError> {

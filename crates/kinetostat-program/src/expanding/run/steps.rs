@@ -2,8 +2,10 @@
 
 use crate::error::ProgramError;
 use crate::expanding::number::number;
-use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::options::Dialect;
+use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
+use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::source::statement::{Piece, Statement};
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::{cycle, is_cycle};
@@ -44,6 +46,12 @@ impl Runner<'_> {
     }
 
     fn step(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
+        if self.flat.is_closed() {
+            // Text for people: nothing of it is run.
+            let text = self.sources[file].text(index).to_vec();
+            self.flat.add(&text, self.origin())?;
+            return Ok(Next::Line);
+        }
         if let Some(fault) = self.sources[file]
             .faults
             .iter()
@@ -75,11 +83,15 @@ impl Runner<'_> {
         let mut text = Vec::new();
         let mut polar = Polar::default();
         let mut assignments = Vec::new();
+        let fanuc = self.frame().numbered.rules == Rules::Fanuc;
+        let mut assigns = false;
         for piece in pieces {
             match piece {
                 Piece::Text(range) => {
                     text.extend_from_slice(&self.sources[file].text(index)[range.clone()]);
                 }
+                // A word without a value is as if it were not there (Fanuc).
+                Piece::Word(_, of, _) if fanuc && self.is_vacant(of)? => {}
                 Piece::Word(letter, of, _) => {
                     let value = self.value(of)?;
                     match letter {
@@ -91,13 +103,21 @@ impl Runner<'_> {
                         }
                     }
                 }
+                Piece::Assignment(to, of) if fanuc => {
+                    // At once, and from left to right.
+                    match of.is_number_zero() {
+                        true => self.vacate(to)?,
+                        false => self.assign_value(to, of)?,
+                    }
+                    assigns = true;
+                }
                 Piece::Assignment(to, of) => {
                     let value = self.value(of)?;
                     assignments.push((to, self.number_of(to)?, value));
                 }
             }
         }
-        let text = match assignments.is_empty() {
+        let text = match assignments.is_empty() && !assigns {
             true => text.trim_ascii_end(),
             false => text.trim_ascii(),
         };
@@ -115,13 +135,44 @@ impl Runner<'_> {
         if let Some(next) = self.called(text)? {
             return Ok(next);
         }
+        if self.macro_call(text)? {
+            return Ok(Next::Line);
+        }
+        if let Some(saving) = SavingBlock::of(text) {
+            self.add_rest(&saving.before)?;
+            self.save_or_restore(saving.code)?;
+            return match saving.after.is_empty() && !polar.is_there() {
+                true => Ok(Next::Line),
+                false => self.emit(&saving.after, polar),
+            };
+        }
+        if let Some(texts) = self.offsets(text)? {
+            for text in texts {
+                self.add(text.as_bytes())?;
+            }
+            return self.after_block();
+        }
         let block = MotionBlock::of(text, polar);
         let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
+        if let Some(code) = self.code_of_spline(&block) {
+            self.cycle = None;
+            self.spline(code, &block)?;
+            return self.after_block();
+        }
+        if block.motion == Some(331) && self.options.dialect != Dialect::Fanuc {
+            self.cycle = None;
+            self.leave_spline()?;
+            self.rigid_tap(&block)?;
+            return self.after_block();
+        }
         let code = match (block.motion, self.cycle) {
             (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
             (None, Some(cycle)) if goes_on => Some(cycle.code),
             (None, _) => None,
         };
+        if block.motion.is_some() {
+            self.leave_spline()?;
+        }
         match code {
             Some(code) => self.cycle(code, &block)?,
             None => {
@@ -137,31 +188,15 @@ impl Runner<'_> {
         self.after_block()
     }
 
-    fn add(&mut self, text: &[u8]) -> Result<(), ProgramError> {
-        let origin = self.origin();
-        self.flat
-            .name_file(origin.file, &self.sources[origin.file].name);
-        let added = self.radius.block(text, origin, &mut self.flat);
-        added.map_err(|trouble| match trouble {
-            Trouble::Block(error) => error,
-            Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
-        })
-    }
-
-    /// What is no motion of a block that is translated.
-    fn add_rest(&mut self, words: &[u8]) -> Result<(), ProgramError> {
-        match words.trim_ascii() {
-            [] => Ok(()),
-            words => self.add(words),
-        }
-    }
-
     fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
-        if let Some((reason, remedy)) = self.radius.refuses_cycles() {
+        let refused = self.radius.refuses_cycles();
+        let refused = refused.or_else(|| self.coordinates.refuses_cycles());
+        if let Some((reason, remedy)) = refused {
             return Err(self.refuse(&reason, remedy));
         }
         self.add_rest(&block.before)?;
-        let made = cycle(code, block, self.cycle, &self.flat.interpreter);
+        let state = (self.state(), self.options.dialect);
+        let made = cycle(code, block, self.cycle, state);
         let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
         for text in texts {
             self.add(text.as_bytes())?;
@@ -177,7 +212,7 @@ impl Runner<'_> {
             return Err(self.refuse("X or Y beside polar words", remedy));
         }
         self.add_rest(&block.before)?;
-        let state = self.radius.interpreter(&self.flat);
+        let state = self.state();
         let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
             (Ok(x), Ok(y)) => (x, y),
             (Err(reason), _) | (_, Err(reason)) => {

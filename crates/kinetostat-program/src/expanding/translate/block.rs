@@ -114,7 +114,8 @@ impl MotionBlock {
 }
 
 fn is_motion(tenths: u32) -> bool {
-    matches!(tenths, 0 | 10 | 20 | 30 | 330 | 331 | 380..=385 | 730 | 740 | 760 | 800 | 810..=890)
-        && tenths.is_multiple_of(10)
+    matches!(tenths, 50..=53)
+        || matches!(tenths, 0 | 10 | 20 | 30 | 330 | 331 | 380..=385 | 730 | 740 | 760 | 800 | 810..=890)
+            && tenths.is_multiple_of(10)
         || matches!(tenths, 331 | 382..=385)
 }

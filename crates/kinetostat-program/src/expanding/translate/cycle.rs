@@ -1,5 +1,6 @@
 //! Canned cycles: what of a cycle holds for the blocks that follow, and the places of its holes.
 
+use crate::expanding::options::Dialect;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
 use crate::expanding::translate::moves::Place;
@@ -21,6 +22,9 @@ pub(crate) struct Cycle {
     shift: [Option<f64>; 3],
     /// Depth coordinate before the first cycle of a row.
     initial: f64,
+    /// Whether R and the depth were read as increments (G91), and the levels that they mean.
+    incremental: bool,
+    levels: [f64; 2],
 }
 
 fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Wrong> {
@@ -37,7 +41,7 @@ pub(crate) fn cycle(
     code: u32,
     block: &MotionBlock,
     before: Option<Cycle>,
-    state: &Interpreter<'_>,
+    (state, dialect): (&Interpreter<'_>, Dialect),
 ) -> Result<(Vec<String>, Cycle), Wrong> {
     let [first, second, normal] = state.plane_axes();
     let letters = [first, second, normal].map(|axis| b"XYZ"[axis]);
@@ -90,19 +94,50 @@ pub(crate) fn cycle(
             optional(b'K', |c| c.shift[2]),
         ],
         initial: before.map_or(height, |cycle| cycle.initial),
+        incremental: place.incremental,
+        levels: [0.0; 2],
     };
-    let repeats = block.value(b'L').unwrap_or(1.0);
-    if repeats.fract() != 0.0 || !(1.0..=MOST_REPEATS).contains(&repeats) {
+    // Fanuc repeats by K (others of its kind by L), and K0 only keeps the words.
+    let of_fanuc = dialect == Dialect::Fanuc && !matches!(code, 760 | 870);
+    let k = block.value(b'K').filter(|_| of_fanuc);
+    let repeats = block.value(b'L').or(k).unwrap_or(1.0);
+    let least = match dialect {
+        Dialect::Fanuc => 0.0,
+        _ => 1.0,
+    };
+    if repeats.fract() != 0.0 || !(least..=MOST_REPEATS).contains(&repeats) {
         return wrong(
             "a cycle is repeated a whole number of times (L)",
             "correct L",
         );
     }
     let incremental = place.incremental;
-    let (level, bottom) = match incremental {
+    let (mut level, mut bottom) = match incremental {
         false => (retract, depth),
         true => (retract + cycle.initial, retract + cycle.initial + depth),
     };
+    // R and depth of a block before the change between G90 and G91.
+    if let Some(same) = same.filter(|same| same.incremental != incremental) {
+        let kept = [b'R', letters[2]].map(|letter| block.value(letter).is_none());
+        match dialect {
+            Dialect::LinuxCnc => {}
+            Dialect::Undecided if kept != [false; 2] => {
+                return wrong(
+                    "the distance mode changes in a row of cycles: Fanuc keeps the levels of R and the depth, LinuxCNC reads their numbers anew as places or increments",
+                    "write R and the depth into the block, or name the dialect (--dialect)",
+                );
+            }
+            _ => {
+                level = if kept[0] { same.levels[0] } else { level };
+                bottom = match kept[1] {
+                    true => same.levels[1],
+                    false if incremental => level + depth,
+                    false => depth,
+                };
+            }
+        }
+    }
+    cycle.levels = [level, bottom];
     if level < bottom {
         return wrong(
             format!("the cycle's retract level {level} is below its depth {bottom}"),
@@ -116,18 +151,23 @@ pub(crate) fn cycle(
         to
     };
     let (mut initial, mut now) = (cycle.initial, height);
-    if initial < level {
+    if initial < level && repeats > 0.0 {
         texts.extend(place.go("G0", at([a, b], level)));
         (initial, now) = (level, level);
     }
-    let clear = match state.retracts_to_level() {
+    let stated = state.retracts_to_level().or(match dialect {
+        Dialect::LinuxCnc => Some(true),
+        Dialect::Fanuc => Some(false),
+        Dialect::Undecided => None,
+    });
+    let clear = match stated {
         Some(true) => level,
         Some(false) => initial,
         None if initial == level => level,
         None => {
             return wrong(
                 "whether the cycle goes back to its start (G98) or to R (G99) is not stated: LinuxCNC begins with G99, Fanuc with G98",
-                "write G98 or G99 before the cycle",
+                "write G98 or G99 before the cycle, or name the dialect (--dialect)",
             );
         }
     };
@@ -159,6 +199,7 @@ pub(crate) fn cycle(
             shift: cycle.shift,
             middle: cycle.shift[2].map(|k| if incremental { bottom + k } else { k }),
             peck_back: state.peck_back(),
+            dialect,
         };
         let mut go = |code: &str, plane: [f64; 2], height: f64| place.go(code, at(plane, height));
         texts.extend(hole.blocks(code, Spindle::of(state), &mut go)?);

@@ -1,6 +1,7 @@
 //! The motions of one hole, from its retract level on.
 
 use crate::expanding::number::number;
+use crate::expanding::options::Dialect;
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::spindle::SpindleRotation;
 use crate::reading::interpret::Interpreter;
@@ -49,6 +50,7 @@ pub(crate) struct Hole {
     pub middle: Option<f64>,
     /// How far above the last depth a peck begins.
     pub peck_back: f64,
+    pub dialect: Dialect,
 }
 
 /// Writes a move; none where it goes nowhere.
@@ -66,7 +68,7 @@ impl Hole {
         let (at, bottom, clear) = (self.at, self.bottom, self.clear);
         let dwell = |needed: bool| match self.dwell {
             Some(p) => Ok(Some(format!("G4 P{}", number(p)))),
-            None if needed => Err((
+            None if needed && self.dialect != Dialect::Fanuc => Err((
                 format!("the cycle G{} has no dwell (P)", code / 10),
                 "write P into its first block",
             )),
@@ -130,6 +132,15 @@ impl Hole {
                 all.extend(dwell(true)?);
                 all.extend(go("G1", at, clear));
             }
+            760 if self.dialect == Dialect::Fanuc => {
+                self.fine_bore(spindle, dwell(false)?, go, &mut all)?
+            }
+            870 if self.dialect == Dialect::Fanuc => {
+                return Err((
+                    "the shift of the cycle G87 is a parameter of Fanuc's controllers".to_owned(),
+                    "write its moves as G0 and G1 blocks",
+                ));
+            }
             870 => self.back_bore(spindle, go, &mut all)?,
             880 => {
                 return Err((
@@ -139,9 +150,14 @@ impl Hole {
             }
             _ => {
                 return Err((
-                    "G76 is a thread on LinuxCNC and lathes, and a fine boring elsewhere"
-                        .to_owned(),
-                    "write its moves as G0 and G1 blocks",
+                    match self.dialect {
+                        Dialect::LinuxCnc => {
+                            "G76 of LinuxCNC is a thread of many passes, tied to the spindle"
+                        }
+                        _ => "G76 is a thread on LinuxCNC and lathes, and a fine boring elsewhere",
+                    }
+                    .to_owned(),
+                    "write its moves as G0 and G1 blocks; the fine boring is followed with --dialect fanuc",
                 ));
             }
         }
@@ -170,6 +186,35 @@ impl Hole {
             depth -= peck;
         }
         Ok(depths)
+    }
+
+    /// Down, stop and turn to its place, aside by I and J, out, back over the hole (Fanuc, Operator's Manual B-63534EN, G76;
+    /// Haas has I and J).
+    fn fine_bore(
+        &self,
+        spindle: Spindle,
+        dwell: Option<String>,
+        go: &mut Go<'_>,
+        all: &mut Vec<String>,
+    ) -> Result<(), Wrong> {
+        let [own, _] = spindle.turning(760)?;
+        let [i, j, _] = self.shift;
+        if i.is_none() && j.is_none() {
+            return Err((
+                "which way the cycle G76 shifts the tool by Q is a parameter of the controller"
+                    .to_owned(),
+                "write the shift with I and J",
+            ));
+        }
+        let aside = [self.at[0] + i.unwrap_or(0.0), self.at[1] + j.unwrap_or(0.0)];
+        all.extend(go("G1", self.at, self.bottom));
+        all.extend(dwell);
+        all.extend(["M5".to_owned(), "M19".to_owned()]);
+        all.extend(go("G0", aside, self.bottom));
+        all.extend(go("G0", aside, self.clear));
+        all.extend(go("G0", self.at, self.clear));
+        all.push(own.to_owned());
+        Ok(())
     }
 
     fn back_bore(

@@ -8,4 +8,5 @@ pub(crate) mod cycle;
 pub(crate) mod holes;
 pub(crate) mod moves;
 pub(crate) mod polar;
+pub(crate) mod spline;
 pub(crate) mod wrong;

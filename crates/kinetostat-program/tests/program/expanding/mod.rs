@@ -1,11 +1,17 @@
 //! Programs that are run once and written flat.
 
 mod bounds;
+mod broken;
 mod control;
+mod coordinates;
 mod cycles;
 mod expressions;
+mod fanuc;
+mod modes;
+mod offsets;
 mod polar;
 pub mod random;
+mod splines;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};
 

@@ -1,6 +1,7 @@
 //! Random programs with macros: whatever they are, they are expanded or refused with a line, at once; what is expanded is plain.
 
-use kinetostat_program::{ExpandOptions, NoSubprograms, expand, interpret};
+use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, expand, interpret};
+use nalgebra::Vector3;
 
 /// Pieces of programs: what belongs together stands in one.
 const PIECES: &[&str] = &[
@@ -102,6 +103,52 @@ const PIECES: &[&str] = &[
     "1e9",
     ".",
     "-",
+    "M70\n",
+    "M71\n",
+    "M72\n",
+    "M73\n",
+    "O6 sub\nM73\nG91 G20 F3 M5\nO6 endsub\nO6 call\n",
+    "G61\n",
+    "G64 P0.1 Q0.2\n",
+    "G93\n",
+    "G94\n",
+    "M8\n",
+    "M9\n",
+    "M49\n",
+    "G10 L2 P1 X3\n",
+    "G10 L2 P0 Y3 R0\n",
+    "G10 L20 P2 X1 Y2 Z3\n",
+    "G10 L1 P1 R2\n",
+    "G52 X1 Y2\n",
+    "G52 X0 Y0 Z0\n",
+    "G92.1\n",
+    "X#5211 Y#5221\n",
+    "G53 G0 Z0\n",
+    "G28\n",
+    "G5 X9 Y1 I1 J2 P1 Q2\n",
+    "G5.1 X4 Y5 I3 J1\n",
+    "G5.2 X1 Y2 P1\nX3 Y4 P1\nX5 Y6 P2 L4\n",
+    "G5.2 P1\n",
+    "G5.3\n",
+    "G33.1 Z-3 K1\n",
+    "G19\n",
+    "G51 X1 Y1 P2.\n",
+    "G51 X0 Y0 Z0 I-1. J-1.\n",
+    "G51.1 X3\n",
+    "G50\n",
+    "G50.1\n",
+    "G68 X1 Y2 R30\n",
+    "G68 X0 Y0 R#1\n",
+    "G69\n",
+    "G65 P7 A1 X2 L2\n",
+    "IF [#1 EQ #0] THEN #1=3\n",
+    "#1=#0\n",
+    "G76 X1 Z-3 R1 I1 P1\n",
+    "K2 ",
+    "M99 P5\n",
+    "G0 X1 Y2 Z3\n",
+    "G1 X7 Y8\n",
+    "G3 X9 Y8 I1 J0\n",
 ];
 
 /// A program of a seed.
@@ -143,6 +190,11 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let mut options = ExpandOptions::default();
     options.most_blocks = 500;
     options.tool_diameters_mm.insert(1, 1.5);
+    options.dialect = [Dialect::Undecided, Dialect::LinuxCnc, Dialect::Fanuc][(seed % 3) as usize];
+    if seed.is_multiple_of(2) {
+        options.reading.machine_zero_mm = Some(Vector3::new(10.0, 20.0, 30.0));
+        options.reading.work_offsets_mm[0] = Some(Vector3::new(1.0, 2.0, 3.0));
+    }
     let lines = text.lines().count().max(1);
     let expanded = match expand(text.as_str(), &options, &NoSubprograms) {
         Err(error) if error.line >= 1 && error.line <= lines && !error.reason.is_empty() => {

@@ -125,3 +125,39 @@ fn the_machine_s_default_units_hold_as_well() {
     let flat = expand(text, &options, &NoSubprograms).unwrap();
     assert!(same(flat.path.moves[1].end.x, -0.25 * 25.4));
 }
+
+#[test]
+fn in_the_plane_zx_the_same_contour_turns_up_in_other_letters() {
+    let xy = "G21 G90 G17 F200\nG0 X0 Y-20 Z5\nG41.1 D6\nG1 X0 Y0\nY40\nG2 X30 Y40 I15 J0\nG1 X30 Y10\nG1 Z3\nX50\nG40\nG0 Z5\nM2\n";
+    let zx: String = xy
+        .replace("G17", "G18")
+        .chars()
+        .map(|letter| match letter {
+            'X' => 'Z',
+            'Y' => 'X',
+            'Z' => 'Y',
+            'I' => 'K',
+            'J' => 'I',
+            other => other,
+        })
+        .collect();
+    let ends = |text: &str| -> Vec<[f64; 3]> {
+        let made = expand(text, &ExpandOptions::default(), &NoSubprograms);
+        let made = made.unwrap_or_else(|error| panic!("{error}"));
+        made.path
+            .moves
+            .iter()
+            .map(|m| [m.end.x, m.end.y, m.end.z])
+            .collect()
+    };
+    let (one, other) = (ends(xy), ends(&zx));
+    assert_eq!(one.len(), other.len());
+    assert!(one.len() == 8, "{one:?}");
+    for (a, b) in one.iter().zip(&other) {
+        // (x, y, z) of the first is (z, x, y) of the second.
+        let turned = [b[2], b[0], b[1]];
+        for axis in 0..3 {
+            assert!((a[axis] - turned[axis]).abs() < 1e-9, "{a:?} {b:?}");
+        }
+    }
+}

@@ -155,7 +155,7 @@ fn the_tool_s_radius_must_be_known() {
         ("G41.1 D4 L1", "lathe"),
         ("G41.1 D100000", "diameter"),
         ("G41 G42 D1", "two codes"),
-        ("G18\nG41 D1", "outside the plane XY"),
+        ("G19\nG41 D1", "plane YZ"),
         ("G18 G41 D1", "in one block"),
         ("G20 G41.1 D1", "in one block"),
     ] {

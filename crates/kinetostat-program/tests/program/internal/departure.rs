@@ -2,17 +2,17 @@
 
 use kinetostat_program::internal::{Values, departure, parabola, polynomial, remainder};
 use kinetostat_testing::{Worst, largest_size};
-use nalgebra::Vector3;
+use nalgebra::Vector6;
 
 fn values(f: impl Fn(f64) -> f64) -> Values {
-    std::array::from_fn(|i| Vector3::new(f(0.25 * i as f64), 0.0, 0.0))
+    std::array::from_fn(|i| Vector6::x() * f(0.25 * i as f64))
 }
 
 #[test]
 fn a_quartic_is_met_and_its_departure_is_bounded_closely() {
     let f = |t: f64| 0.3 - t + 2.0 * t * t - 5.0 * t.powi(3) + 1.7 * t.powi(4);
     let known = values(f);
-    let chord = [Vector3::new(0.1, 0.0, 0.0), Vector3::new(-2.0, 0.0, 0.0)];
+    let chord = [Vector6::x() * 0.1, Vector6::x() * -2.0];
     let mut largest = Worst::new();
     for i in 0..=5000 {
         let t = f64::from(i) / 5000.0;
@@ -29,10 +29,10 @@ fn a_quartic_is_met_and_its_departure_is_bounded_closely() {
 #[test]
 fn a_parabola_is_bounded_to_half_a_percent() {
     let f = |t: f64| t * t;
-    let chord = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)];
+    let chord = [Vector6::zeros(), Vector6::x() * 1.0];
     let bound = departure(&values(f), chord);
     assert!((0.25..0.251_3).contains(&bound), "{bound}");
-    let middle = Vector3::new(0.25, 0.0, 0.0);
+    let middle = Vector6::x() * 0.25;
     assert!((parabola(chord[0], middle, chord[1])[1].x - 0.0625).abs() < 1e-15);
 }
 

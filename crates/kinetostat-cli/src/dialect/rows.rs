@@ -1,0 +1,115 @@
+//! The rows of a table, of whatever language.
+
+use kinetostat_formats::Treatment as OfStatement;
+use kinetostat_program::{CODES, MOMENTS, Placed, Treatment as OfCode};
+use serde::Serialize;
+
+use crate::dialect::languages::{Language, Words};
+
+/// A word of a language.
+#[derive(Serialize)]
+pub(crate) struct Row {
+    pub(crate) word: String,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) meaning: &'static str,
+    /// `followed`, `carried` or `refused`.
+    pub(crate) treatment: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) reason: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) remedy: &'static str,
+    /// Where it is written when its block is divided: `first` or `last` piece.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) piece: Option<&'static str>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) source: &'static str,
+}
+
+impl Row {
+    /// Meaning, reason and remedy in one sentence.
+    pub(crate) fn description(&self) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        for part in [self.meaning, self.reason, self.remedy] {
+            if !part.is_empty() {
+                parts.push(part.to_owned());
+            }
+        }
+        if let Some(piece) = self.piece {
+            parts.push(format!("in the {piece} piece of a divided block"));
+        }
+        parts.join("; ")
+    }
+}
+
+fn treatment(
+    refused: Option<(&'static str, &'static str)>,
+    followed: bool,
+) -> (&'static str, &'static str, &'static str) {
+    match (refused, followed) {
+        (Some((reason, remedy)), _) => ("refused", reason, remedy),
+        (None, true) => ("followed", "", ""),
+        (None, false) => ("carried", "", ""),
+    }
+}
+
+/// All words of a language.
+pub(crate) fn rows(language: &Language) -> Vec<Row> {
+    match language.words {
+        Words::Codes => codes(),
+        Words::Statements(all) => {
+            let rows = all.iter().map(|row| {
+                let refused = match row.treatment {
+                    OfStatement::Refused { reason, remedy } => Some((reason, remedy)),
+                    _ => None,
+                };
+                let followed = row.treatment == OfStatement::Understood;
+                let (treatment, reason, remedy) = treatment(refused, followed);
+                Row {
+                    word: row.name.to_owned(),
+                    meaning: "",
+                    treatment,
+                    reason,
+                    remedy,
+                    piece: None,
+                    source: row.source,
+                }
+            });
+            rows.collect()
+        }
+    }
+}
+
+fn codes() -> Vec<Row> {
+    let mut all = Vec::new();
+    for code in CODES {
+        let refused = match code.treatment {
+            OfCode::Refused { reason, remedy } => Some((reason, remedy)),
+            _ => None,
+        };
+        let followed = code.treatment == OfCode::Understood;
+        let (treatment, reason, remedy) = treatment(refused, followed);
+        for tenths in code.tenths {
+            let word = match tenths % 10 {
+                0 => format!("{}{}", code.letter, tenths / 10),
+                part => format!("{}{}.{part}", code.letter, tenths / 10),
+            };
+            let moment = MOMENTS
+                .iter()
+                .find(|moment| code.letter == 'M' && 10 * moment.code == *tenths);
+            all.push(Row {
+                word,
+                meaning: code.meaning,
+                treatment,
+                reason,
+                remedy,
+                piece: moment.and_then(|moment| match moment.placed {
+                    Placed::First => Some("first"),
+                    Placed::Last => Some("last"),
+                    Placed::Refused => None,
+                }),
+                source: "",
+            });
+        }
+    }
+    all
+}

@@ -1,0 +1,28 @@
+//! The table `[expand]` of a job file: the program is run once and written flat before it is read.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+use crate::job::dialect_word::DialectWord;
+
+/// That the program is expanded, and how.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExpandTable {
+    /// Diameters of tools by their numbers, for G41 and G42.
+    pub tool_diameters_mm: Option<NumberedTable>,
+    /// Folders of subprograms beside that of the program.
+    #[serde(default)]
+    pub subprograms: Vec<Spanned<String>>,
+    /// Values of numbered parameters before the program.
+    pub parameters: Option<NumberedTable>,
+    /// Controller that the program is written for.
+    pub dialect: Option<DialectWord>,
+    /// Whether flat blocks say the line that they came from.
+    pub comments: Option<bool>,
+}
+
+/// Numbers with a value each.
+pub(crate) type NumberedTable = Spanned<BTreeMap<Spanned<String>, Spanned<f64>>>;

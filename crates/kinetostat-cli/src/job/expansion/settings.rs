@@ -1,0 +1,140 @@
+//! How a program is expanded, from options and the table `[expand]` of a job file; options go over the job file.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use kinetostat_program::{Dialect, ExpandOptions, OriginComments, ReadOptions};
+
+use crate::job::dialect_word::DialectWord;
+use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
+use crate::job::expansion::values::{any, diameter, of_options, of_table};
+use crate::job::job_file::JobFile;
+use crate::ui::failure::{Answer, Failure};
+
+/// How a program is expanded.
+pub(crate) struct ExpandSettings {
+    pub(crate) options: ExpandOptions,
+    /// Folders of subprograms beside that of the program.
+    pub(crate) folders: Vec<PathBuf>,
+    /// The same in sentences, for results.
+    pub(crate) words: Vec<String>,
+}
+
+/// The settings where the program of a run is to be expanded; none where it is not.
+pub(crate) fn wanted(
+    job: Option<&JobFile>,
+    flags: &ExpandFlags,
+    reading: &ReadOptions,
+) -> Answer<Option<ExpandSettings>> {
+    if flags.expand || job.is_some_and(|j| j.job.expand.is_some()) {
+        return settings(job, &flags.with, reading).map(Some);
+    }
+    if let Some(option) = flags.given() {
+        return Err(Failure::input(format!(
+            "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
+        )));
+    }
+    let unused = job.and_then(|j| Some((j, j.job.output.flat_program.as_ref()?)));
+    match unused {
+        Some((j, written)) => Err(j.error(
+            written,
+            "there is a flat program only where the program is expanded",
+            "add a table [expand], or leave this line out",
+        )),
+        None => Ok(None),
+    }
+}
+
+/// What options and job file say of an expansion.
+pub(crate) fn settings(
+    job: Option<&JobFile>,
+    args: &ExpansionArgs,
+    reading: &ReadOptions,
+) -> Answer<ExpandSettings> {
+    let mut options = ExpandOptions::default();
+    options.reading = reading.clone();
+    // Which tools are there is asked of the flat program, as of any other.
+    options.reading.tools = None;
+    let table = job.and_then(|j| Some((j, j.job.expand.as_ref()?.get_ref())));
+    let mut comments = !args.no_comments;
+    let in_job = table.and_then(|(_, table)| table.dialect);
+    let dialect = args.dialect.or(in_job).map(DialectWord::dialect);
+    options.dialect = dialect.unwrap_or_default();
+    let mut folders = args.subprograms.clone();
+    for folder in &folders {
+        if !folder.is_dir() {
+            return Err(Failure::input(format!(
+                "--subprograms: {}",
+                no_folder(folder)
+            )));
+        }
+    }
+    if let Some((j, table)) = table {
+        comments = comments && table.comments.unwrap_or(true);
+        options.tool_diameters_mm = of_table(j, table.tool_diameters_mm.as_ref(), diameter)?;
+        options.parameters = of_table(j, table.parameters.as_ref(), any)?;
+        for written in &table.subprograms {
+            let folder = j.base().join(written.get_ref());
+            if written.get_ref().trim().is_empty() || !folder.is_dir() {
+                let help = "name a folder; paths count from the folder of the job file";
+                return Err(j.error(written, &no_folder(&folder), help));
+            }
+            folders.push(folder);
+        }
+    }
+    let diameters = of_options("--tool-diameter-mm", &args.tool_diameter_mm, diameter)?;
+    options.tool_diameters_mm.extend(diameters);
+    let parameters = of_options("--parameter", &args.parameter, any)?;
+    options.parameters.extend(parameters);
+    options.origin_comments = match comments {
+        true => OriginComments::Written,
+        false => OriginComments::Left,
+    };
+    let words = words(&options, &folders);
+    Ok(ExpandSettings {
+        options,
+        folders,
+        words,
+    })
+}
+
+fn dialect_name(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::LinuxCnc => "LinuxCNC",
+        Dialect::Fanuc => "Fanuc",
+        _ => "",
+    }
+}
+
+fn no_folder(folder: &Path) -> String {
+    format!("'{}' is no folder", folder.display())
+}
+
+fn words(options: &ExpandOptions, folders: &[PathBuf]) -> Vec<String> {
+    let listed = |values: &BTreeMap<u32, f64>, before: &str, unit: &str| {
+        let each = values
+            .iter()
+            .map(|(number, value)| format!("{before}{number} = {value}{unit}"));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    // Without their place: a report may be passed on.
+    let names: Vec<String> = folders
+        .iter()
+        .filter_map(|folder| Some(folder.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    let mut words = Vec::new();
+    for (what, text) in [
+        ("folders of subprograms", names.join(", ")),
+        (
+            "diameters of tools",
+            listed(&options.tool_diameters_mm, "T", " mm"),
+        ),
+        ("parameters", listed(&options.parameters, "#", "")),
+        ("dialect", dialect_name(options.dialect).to_owned()),
+    ] {
+        if !text.is_empty() {
+            words.push(format!("{what}: {text}"));
+        }
+    }
+    words
+}

@@ -1,0 +1,10 @@
+//! Programs in the language of a robot: which it is, what the job file and options say of them, and reading them.
+//!
+//! [`source`] finds the files, [`read_program`] reads them and makes their path, [`frames`] are the tool and the work object
+//! that the program states, for the machine of the run.
+
+pub(crate) mod frames;
+pub(crate) mod machine;
+pub(crate) mod read_program;
+pub(crate) mod settings;
+pub(crate) mod source;

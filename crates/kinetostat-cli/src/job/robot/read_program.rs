@@ -1,0 +1,56 @@
+//! A robot's program read, with its path.
+
+use kinetostat::Directions;
+use kinetostat_formats::{Correctable, RobotPath, RobotProgram, path_of, read};
+
+use crate::job::robot::settings::RobotSettings;
+use crate::job::robot::source::RobotSource;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::fault_list::fault_list_text;
+
+/// A robot's program with its path.
+#[derive(Debug)]
+pub(crate) struct RobotRead<'s> {
+    pub(crate) program: RobotProgram,
+    pub(crate) path: RobotPath,
+    settings: &'s RobotSettings,
+}
+
+impl RobotRead<'_> {
+    /// What of the tool's pose is corrected.
+    pub(crate) fn corrected(&self) -> Directions {
+        self.settings.corrected
+    }
+
+    /// The program as a run takes it.
+    pub(crate) fn correctable(&self) -> Correctable<'_> {
+        Correctable {
+            program: &self.program,
+            path: &self.path,
+            reading: &self.settings.reading,
+            making: &self.settings.making,
+            writing: &self.settings.writing,
+        }
+    }
+}
+
+/// Reads the files of a program; of a faulty one all faults.
+pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
+    let settings = &source.settings;
+    let program = read(source.language, source.files.clone(), &settings.reading)
+        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    let path = path_of(&program, &settings.making)
+        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    Ok(RobotRead {
+        program,
+        path,
+        settings,
+    })
+}
+
+fn refused<'f, F: std::fmt::Display>(all: &'f [F], reason: impl Fn(&'f F) -> &'f str) -> Failure {
+    Failure::input(match all.first() {
+        Some(first) => fault_list_text("lines", first, all, reason),
+        None => "the program is refused".to_owned(),
+    })
+}

@@ -1,0 +1,102 @@
+//! How a robot's program is read and written, from options and the table `[robot]` of a job file.
+
+use kinetostat::Directions;
+use kinetostat_formats::{
+    ExternalAxes, PathOptions, ReadOptions, UnknownTargets, WriteOptions as TextOptions,
+};
+use kinetostat_model::schema::{Axis, AxisName};
+use nalgebra::Vector3;
+use serde_spanned::Spanned;
+
+use crate::job::job_file::JobFile;
+use crate::job::robot_arguments::{CorrectWord, RobotArgs};
+use crate::job::robot_table::{ExternalAxesWord, RobotTable, UnknownTargetsWord};
+use crate::job::values::{above_zero, chosen};
+use crate::ui::failure::Answer;
+
+/// How a robot's program is read and written.
+#[derive(Clone, Debug)]
+pub(crate) struct RobotSettings {
+    pub(crate) reading: ReadOptions,
+    pub(crate) making: PathOptions,
+    pub(crate) writing: TextOptions,
+    pub(crate) corrected: Directions,
+}
+
+/// What options and job file say; `usual_axis` is that of the language, from the tool's tip to its holder.
+pub(crate) fn settings(
+    job: Option<&JobFile>,
+    flags: &RobotArgs,
+    usual_axis: Vector3<f64>,
+) -> Answer<RobotSettings> {
+    let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref())));
+    let mut reading = ReadOptions::default();
+    let mut making = PathOptions::default();
+    making.tool_axis = usual_axis;
+    let given = table.and_then(|(_, table)| table.rapid_from_mm_per_s.as_ref());
+    making.rapid_from_mm_per_s = chosen(
+        job,
+        ("--rapid-from-mm-per-s", flags.rapid_from_mm_per_s),
+        given,
+        above_zero,
+    )?;
+    let mut correct = CorrectWord::default();
+    if let Some((j, table)) = table {
+        frames(j, table, &mut reading)?;
+        if let Some(axis) = &table.tool_axis {
+            making.tool_axis = direction(j, axis)?;
+        }
+        if table.external_axes == Some(ExternalAxesWord::Carried) {
+            reading.external_axes = ExternalAxes::Carried;
+        }
+        if table.unknown_targets == Some(UnknownTargetsWord::LeftAsWritten) {
+            reading.unknown_targets = UnknownTargets::LeftAsWritten;
+        }
+        correct = table.correct.unwrap_or(correct);
+    }
+    let corrected = match flags.correct.unwrap_or(correct) {
+        CorrectWord::Position => Directions::POSITION,
+        CorrectWord::Pose => Directions::ALL,
+    };
+    Ok(RobotSettings {
+        reading,
+        making,
+        writing: TextOptions::default(),
+        corrected,
+    })
+}
+
+fn frames(j: &JobFile, table: &RobotTable, reading: &mut ReadOptions) -> Answer<()> {
+    for (name, written) in &table.frames {
+        let pose = written
+            .get_ref()
+            .pose()
+            .map_err(|(message, help)| j.error(written, &message, &help))?;
+        let in_mm = 1e3 * pose.translation.vector;
+        let frame = nalgebra::Isometry3::from_parts(in_mm.into(), pose.rotation);
+        reading.frames.insert(name.get_ref().clone(), frame);
+    }
+    Ok(())
+}
+
+fn direction(j: &JobFile, axis: &Spanned<Axis>) -> Answer<Vector3<f64>> {
+    let vector = match axis.get_ref() {
+        Axis::Named(AxisName::X) => Vector3::x(),
+        Axis::Named(AxisName::Y) => Vector3::y(),
+        Axis::Named(AxisName::Z) => Vector3::z(),
+        Axis::Named(AxisName::MinusX) => -Vector3::x(),
+        Axis::Named(AxisName::MinusY) => -Vector3::y(),
+        Axis::Named(AxisName::MinusZ) => -Vector3::z(),
+        Axis::Vector(v) => Vector3::from(*v),
+    };
+    let unit = vector
+        .try_normalize(1e-9)
+        .filter(|unit| unit.iter().all(|x| x.is_finite()));
+    unit.ok_or_else(|| {
+        j.error(
+            axis,
+            "this axis has no direction",
+            "write a letter (\"-z\", \"x\", ...) or three numbers that are not all zero",
+        )
+    })
+}

@@ -1,0 +1,89 @@
+//! The files of a robot's program.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_formats::{Language, SourceFile, language_of};
+use nalgebra::Vector3;
+
+use crate::files::input_files::InputFiles;
+use crate::files::origin;
+use crate::job::job_file::JobFile;
+use crate::job::robot::settings::{RobotSettings, settings};
+use crate::job::robot_arguments::RobotArgs;
+use crate::ui::failure::{Answer, Failure};
+
+/// A program of a robot as it lies on disk, and how it is to be read.
+#[derive(Clone, Debug)]
+pub(crate) struct RobotSource {
+    pub(crate) language: Language,
+    /// The first is the program itself.
+    pub(crate) files: Vec<SourceFile>,
+    pub(crate) paths: Vec<PathBuf>,
+    pub(crate) settings: RobotSettings,
+}
+
+/// The program where it is one of a robot; none where it is G-code.
+pub(crate) fn robot_source(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    flags: &RobotArgs,
+    (path, name, bytes): (&Path, &str, &[u8]),
+) -> Answer<Option<(RobotSource, Vec<kinetostat_machining::FileRead>)>> {
+    let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?)));
+    let Some(language) = language_of(name, bytes) else {
+        return match (flags.given(), table) {
+            (Some(option), _) => Err(Failure::input(format!(
+                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls): it is read as G-code; leave {option} out"
+            ))),
+            (None, Some((j, table))) => Err(j.error(
+                table,
+                &format!("this table is for programs of robots, and '{name}' is read as G-code"),
+                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt)",
+            )),
+            (None, None) => Ok(None),
+        };
+    };
+    let settings = settings(job, flags, usual_axis(language))?;
+    let mut source = RobotSource {
+        language,
+        files: vec![SourceFile::new(name, bytes)],
+        paths: Vec::new(),
+        settings,
+    };
+    let mut read = Vec::new();
+    let mut take = |path: PathBuf| -> Answer<()> {
+        let bytes = files.bytes("file of the program", &path)?;
+        read.push(origin::file("file of the program", &path, &bytes));
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        source.files.push(SourceFile::new(name, bytes));
+        source.paths.push(path);
+        Ok(())
+    };
+    let beside = path.with_extension("dat");
+    if has_data_beside(language) && beside.is_file() {
+        take(beside)?;
+    }
+    if let Some((j, table)) = table {
+        for written in &table.get_ref().files {
+            take(j.base().join(written.get_ref()))?;
+        }
+    }
+    Ok(Some((source, read)))
+}
+
+/// From the tool's tip to its holder, in axes of the tool, as is usual.
+fn usual_axis(language: Language) -> Vector3<f64> {
+    match language {
+        Language::Rapid => -Vector3::z(),
+        _ => -Vector3::z(),
+    }
+}
+
+/// Whether targets are declared in a file of the same name with the ending `.dat`.
+fn has_data_beside(language: Language) -> bool {
+    match language {
+        Language::Rapid => false,
+        Language::Krl => true,
+        _ => false,
+    }
+}

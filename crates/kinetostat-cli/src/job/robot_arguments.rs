@@ -1,0 +1,39 @@
+//! Options for programs of robots.
+
+use clap::{Args, ValueEnum};
+use serde::Deserialize;
+
+use crate::options::number;
+
+/// What of the tool's pose is corrected.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CorrectWord {
+    /// Its position
+    #[default]
+    Position,
+    /// Its position and its orientation
+    Pose,
+}
+
+/// Options for programs of robots.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct RobotArgs {
+    /// What of the tool's pose is corrected, in programs that state its orientation [default: position]
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Robot programs")]
+    pub(crate) correct: Option<CorrectWord>,
+    /// Linear motions at this speed or a higher one position the tool in air, mm/s: no load acts there
+    #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = "Robot programs", value_parser = number)]
+    pub(crate) rapid_from_mm_per_s: Option<f64>,
+}
+
+impl RobotArgs {
+    /// The first option that was given.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        match (self.correct, self.rapid_from_mm_per_s) {
+            (Some(_), _) => Some("--correct"),
+            (None, Some(_)) => Some("--rapid-from-mm-per-s"),
+            (None, None) => None,
+        }
+    }
+}

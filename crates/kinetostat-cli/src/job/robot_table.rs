@@ -1,0 +1,51 @@
+//! The table `[robot]` of a job file: what a program of a robot does not say itself.
+
+use std::collections::BTreeMap;
+
+use kinetostat_model::schema::{Axis, Placement as PoseTable};
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+use crate::job::robot_arguments::CorrectWord;
+
+/// What a program of a robot does not say itself.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RobotTable {
+    /// Tools (in the flange) and work objects (in the robot's base) by their names in the program.
+    #[serde(default)]
+    pub frames: BTreeMap<Spanned<String>, Spanned<PoseTable>>,
+    /// Further files of the program: modules, data.
+    #[serde(default)]
+    pub files: Vec<Spanned<String>>,
+    /// What of the tool's pose is corrected.
+    pub correct: Option<CorrectWord>,
+    /// Linear motions at this speed or a higher one position the tool in air.
+    pub rapid_from_mm_per_s: Option<Spanned<f64>>,
+    /// From the tool's tip to its holder, in axes of the tool.
+    pub tool_axis: Option<Spanned<Axis>>,
+    /// Whether external axes may move.
+    pub external_axes: Option<ExternalAxesWord>,
+    /// What becomes of motions to ends that are not known from the text.
+    pub unknown_targets: Option<UnknownTargetsWord>,
+}
+
+/// External axes that move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ExternalAxesWord {
+    /// The program is refused.
+    Refused,
+    /// They are carried as written.
+    Carried,
+}
+
+/// Motions to ends that are not known from the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum UnknownTargetsWord {
+    /// They are refused by line.
+    Refused,
+    /// They stay as they are written.
+    LeftAsWritten,
+}

@@ -1,0 +1,269 @@
+//! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
+
+use kinetostat_program::{
+    Corrected, CorrectionField, MachineProgram, Monitor, Path, Plan, PlannedMove, Verification,
+    WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenMove,
+};
+use nalgebra::Isometry3;
+
+use crate::document::{read, write};
+use crate::error::WriteError;
+use crate::model::program::RobotProgram;
+use crate::options::{ReadOptions, WriteOptions};
+use crate::path::fault::broken;
+use crate::path::header::{mark_line, with_header};
+use crate::path::of_program::{RobotPath, path_of};
+use crate::path::options::PathOptions;
+use crate::path::read_again::check;
+use crate::text::source::SourceFile;
+use crate::writing::piece::Piece;
+
+/// A robot's program with its path, for [`kinetostat_program::MachineProgram`].
+///
+/// ```
+/// use kinetostat_formats::*;
+/// use kinetostat_program::{MachineProgram, Request, Unwatched};
+/// use nalgebra::Vector3;
+///
+/// let text = "MODULE M\nPROC main()\n\
+///     MoveJ [[0,0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0;\n\
+///     MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+///     MoveL [[100,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+///     ENDPROC\nENDMODULE\n";
+/// let options = ReadOptions::default();
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &options).unwrap();
+/// let path = path_of(&program, &PathOptions::default()).unwrap();
+/// let robot = Correctable {
+///     program: &program,
+///     path: &path,
+///     reading: &options,
+///     making: &PathOptions::default(),
+///     writing: &WriteOptions::default(),
+/// };
+/// // An arm that sags by 0.1 mm a metre further out.
+/// let field = |request: &Request| Ok(Vector3::z() * 1e-4 * request.position_mm.x);
+/// let mut writing = kinetostat_program::WriteOptions::default();
+/// writing.header = None;
+/// let written = robot.write(&field, &writing, &Unwatched).unwrap();
+/// robot.verify(&written, &writing).unwrap();
+/// let output = String::from_utf8(written.bytes).unwrap();
+/// assert_eq!(output, text.replace("[[100,0,0]", "[[100,0,0.0100]"));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Correctable<'a> {
+    /// The program as read.
+    pub program: &'a RobotProgram,
+    /// What [`path_of`] makes of it.
+    pub path: &'a RobotPath,
+    /// How it was read.
+    pub reading: &'a ReadOptions,
+    /// How the path was made.
+    pub making: &'a PathOptions,
+    /// How it is written; decimals of [`kinetostat_program::WriteOptions`] count where there are more (4 where these state none).
+    pub writing: &'a WriteOptions,
+}
+
+/// Turns of the tool below this are not written, rad: those of the last digit of an angle.
+const SAME_RAD: f64 = 1e-7;
+
+impl Correctable<'_> {
+    fn text(&self, options: &PathWriteOptions) -> WriteOptions {
+        let decimals = usize::from(options.decimals.unwrap_or(4));
+        WriteOptions {
+            position_decimals: self.writing.position_decimals.max(decimals),
+            ..self.writing.clone()
+        }
+    }
+
+    /// From the axes of the path to those of a motion's work object.
+    fn work_object_from_path(&self, motion: usize) -> Isometry3<f64> {
+        let frame = self.program.motions[motion].work_object.known();
+        match (&self.path.work_object, frame) {
+            (None, Some(frame)) => frame.inverse(),
+            _ => Isometry3::identity(),
+        }
+    }
+
+    /// The pieces that a move becomes in the text; none where it stays as it is.
+    fn pieces(&self, index: usize, plan: &PlannedMove, half_mm: f64) -> Vec<Piece> {
+        let motion = &self.path.path.moves[index];
+        let number = self.path.motions[index];
+        let unchanged = plan.pieces.len() == 1
+            && plan.pieces.iter().all(|piece| {
+                let turned = piece.orientation.zip(motion.orientation(1.0));
+                (piece.position_mm - motion.end).amax() <= half_mm
+                    && turned.is_none_or(|(to, from)| to.angle_to(&from) <= SAME_RAD)
+            });
+        if plan.kept || unchanged {
+            return Vec::new();
+        }
+        let to_own = self.work_object_from_path(number);
+        let pieces = plan.pieces.iter().map(|piece| Piece {
+            motion: number,
+            position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
+            orientation: piece.orientation.map(|o| to_own.rotation * o),
+            via_mm: None,
+            speed_factor: match (piece.speed_factor - 1.0).abs() <= SAME_SPEED {
+                true => 1.0,
+                false => piece.speed_factor,
+            },
+        });
+        pieces.collect()
+    }
+
+    /// What was written, read again: the ends of all pieces.
+    fn written_moves(
+        &self,
+        plan: &Plan<'_>,
+        changed: &[bool],
+        files: &[(String, Vec<u8>)],
+    ) -> Result<Vec<WrittenMove>, PathWriteError> {
+        let again = self.read_again(files)?;
+        let mut moves = again.path.moves.iter();
+        let mut written = Vec::with_capacity(plan.moves().len());
+        for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
+            let count = planned.pieces.len();
+            let ends: Vec<_> = (moves.by_ref().take(count))
+                .map(|m| (m.end, m.orientation(1.0), m.line))
+                .collect();
+            if ends.len() != count {
+                return Err(broken(
+                    self.path.path.moves[index].line,
+                    0,
+                    "it has fewer motions than were written".to_owned(),
+                ));
+            }
+            written.push(WrittenMove {
+                ends,
+                same: !changed,
+            });
+        }
+        if moves.next().is_some() {
+            return Err(broken(
+                0,
+                0,
+                "it has more motions than were written".to_owned(),
+            ));
+        }
+        Ok(written)
+    }
+
+    fn read_again(&self, files: &[(String, Vec<u8>)]) -> Result<RobotPath, PathWriteError> {
+        let sources = files
+            .iter()
+            .map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
+        let program =
+            read(self.program.language, sources.collect(), self.reading).map_err(unreadable)?;
+        path_of(&program, self.making).map_err(unreadable)
+    }
+
+    fn files(&self, written: &Corrected) -> Vec<(String, Vec<u8>)> {
+        let mut beside = written.beside.iter();
+        let files = self.program.files.iter().enumerate();
+        files
+            .map(|(index, file)| match index == self.path.file {
+                true => (file.name().to_owned(), written.bytes.clone()),
+                false => beside.next().cloned().unwrap_or_default(),
+            })
+            .collect()
+    }
+}
+
+/// Longest line of a header: teach pendants show 80 characters or fewer.
+const LINE_BYTES: usize = 80;
+
+/// Relative change of a speed that is not worth writing, as in G-code.
+const SAME_SPEED: f64 = 5e-4;
+
+fn unreadable<E: std::fmt::Display>(errors: Vec<E>) -> PathWriteError {
+    let first = errors.first().map(E::to_string).unwrap_or_default();
+    broken(0, 0, format!("it cannot be read again: {first}"))
+}
+
+fn of_text(error: WriteError) -> PathWriteError {
+    match error {
+        WriteError::Motion {
+            line,
+            reason,
+            remedy,
+            ..
+        } => PathWriteError::Motion {
+            line,
+            reason,
+            remedy,
+        },
+        other => broken(0, 0, other.to_string()),
+    }
+}
+
+impl MachineProgram for Correctable<'_> {
+    fn bytes(&self) -> &[u8] {
+        self.program
+            .files
+            .get(self.path.file)
+            .map_or(&[], SourceFile::bytes)
+    }
+
+    fn statement_count(&self) -> usize {
+        self.program.motions.len()
+    }
+
+    fn path(&self) -> &Path {
+        &self.path.path
+    }
+
+    fn write(
+        &self,
+        field: &dyn CorrectionField,
+        options: &PathWriteOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Corrected, PathWriteError> {
+        let main = self.program.files.get(self.path.file);
+        if let Some(line) = main.and_then(mark_line)
+            && !options.again
+        {
+            return Err(PathWriteError::AlreadyCompensated { line });
+        }
+        let plan = Plan::new(&self.path.path, field, options, monitor)?;
+        let half_mm = 0.5 * options.last_digit_mm(1.0);
+        let planned = plan.moves().iter().enumerate();
+        let pieces: Vec<Vec<Piece>> = planned
+            .map(|(index, plan)| self.pieces(index, plan, half_mm))
+            .collect();
+        let changed: Vec<bool> = pieces.iter().map(|pieces| !pieces.is_empty()).collect();
+        let flat: Vec<Piece> = pieces.into_iter().flatten().collect();
+        let mut files = write(self.program, &flat, &self.text(options)).map_err(of_text)?;
+        let mut header_lines = 0;
+        if let (Some(texts), Some((_, bytes))) = (&options.header, files.get_mut(self.path.file))
+            && changed.contains(&true)
+        {
+            let language = self.program.language;
+            (*bytes, header_lines) = with_header(
+                language,
+                bytes,
+                texts,
+                options.max_line_bytes.min(LINE_BYTES),
+            );
+        }
+        let written = self.written_moves(&plan, &changed, &files)?;
+        let bytes = match self.path.file < files.len() {
+            true => files.remove(self.path.file).1,
+            false => Vec::new(),
+        };
+        let size = (self.statement_count(), self.bytes().len());
+        let mut corrected = plan.corrected(size, &written, bytes);
+        corrected.beside = files;
+        corrected.accounting.header_lines = header_lines;
+        Ok(corrected)
+    }
+
+    fn verify(
+        &self,
+        written: &Corrected,
+        options: &PathWriteOptions,
+    ) -> Result<Verification, PathWriteError> {
+        let files = self.files(written);
+        let again = self.read_again(&files)?;
+        check(self.program, self.path, &again, written, options)
+    }
+}

@@ -1,0 +1,28 @@
+//! Why a program that was read has no path of its own, and why a written one is none.
+
+use kinetostat_program::WriteError as PathWriteError;
+use thiserror::Error;
+
+/// Why no path can be made of a program that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{file}, line {line}: {reason}; {remedy}")]
+#[non_exhaustive]
+pub struct PathError {
+    /// Name of the file.
+    pub file: String,
+    /// Line of the motion, counted from 1.
+    pub line: usize,
+    /// Why.
+    pub reason: String,
+    /// What the user can do about it.
+    pub remedy: String,
+}
+
+/// A promise that a written program breaks.
+pub(crate) fn broken(line: usize, output_line: usize, what: String) -> PathWriteError {
+    PathWriteError::Verification {
+        line,
+        output_line,
+        what,
+    }
+}

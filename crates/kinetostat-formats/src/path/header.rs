@@ -1,0 +1,95 @@
+//! The header of a corrected program: comments in its own language, below the line with which the program begins.
+
+use kinetostat_program::COMPENSATED_MARK;
+
+use crate::model::program::Language;
+use crate::text::source::SourceFile;
+
+/// Prefix of every header line.
+const PREFIX: &str = "kinetostat: ";
+
+/// Lines in which the mark is looked for.
+const LOOKED_AT: usize = 200;
+
+/// How a language begins its comments, and the word of the line below which they may stand (`None`: the first line).
+struct Comments {
+    opens: &'static str,
+    below: Option<&'static str>,
+}
+
+fn comments(language: Language) -> Comments {
+    match language {
+        Language::Rapid => Comments {
+            opens: "! ",
+            below: Some("MODULE"),
+        },
+        Language::Krl => Comments {
+            opens: "; ",
+            below: Some("DEF"),
+        },
+    }
+}
+
+/// Line of the mark of a corrected program, counted from 1.
+pub(crate) fn mark_line(file: &SourceFile) -> Option<usize> {
+    let mark = COMPENSATED_MARK.as_bytes();
+    let holds = |line: &[u8]| line.windows(mark.len()).any(|part| part == mark);
+    (1..=file.line_count().min(LOOKED_AT)).find(|number| file.line(*number).is_some_and(holds))
+}
+
+/// The program with its header, and how many lines that has: the mark, then the texts, in lines of at most so many bytes.
+pub(crate) fn with_header(
+    language: Language,
+    bytes: &[u8],
+    texts: &[String],
+    max_line_bytes: usize,
+) -> (Vec<u8>, usize) {
+    let Comments { opens, below } = comments(language);
+    let begins = |line: &[u8]| {
+        let line = line.trim_ascii_start().to_ascii_uppercase();
+        below.is_none_or(|word| line.starts_with(word.as_bytes()))
+    };
+    let mut at = 0;
+    let mut found = None;
+    for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+        at += line.len();
+        if begins(line) && line.ends_with(b"\n") {
+            found = Some((at, line.ends_with(b"\r\n")));
+            break;
+        }
+    }
+    let Some((at, carriage_return)) = found else {
+        return (bytes.to_vec(), 0);
+    };
+    let ending: &[u8] = match carriage_return {
+        true => b"\r\n",
+        false => b"\n",
+    };
+    let mut header = Vec::new();
+    let mut count = 0;
+    let mut write = |text: &str| {
+        for part in [opens.as_bytes(), text.as_bytes(), ending] {
+            header.extend_from_slice(part);
+        }
+        count += 1;
+    };
+    write(COMPENSATED_MARK);
+    let room = max_line_bytes
+        .saturating_sub(opens.len() + PREFIX.len())
+        .max(20);
+    for text in texts.iter().flat_map(|text| text.lines()) {
+        let plain: Vec<char> = text.chars().map(plain).collect();
+        for part in plain.chunks(room) {
+            write(&format!("{PREFIX}{}", part.iter().collect::<String>()));
+        }
+    }
+    ([&bytes[..at], &header, &bytes[at..]].concat(), count)
+}
+
+/// ASCII that ends no comment.
+fn plain(character: char) -> char {
+    match character {
+        ' '..='~' => character,
+        _ => '?',
+    }
+}

@@ -1,0 +1,245 @@
+//! From the motions of a program to a path.
+
+use kinetostat_program::{
+    CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
+};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use crate::model::frame::FrameUse;
+use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::program::RobotProgram;
+use crate::model::target::Target;
+use crate::path::circle::through;
+use crate::path::fault::PathError;
+use crate::path::options::PathOptions;
+
+/// The path of a robot's program, and in which axes it is.
+///
+/// Motions with poses are moves; those to joint values are moves of which nothing is known, and so is the start of what
+/// follows them. Joint motions to poses count as rapids, linear and circular ones as feeds.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RobotPath {
+    /// Moves in the order in which they run. Their lines are those of the file that holds the motions.
+    pub path: Path,
+    /// Motion of every move, an index of [`RobotProgram::motions`].
+    pub motions: Vec<usize>,
+    /// Work object of the program, in whose axes the path is; `None` where the program uses several, and the path is in the
+    /// axes of the robot's base.
+    pub work_object: Option<FrameUse>,
+    /// The tool that all poses are of; `None` in a program without poses.
+    pub tool: Option<FrameUse>,
+    /// The file with the motions, an index of [`RobotProgram::files`].
+    pub file: usize,
+}
+
+/// The path of a program.
+///
+/// ```
+/// use kinetostat_formats::*;
+///
+/// let text = "MODULE M\nPROC main()\n\
+///     MoveJ [[0,0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0;\n\
+///     MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+///     MoveC [[5,5,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],\
+///     [[10,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0;\n\
+///     ENDPROC\nENDMODULE\n";
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+/// let robot = path_of(&program, &PathOptions::default()).unwrap();
+/// assert_eq!(robot.path.moves.len(), 3);
+/// assert!((robot.path.moves[2].length_mm() - 5.0 * std::f64::consts::PI).abs() < 1e-9);
+/// assert_eq!(robot.path.moves[1].feed.unwrap().value, 1200.0); // mm/min
+/// ```
+///
+/// # Errors
+/// All motions that cannot stand in one path: of several tools, of work objects that are not known, in several files.
+pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPath, Vec<PathError>> {
+    let poses: Vec<&Motion> = (program.motions.iter())
+        .filter(|motion| motion.target.pose().is_some())
+        .collect();
+    let mut faults = Vec::new();
+    let file = program.motions.first().map_or(0, |motion| motion.file);
+    let fault = |motion: &Motion, reason: String, remedy: &str| PathError {
+        file: program.files[motion.file].name().to_owned(),
+        line: motion.line,
+        reason,
+        remedy: remedy.to_owned(),
+    };
+    if let Some(other) = program.motions.iter().find(|motion| motion.file != file) {
+        faults.push(fault(
+            other,
+            format!(
+                "motions stand in this file and in {}",
+                program.files[file].name()
+            ),
+            "give the files with motions one by one",
+        ));
+    }
+    let tool = poses.first().map(|motion| motion.tool.clone());
+    if let Some(other) = differs(&poses, |motion| &motion.tool) {
+        let first = tool.as_ref().map_or("", |tool| &tool.name);
+        faults.push(fault(
+            other,
+            format!("the tool `{}`, after `{first}`", other.tool.name),
+            "a program with several tools is not corrected yet: write one program for each tool",
+        ));
+    }
+    let one = differs(&poses, |motion| &motion.work_object).is_none();
+    let work_object = poses.first().map(|motion| motion.work_object.clone());
+    if !one {
+        for motion in poses.iter().filter(|m| m.work_object.known().is_none()) {
+            faults.push(fault(
+                motion,
+                format!(
+                    "the work object `{}` is not known, and the program has another one",
+                    motion.work_object.name
+                ),
+                "state where it is (`frames`)",
+            ));
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let made = Maker {
+        program,
+        options,
+        in_base: !one,
+    }
+    .path();
+    Ok(RobotPath {
+        motions: (0..program.motions.len()).collect(),
+        path: made,
+        work_object: work_object.filter(|_| one),
+        tool,
+        file,
+    })
+}
+
+/// The first motion with another frame than the first one.
+fn differs<'m>(poses: &[&'m Motion], frame: fn(&Motion) -> &FrameUse) -> Option<&'m Motion> {
+    let first = frame(poses.first()?);
+    let same = |motion: &&&Motion| {
+        let own = frame(motion);
+        match (own.known(), first.known()) {
+            (Some(own), Some(first)) => own != first,
+            _ => own.name != first.name,
+        }
+    };
+    poses.iter().find(same).copied()
+}
+
+struct Maker<'a> {
+    program: &'a RobotProgram,
+    options: &'a PathOptions,
+    /// Poses in the axes of the robot's base.
+    in_base: bool,
+}
+
+impl Maker<'_> {
+    /// From the axes of a motion's work object to those of the path.
+    fn frame(&self, motion: &Motion) -> Isometry3<f64> {
+        match (self.in_base, motion.work_object.known()) {
+            (true, Some(frame)) => *frame,
+            _ => Isometry3::identity(),
+        }
+    }
+
+    fn pose(&self, motion: &Motion, target: &Target) -> Option<Isometry3<f64>> {
+        Some(self.frame(motion) * target.pose()?.isometry())
+    }
+
+    fn path(&self) -> Path {
+        let mut moves: Vec<Move> = Vec::with_capacity(self.program.motions.len());
+        let mut warnings = Vec::new();
+        let mut last: Option<Isometry3<f64>> = None;
+        for (index, motion) in self.program.motions.iter().enumerate() {
+            let follows = index > 0 && motion.follows == Some(index - 1);
+            let start = last.filter(|_| follows);
+            let made = self.made(motion, start, last.unwrap_or_default());
+            if motion.runs == Runs::Elsewhere {
+                warnings.push(Warning {
+                    line: motion.line,
+                    text: "nothing in these files calls the routine of this motion: it is corrected as if it ran by itself"
+                        .to_owned(),
+                });
+            }
+            last = self.pose(motion, &motion.target);
+            moves.push(made);
+        }
+        warnings.dedup_by(|b, a| a.text == b.text);
+        for finding in &self.program.findings {
+            warnings.push(Warning {
+                line: finding.line,
+                text: finding.message.clone(),
+            });
+        }
+        let mut path = Path::of_moves(moves, self.options.tool_axis);
+        path.warnings = warnings;
+        path
+    }
+
+    fn made(&self, motion: &Motion, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
+        let end = self.pose(motion, &motion.target);
+        let from = start.unwrap_or(before);
+        let to = end.unwrap_or(before);
+        let [a, b] = [from, to].map(|pose| pose.translation.vector);
+        let mut known = match (end, start) {
+            (None, _) => Knowledge::Nothing,
+            (Some(_), None) => Knowledge::End,
+            (Some(_), Some(_)) => Knowledge::Whole,
+        };
+        let curve = match &motion.kind {
+            MotionKind::Circular { via } if known == Knowledge::Whole => {
+                match self.pose(motion, via) {
+                    Some(via) => {
+                        through(&a, &via.translation.vector, &b).map_or(Curve::Line, Curve::Arc)
+                    }
+                    None => {
+                        known = Knowledge::End;
+                        Curve::Line
+                    }
+                }
+            }
+            _ => Curve::Line,
+        };
+        let fast = |limit: f64| motion.speed.mm_per_s.is_some_and(|speed| speed >= limit);
+        let rapid = motion.kind == MotionKind::Joint
+            || motion.target.pose().is_none()
+            || self.options.rapid_from_mm_per_s.is_some_and(fast);
+        Move {
+            line: motion.line,
+            kind: match rapid {
+                true => MoveKind::Rapid,
+                false => MoveKind::Feed,
+            },
+            curve,
+            start: a,
+            end: b,
+            tool_turn: Some(Box::new(ToolTurn {
+                start: nearest(from.rotation, &to.rotation),
+                end: to.rotation,
+            })),
+            extra: Vec::new(),
+            feed: motion.speed.mm_per_s.map(|speed| Feed {
+                mode: FeedMode::PerMinute,
+                value: 60.0 * speed,
+            }),
+            known,
+            words: CoordinateWords {
+                mm_per_unit: 1.0,
+                incremental: false,
+                work_offset_mm: Vector3::zeros(),
+                to_machine: [false; 3],
+            },
+        }
+    }
+}
+
+/// Of the two quaternions of one rotation, the one on the side of another.
+fn nearest(rotation: UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+    match rotation.coords.dot(&to.coords) < 0.0 {
+        true => UnitQuaternion::new_unchecked(-rotation.into_inner()),
+        false => rotation,
+    }
+}

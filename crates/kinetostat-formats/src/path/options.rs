@@ -1,0 +1,31 @@
+//! What the caller states of the path of a robot's program.
+
+use nalgebra::Vector3;
+
+/// How the path of a robot's program is made.
+///
+/// ```
+/// let mut options = kinetostat_formats::PathOptions::default();
+/// // All linear motions cut, whatever their speed, with a tool whose z points from the holder to the tip.
+/// assert_eq!(options.rapid_from_mm_per_s, None);
+/// assert_eq!(options.tool_axis, -nalgebra::Vector3::z());
+/// options.rapid_from_mm_per_s = Some(200.0);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct PathOptions {
+    /// Linear and circular motions at this speed or a higher one position the tool in air, mm/s; `None`: all of them cut.
+    pub rapid_from_mm_per_s: Option<f64>,
+    /// Unit vector from the tool's tip to its holder, in axes of the tool's frame: -z where the frame's z points out of the
+    /// spindle, as is usual at ABB and FANUC; -x at KUKA.
+    pub tool_axis: Vector3<f64>,
+}
+
+impl Default for PathOptions {
+    fn default() -> Self {
+        Self {
+            rapid_from_mm_per_s: None,
+            tool_axis: -Vector3::z(),
+        }
+    }
+}

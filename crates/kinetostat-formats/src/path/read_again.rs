@@ -1,0 +1,190 @@
+//! What a written program satisfies, read off its bytes.
+
+use kinetostat_program::{
+    Corrected, Knowledge, Piece, Verification, WriteError, WriteOptions, irregular,
+};
+
+use crate::model::program::RobotProgram;
+use crate::path::fault::broken;
+use crate::path::of_program::RobotPath;
+
+/// Seed of the places that are looked at: neither that of the division nor those of other checks.
+const SEED: u64 = 11;
+
+/// Turn of the tool that may lie between what is read and what was to be written, rad.
+const TURN: f64 = 1e-5;
+
+/// Checks a written program that was read again:
+///
+/// - its motions are the pieces accounted for, one after the other, at their places and with their orientation;
+/// - no place between them is farther from the input's path than the largest correction, the chords of arcs and the rounding;
+/// - the speed along the part is the programmed one, or slower where it was held;
+/// - lines without a motion or a target of one are there byte for byte, in their order.
+pub(crate) fn check(
+    program: &RobotProgram,
+    input: &RobotPath,
+    again: &RobotPath,
+    written: &Corrected,
+    options: &WriteOptions,
+) -> Result<Verification, WriteError> {
+    let mut found = Verification {
+        lines: lines(&written.bytes).count(),
+        moves: again.path.moves.len(),
+        longest_line_bytes: lines(&written.bytes).map(<[u8]>::len).max().unwrap_or(0),
+        feed_limited_pieces: written.pieces.iter().filter(|p| p.feed_limited).count(),
+        ..Verification::default()
+    };
+    if again.path.moves.len() != written.pieces.len() {
+        return Err(broken(
+            0,
+            0,
+            format!(
+                "it has {} motions, {} pieces were written",
+                again.path.moves.len(),
+                written.pieces.len()
+            ),
+        ));
+    }
+    for (index, piece) in written.pieces.iter().enumerate() {
+        one(input, again, written, (index, piece), options, &mut found)?;
+    }
+    untouched(program, input, written)?;
+    Ok(found)
+}
+
+fn one(
+    input: &RobotPath,
+    again: &RobotPath,
+    written: &Corrected,
+    (index, piece): (usize, &Piece),
+    options: &WriteOptions,
+    found: &mut Verification,
+) -> Result<(), WriteError> {
+    let motion = &input.path.moves[piece.move_index];
+    let made = &again.path.moves[index];
+    let fail = |what: String| Err(broken(motion.line, made.line, what));
+    if motion.known == Knowledge::Nothing {
+        return match made.known {
+            Knowledge::Nothing => Ok(()),
+            _ => fail("a motion without a pose has become one with a pose".to_owned()),
+        };
+    }
+    let rounding = options.last_digit_mm(1.0);
+    // Not a number is off, too.
+    let off = (made.end - piece.commanded_to).norm();
+    if off.is_nan() || off > 1e-6 {
+        return fail(format!(
+            "it ends {off:.6} mm from where it was to be written"
+        ));
+    }
+    let wanted = written.orientations.get(index);
+    let turned = wanted
+        .zip(made.orientation(1.0))
+        .map(|(a, b)| a.angle_to(&b));
+    if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
+        return fail("the tool stands otherwise than was to be written".to_owned());
+    }
+    if motion.known != Knowledge::Whole || !motion.is_known_feed() {
+        return Ok(());
+    }
+    let accounting = &written.accounting;
+    let allowed = accounting.largest_correction_mm
+        + options.chord_tolerance_mm * 1.2
+        + options.tolerance_mm
+        + options.corner_step_mm.unwrap_or(options.tolerance_mm)
+        + 2.0 * rounding;
+    for k in 0..2 {
+        let part = irregular(SEED, index as u64, k);
+        let share = piece.share_from + part * (piece.share_to - piece.share_from);
+        let commanded = match piece.kept_arc {
+            true => made.point(part),
+            false => piece.commanded_from.lerp(&piece.commanded_to, part),
+        };
+        let distance = (commanded - motion.point(share)).norm();
+        if distance.is_nan() || distance > allowed {
+            return fail(format!(
+                "it is {distance:.4} mm from the path of the input, {allowed:.4} mm are allowed"
+            ));
+        }
+        if distance > found.largest_distance_mm {
+            found.largest_distance_mm = distance;
+        }
+    }
+    speed(input, again, (index, piece), found).map_or(Ok(()), fail)
+}
+
+/// The speed along the part; what is wrong with it.
+fn speed(
+    input: &RobotPath,
+    again: &RobotPath,
+    (index, piece): (usize, &Piece),
+    found: &mut Verification,
+) -> Option<String> {
+    let motion = &input.path.moves[piece.move_index];
+    let made = &again.path.moves[index];
+    let part_mm = motion.length_between_mm(piece.share_from, piece.share_to);
+    let written_mm = match piece.kept_arc {
+        true => made.length_mm(),
+        false => (piece.commanded_to - piece.commanded_from).norm(),
+    };
+    let (wanted, is) = (motion.feed?.value, made.feed.map(|feed| feed.value));
+    let Some(is) = is else {
+        return Some("its speed is not known".to_owned());
+    };
+    // Of very short pieces the rounding decides.
+    if piece.corner_step || part_mm < SHORT_MM || written_mm == 0.0 {
+        return None;
+    }
+    let error = (is * part_mm / written_mm / wanted - 1.0).abs();
+    if piece.feed_limited && is <= wanted * 1e6 {
+        return None;
+    }
+    // What is no number is refused below.
+    if error > found.largest_speed_error {
+        found.largest_speed_error = error;
+    }
+    (error.is_nan() || error > SPEED)
+        .then(|| format!("the speed along the part is {:.2} % off", 100.0 * error))
+}
+
+/// Pieces shorter than this have no speed that could be compared: digits of their ends decide, mm.
+const SHORT_MM: f64 = 0.5;
+
+/// How far the speed along the part may be off, relative.
+const SPEED: f64 = 2e-3;
+
+fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes
+        .split(|byte| *byte == b'\n')
+        .map(|line| line.strip_suffix(b"\r").unwrap_or(line))
+}
+
+/// Lines that hold nothing of a motion are there as they were, in their order.
+fn untouched(
+    program: &RobotProgram,
+    input: &RobotPath,
+    written: &Corrected,
+) -> Result<(), WriteError> {
+    let mut beside = written.beside.iter();
+    for (index, file) in program.files.iter().enumerate() {
+        let output: &[u8] = match index == input.file {
+            true => &written.bytes,
+            false => beside.next().map_or(&[], |(_, bytes)| bytes),
+        };
+        let touched = program.lines_of_targets(index);
+        let mut output = lines(output).enumerate();
+        for (number, line) in lines(file.bytes()).enumerate() {
+            if touched.contains(&(number + 1)) {
+                continue;
+            }
+            if !output.any(|(_, written)| written == line) {
+                return Err(broken(
+                    number + 1,
+                    0,
+                    format!("line {} of {} is not there", number + 1, file.name()),
+                ));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,78 @@
+//! Declarations of data and parameters.
+
+use crate::rapid::lex::Kind;
+use crate::rapid::parser::cursor::Parser;
+use crate::rapid::tree::{Change, DatumNode, Parameter, Sight};
+use crate::text::name::Name;
+
+impl Parser<'_, '_> {
+    /// None where no declaration begins; nothing inside where it is wrong, which is noted.
+    pub(super) fn datum(&mut self, start: usize, sight: Sight) -> Option<Option<DatumNode>> {
+        self.takes("TASK");
+        let words = [
+            ("CONST", Change::Constant),
+            ("PERS", Change::Persistent),
+            ("VAR", Change::Variable),
+        ];
+        let (_, change) = words.into_iter().find(|(word, _)| self.takes(word))?;
+        let (type_name, name) = (self.name(), self.name());
+        let open = self.at;
+        while self
+            .kind()
+            .is_some_and(|kind| kind != Kind::Assign && kind != Kind::Symbol(b';'))
+            && !self.is_keyword(self.at)
+        {
+            self.at += 1;
+        }
+        let dimensions = open..self.at;
+        let assigned = self.kind() == Some(Kind::Assign);
+        let first = self.at + 1;
+        let tokens = self.rest_of_statement(start);
+        let (Some((type_name, _)), Some((name, name_at))) = (type_name, name) else {
+            return Some(None);
+        };
+        if !dimensions.is_empty() && self.file.word(open) != b"{" {
+            self.fault(
+                dimensions,
+                "it does not belong into a declaration",
+                "write the type, the name, and := value",
+            );
+            return Some(None);
+        }
+        Some(Some(DatumNode {
+            change,
+            sight,
+            type_name,
+            name,
+            name_at,
+            initial: assigned.then(|| first..tokens.end.saturating_sub(1).max(first)),
+            tokens,
+        }))
+    }
+
+    /// To behind the closing parenthesis.
+    pub(super) fn parameters(&mut self) -> Vec<Parameter> {
+        let mut found = Vec::new();
+        let mut changes = false;
+        let mut last = None;
+        while let Some(kind) = self.kind() {
+            match kind {
+                Kind::Word if ["INOUT", "VAR", "PERS"].iter().any(|word| self.is(word)) => {
+                    changes = true
+                }
+                Kind::Word => last = Name::of(self.file.word(self.at)),
+                Kind::Symbol(b',' | b'|' | b'\\' | b')') => {
+                    found.extend(last.take().map(|name| Parameter { name, changes }));
+                    changes = false;
+                }
+                Kind::Symbol(b';') => break,
+                _ => {}
+            }
+            self.at += 1;
+            if kind == Kind::Symbol(b')') {
+                break;
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,191 @@
+//! Modules and their routines.
+
+use crate::error::ProgramError;
+use crate::rapid::parser::cursor::Parser;
+use crate::rapid::tree::{Module, Routine, RoutineKind, Sight, TokenFile};
+
+/// The modules of a file.
+pub(crate) fn modules_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -> Vec<Module> {
+    let mut parser = Parser {
+        file,
+        at: 0,
+        faults,
+        jumps: false,
+        cut_off: false,
+    };
+    let mut modules = Vec::new();
+    while parser.at < file.tokens.len() {
+        if parser.takes("MODULE") {
+            modules.push(parser.module());
+        } else {
+            let here = parser.at..parser.at + 1;
+            parser.fault(
+                here,
+                "it stands outside a module",
+                "put it between MODULE and ENDMODULE",
+            );
+            while parser.at < file.tokens.len() && !parser.is("MODULE") {
+                parser.at += 1;
+            }
+        }
+    }
+    modules
+}
+
+impl Parser<'_, '_> {
+    fn module(&mut self) -> Module {
+        let start = self.at - 1;
+        let mut module = Module {
+            data: Vec::new(),
+            routines: Vec::new(),
+        };
+        self.name();
+        if self.takes_symbol(b'(') {
+            while self.kind().is_some() && !self.takes_symbol(b')') {
+                self.at += 1;
+            }
+        }
+        while self.kind().is_some() {
+            if self.takes("ENDMODULE") {
+                return module;
+            }
+            self.element(&mut module);
+        }
+        self.missing(
+            start..start + 2,
+            "no ENDMODULE ends the module",
+            "the file is cut off: take a whole one",
+        );
+        module
+    }
+
+    /// A declaration, a routine or a record.
+    fn element(&mut self, module: &mut Module) {
+        let start = self.at;
+        let sight = match self.takes("LOCAL") {
+            true => Sight::Module,
+            false => Sight::Everywhere,
+        };
+        if self.takes("RECORD") {
+            while self.kind().is_some() && !self.is("ENDMODULE") && !self.takes("ENDRECORD") {
+                self.at += 1;
+            }
+        } else if self.takes("ALIAS") {
+            self.rest_of_statement(start);
+        } else if let Some(kind) = self.routine_word() {
+            module.routines.extend(self.routine(kind, sight));
+        } else if let Some(datum) = self.datum(start, sight) {
+            module.data.extend(datum);
+        } else {
+            self.fault(
+                start..self.at + 1,
+                "neither a declaration nor a routine begins here",
+                "mend the module: it must compile on the controller",
+            );
+            self.at += 1;
+            while self.kind().is_some() && !self.is_keyword(self.at) {
+                self.at += 1;
+            }
+        }
+    }
+
+    fn routine_word(&mut self) -> Option<RoutineKind> {
+        let words = [
+            ("PROC", RoutineKind::Procedure),
+            ("FUNC", RoutineKind::Function),
+            ("TRAP", RoutineKind::Trap),
+        ];
+        let found = words.into_iter().find(|(word, _)| self.takes(word));
+        found.map(|(_, kind)| kind)
+    }
+
+    fn routine(&mut self, kind: RoutineKind, sight: Sight) -> Option<Routine> {
+        let start = self.at - 1;
+        if kind == RoutineKind::Function {
+            self.name();
+        }
+        let name = self.name();
+        let parameters = match self.takes_symbol(b'(') {
+            true => self.parameters(),
+            false => Vec::new(),
+        };
+        self.jumps = false;
+        let mut routine_data = Vec::new();
+        let mut body = Vec::new();
+        let mut handlers = Vec::new();
+        let end = match kind {
+            RoutineKind::Procedure => "ENDPROC",
+            RoutineKind::Function => "ENDFUNC",
+            RoutineKind::Trap => "ENDTRAP",
+        };
+        loop {
+            let begin = self.at;
+            if let Some(datum) = self.datum(begin, Sight::Module) {
+                routine_data.extend(datum);
+                continue;
+            }
+            self.block(&mut body, 0);
+            if ["ERROR", "UNDO", "BACKWARD"]
+                .iter()
+                .any(|word| self.takes(word))
+            {
+                if self.takes_symbol(b'(') {
+                    while self.kind().is_some() && !self.takes_symbol(b')') {
+                        self.at += 1;
+                    }
+                }
+                self.block(&mut handlers, 0);
+                // A second handler follows.
+                while ["ERROR", "UNDO", "BACKWARD"]
+                    .iter()
+                    .any(|word| self.takes(word))
+                {
+                    self.block(&mut handlers, 0);
+                }
+            }
+            if self.takes(end) {
+                break;
+            }
+            if self.kind().is_none()
+                || ["PROC", "FUNC", "TRAP", "ENDMODULE", "LOCAL"]
+                    .iter()
+                    .any(|word| self.is(word))
+            {
+                self.missing(
+                    start..start + 2,
+                    &format!("no {end} ends the routine"),
+                    &format!("end it with {end}"),
+                );
+                break;
+            }
+            if self.is("VAR") || self.is("CONST") || self.is("PERS") {
+                self.fault(
+                    self.at..self.at + 1,
+                    "a declaration stands behind statements",
+                    "put it at the routine's beginning",
+                );
+                let begin = self.at;
+                self.datum(begin, Sight::Module);
+                continue;
+            }
+            self.fault(
+                self.at..self.at + 1,
+                "nothing is open that it ends",
+                "mend the blocks of the routine",
+            );
+            self.at += 1;
+        }
+        let (name, name_at) = name?;
+        Some(Routine {
+            kind,
+            sight,
+            name,
+            name_at,
+            parameters,
+            data: routine_data,
+            body,
+            handlers,
+            jumps: self.jumps,
+        })
+    }
+}

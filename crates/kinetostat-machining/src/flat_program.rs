@@ -1,0 +1,185 @@
+//! A program that was run once and written flat: which line of which file a flat line came from, and saying so.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// A program with subprograms, variables and cycles that was run once and written flat. A run goes along the flat program;
+/// all its lines are lines of that.
+///
+/// ```
+/// use kinetostat_machining::FlatProgram;
+///
+/// let files = ["plate.ngc", "hole.ngc"].map(String::from).to_vec();
+/// // The second flat line came from line 12 of the program, the third from line 3 of the subprogram.
+/// let flat = FlatProgram::new(files, 3, vec![(0, 1), (0, 12), (1, 3)]);
+/// assert_eq!(flat.source_of(3), Some(("hole.ngc", 3)));
+/// assert_eq!(flat.source_of(4), None);
+/// assert_eq!(
+///     flat.with_sources("line 2: too deep"),
+///     "line 12 of plate.ngc (line 2 of the flat program): too deep"
+/// );
+/// let lines = flat.lines_in("the worst is at line 3, then line 2");
+/// assert_eq!(lines.into_iter().collect::<Vec<_>>(), [2, 3]);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FlatProgram {
+    /// File name of the flat program; none where it was not written.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Number of its blocks.
+    pub blocks: usize,
+    /// Names of the files that were run, the program first.
+    pub files: Vec<String>,
+    /// Folders, diameters and parameters that were stated, one sentence each.
+    #[serde(default)]
+    pub settings: Vec<String>,
+    /// Of each flat line the file (an index of `files`) and the line there, from 1. Not in the JSON: its lines have theirs
+    /// beside them.
+    #[serde(skip)]
+    sources: Arc<[(u32, u32)]>,
+}
+
+impl FlatProgram {
+    /// A flat program of `blocks` blocks. `sources` has for each of its lines the file, an index of `files`, and the line there,
+    /// counted from 1.
+    #[must_use]
+    pub fn new(files: Vec<String>, blocks: usize, sources: Vec<(u32, u32)>) -> Self {
+        Self {
+            name: None,
+            blocks,
+            files,
+            settings: Vec::new(),
+            sources: sources.into(),
+        }
+    }
+
+    /// File and line that a line of the flat program came from; none for a line that it has not.
+    #[must_use]
+    pub fn source_of(&self, line: usize) -> Option<(&str, usize)> {
+        let (file, line) = self.sources.get(line.checked_sub(1)?)?;
+        Some((self.files.get(*file as usize)?.as_str(), *line as usize))
+    }
+
+    /// Where the lines of a run are, in a sentence.
+    ///
+    /// ```
+    /// use kinetostat_machining::FlatProgram;
+    ///
+    /// let flat = FlatProgram::new(vec!["plate.ngc".to_owned()], 2, vec![(0, 1), (0, 7)]);
+    /// let says = "plate.ngc was run once and written flat, 2 blocks; lines are those of the flat program";
+    /// assert_eq!(flat.description(), says);
+    /// ```
+    #[must_use]
+    pub fn description(&self) -> String {
+        let [program, called] = match self.files.split_first() {
+            Some((program, called)) => [program.clone(), called.join(", ")],
+            None => [String::new(), String::new()],
+        };
+        let with = match called.as_str() {
+            "" => String::new(),
+            called => format!(" with {called}"),
+        };
+        let blocks = match self.blocks {
+            1 => "1 block".to_owned(),
+            n => format!("{n} blocks"),
+        };
+        let named = self.name.as_ref();
+        let named = named.map_or_else(String::new, |name| format!(", {name}"));
+        format!(
+            "{program}{with} was run once and written flat, {blocks}; lines are those of the flat program{named}"
+        )
+    }
+
+    /// A message about lines of the flat program that names the lines that they came from, too. Text of the program itself,
+    /// between backticks, stays as it is.
+    #[must_use]
+    pub fn with_sources(&self, text: &str) -> String {
+        let mut out = String::with_capacity(text.len());
+        let mut rest = text;
+        while let Some(found) = next_line(rest) {
+            out.push_str(&rest[..found.start]);
+            let word = &rest[found.start..found.end];
+            match self.source_of(found.line) {
+                Some((file, line)) => {
+                    let first = if word.starts_with('L') {
+                        "Line"
+                    } else {
+                        "line"
+                    };
+                    out.push_str(&format!(
+                        "{first} {line} of {file} (line {} of the flat program)",
+                        found.line
+                    ));
+                }
+                None => out.push_str(word),
+            }
+            rest = &rest[found.end..];
+        }
+        out.push_str(rest);
+        out
+    }
+
+    /// Lines of the flat program that a text names without the line that they came from.
+    #[must_use]
+    pub fn lines_in(&self, text: &str) -> BTreeSet<usize> {
+        let mut lines = BTreeSet::new();
+        let mut rest = text;
+        while let Some(found) = next_line(rest) {
+            if self.source_of(found.line).is_some() {
+                lines.insert(found.line);
+            }
+            rest = &rest[found.end..];
+        }
+        lines
+    }
+}
+
+/// `line 12` in a text.
+struct Named {
+    start: usize,
+    end: usize,
+    line: usize,
+}
+
+/// The next line that a text names; not one of a file that it names besides (`line 3 of hole.ngc`, `part.toml, line 3`), and not
+/// what stands between backticks.
+fn next_line(text: &str) -> Option<Named> {
+    let mut quoted = false;
+    let mut before = ' ';
+    for (start, character) in text.char_indices() {
+        let begins = !before.is_alphanumeric() && !quoted;
+        before = character;
+        if character == '`' {
+            quoted = !quoted;
+        }
+        if !begins || !matches!(character, 'l' | 'L') {
+            continue;
+        }
+        let Some(after) = text[start + 1..].strip_prefix("ine") else {
+            continue;
+        };
+        // A text for a person may be broken between the word and its number.
+        let number = after.trim_start();
+        if number.len() == after.len() {
+            continue;
+        }
+        let digits = number.bytes().take_while(u8::is_ascii_digit).count();
+        let Ok(line) = number[..digits].parse() else {
+            continue;
+        };
+        let behind = &number[digits..];
+        let of_another_file = text[..start].strip_suffix(", ").is_some_and(|named| {
+            let name = named.rsplit(char::is_whitespace).next();
+            name.is_some_and(|name| name.contains('.'))
+        });
+        if behind.trim_start().starts_with("of ") || of_another_file {
+            continue;
+        }
+        let end = text.len() - behind.len();
+        return Some(Named { start, end, line });
+    }
+    None
+}

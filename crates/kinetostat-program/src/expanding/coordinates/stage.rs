@@ -1,0 +1,365 @@
+//! Stands between the blocks that a program runs and the compensation of the tool's radius.
+
+use nalgebra::Vector3;
+
+use crate::expanding::coordinates::map::Map;
+use crate::expanding::coordinates::switch::{Block, Switch};
+use crate::expanding::expanded::Origin;
+use crate::expanding::flat::Flat;
+use crate::expanding::options::Dialect;
+use crate::expanding::radius::contour::{Programmed, ProgrammedShape};
+use crate::expanding::radius::geometry::{Axes, in_plane};
+use crate::expanding::radius::motion::{Motion, no_motion};
+use crate::expanding::radius::piece::Shape;
+use crate::expanding::radius::stage::Radius;
+use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::translate::wrong::Wrong;
+use crate::path::curve::Curve;
+use crate::path::moves::{Move, MoveKind};
+use crate::reading::interpret::Interpreter;
+use crate::reading::options::Units;
+
+/// Codes that mean places of the machine, or change what the places rest on, in tenths.
+const REFUSED: &[u32] = &[
+    100, 170, 180, 190, 280, 281, 300, 301, 382, 383, 384, 385, 530, 920, 921, 922, 923,
+];
+
+/// Coordinates as the program has them now.
+#[derive(Default)]
+pub(crate) struct Coordinates<'o> {
+    map: Map,
+    /// The blocks as programmed, where these are others than the flat ones.
+    programmed: Option<Flat<'o>>,
+    /// Axes that the next motion must state.
+    to_state: [bool; 3],
+}
+
+fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Trouble> {
+    Err(Trouble::Line((reason.into(), remedy)))
+}
+
+impl<'o> Coordinates<'o> {
+    /// The run that knows the modes and the programmed places.
+    pub fn interpreter(&self) -> Option<&Interpreter<'o>> {
+        self.programmed.as_ref().map(|flat| &flat.interpreter)
+    }
+
+    /// Why canned cycles cannot be run; none where they can.
+    pub fn refuses_cycles(&self) -> Option<Wrong> {
+        match (self.map.scale, self.to_state) {
+            (Some(_), _) => Some((
+                "a canned cycle in scaled or mirrored coordinates: which of its words are scaled depends on the controller".to_owned(),
+                "write G50 before it, or the holes as moves",
+            )),
+            (None, to_state) if to_state != [false; 3] => Some((
+                "a canned cycle is the first motion in turned coordinates".to_owned(),
+                "move to its first hole with G0 before it",
+            )),
+            _ => None,
+        }
+    }
+
+    /// A block of plain words, behind all blocks so far.
+    pub fn block(
+        &mut self,
+        text: &[u8],
+        origin: Origin,
+        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+        dialect: Dialect,
+    ) -> Result<(), Trouble> {
+        // LinuxCNC has none of these words.
+        if dialect == Dialect::LinuxCnc {
+            return radius.block(text, origin, flat);
+        }
+        let may_switch = text.contains(&b'5') || text.contains(&b'6');
+        if self.programmed.is_none() && !may_switch {
+            return radius.block(text, origin, flat);
+        }
+        let block = Block::of(text)?;
+        if let Some(switch) = block.switch {
+            return self.switch(switch, radius, flat);
+        }
+        let ends = block.ends_scale && self.map.scale.is_some()
+            || block.ends_turn && self.map.turn.is_some();
+        if ends {
+            refuse_contour(radius)?;
+            let mut map = self.map;
+            map.scale = map.scale.filter(|_| !block.ends_scale);
+            map.turn = map.turn.filter(|_| !block.ends_turn);
+            self.become_(map, origin, (radius, flat))?;
+        }
+        match (block.rest.trim_ascii_end(), &mut self.programmed) {
+            ([], _) => Ok(()),
+            (rest, None) => radius.block(rest, origin, flat),
+            (rest, Some(_)) => {
+                let refused = |code: &&u32| {
+                    REFUSED.contains(code) || (540..=593).contains(*code) && !self.map.only_shifts()
+                };
+                if let Some(code) = block.codes.iter().find(refused) {
+                    return wrong(
+                        format!(
+                            "G{} in coordinates that are shifted, scaled or turned",
+                            f64::from(*code) / 10.0
+                        ),
+                        "write G69, G50 or G52 X0 Y0 Z0 before it",
+                    );
+                }
+                self.run(rest, origin, radius, flat)
+            }
+        }
+    }
+
+    /// The coordinates are others from here on.
+    fn become_(
+        &mut self,
+        map: Map,
+        origin: Origin,
+        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
+    ) -> Result<(), Trouble> {
+        self.map = map;
+        if map.is_nothing() {
+            let in_arcs = self.interpreter().is_some_and(Interpreter::moves_in_arcs);
+            self.programmed = None;
+            self.to_state = [false; 3];
+            // A mirrored arc has left the other code in force.
+            return match in_arcs {
+                true => radius.block(b"G80", origin, flat),
+                false => Ok(()),
+            };
+        }
+        let mut run = match self.programmed.take() {
+            Some(run) => run,
+            None => flat.following(),
+        };
+        let places = [0, 1, 2].map(|axis| flat.interpreter.place_mm(axis));
+        let [Some(x), Some(y), Some(z)] = places else {
+            return wrong(
+                "where the tool is before the coordinates change is not known",
+                "state X, Y and Z with G0 before it, or give the start position",
+            );
+        };
+        run.interpreter
+            .stand_at(map.programmed(Vector3::new(x, y, z)));
+        self.programmed = Some(run);
+        Ok(())
+    }
+
+    fn switch(
+        &mut self,
+        switch: Switch,
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
+    ) -> Result<(), Trouble> {
+        refuse_contour(radius)?;
+        let state = self.interpreter().unwrap_or(&flat.interpreter);
+        let Some(unit) = state.units().map(Units::mm_per_unit) else {
+            return wrong(
+                "the units are not named before the coordinates change",
+                "write G21 or G20 before it",
+            );
+        };
+        let axes = state.plane_axes();
+        let origin_mm = state.origin_mm() + self.map.shift;
+        // Centres are places of the program.
+        let place = |axis: usize, word: f64| origin_mm[axis] + word * unit;
+        let here = [0, 1, 2].map(|axis| flat.interpreter.place_mm(axis));
+        let mut map = self.map;
+        let mut to_state = self.to_state;
+        match switch {
+            Switch::Shift(words) => {
+                if !map.only_shifts() {
+                    return wrong(
+                        "G52 in coordinates that are scaled or turned",
+                        "write G69 or G50 before it",
+                    );
+                }
+                for axis in 0..3 {
+                    map.shift[axis] = words[axis].map_or(map.shift[axis], |word| word * unit);
+                }
+            }
+            Switch::Scale(..) | Switch::Mirror(_) if map.scale.is_some() || map.turn.is_some() => {
+                return wrong(
+                    "G51 or G51.1 in coordinates that are scaled, mirrored or turned already",
+                    "write G50, G50.1 or G69 before it",
+                );
+            }
+            Switch::Scale(centre, factors) => {
+                let mut about = Vector3::zeros();
+                for axis in 0..3 {
+                    about[axis] = match (centre[axis], here[axis]) {
+                        (Some(word), _) => place(axis, word),
+                        (None, Some(here)) if factors[axis] != 1.0 => here,
+                        _ => 0.0,
+                    };
+                    to_state[axis] |= factors[axis] != 1.0;
+                }
+                map.scale = Some((about, Vector3::from(factors)));
+            }
+            Switch::Mirror(mirrors) => {
+                let (mut about, mut factors) = (Vector3::zeros(), Vector3::repeat(1.0));
+                for axis in 0..3 {
+                    if let Some(word) = mirrors[axis] {
+                        (about[axis], factors[axis], to_state[axis]) =
+                            (place(axis, word), -1.0, true);
+                    }
+                }
+                map.scale = Some((about, factors));
+            }
+            Switch::Turn(..) if map.turn.is_some() => {
+                return wrong(
+                    "G68 in coordinates that are turned already",
+                    "write G69 before it",
+                );
+            }
+            Switch::Turn(..) if state.is_incremental() => {
+                return wrong(
+                    "G68 with G91 turns by R to some controllers, and adds it to the angle before to others",
+                    "write G90 before it",
+                );
+            }
+            Switch::Turn(centre, angle) => {
+                let [Some(a), Some(b)] =
+                    [axes[0], axes[1]].map(|axis| Some(place(axis, centre[axis]?)))
+                else {
+                    return wrong(
+                        "G68 without its centre turns about the tool's place to some controllers, about zero to others",
+                        "write both axes of the plane",
+                    );
+                };
+                if centre[axes[2]].is_some() {
+                    return wrong(
+                        "G68 with three axes tilts the plane",
+                        "write the two axes of the plane and R",
+                    );
+                }
+                let mut at = Vector3::zeros();
+                (at[axes[0]], at[axes[1]]) = (a, b);
+                // A centre in scaled coordinates is scaled.
+                let scaled = Map {
+                    shift: Vector3::zeros(),
+                    turn: None,
+                    ..map
+                };
+                map.turn = Some((axes, in_plane(&scaled.place(at), axes), angle.to_radians()));
+                (to_state[axes[0]], to_state[axes[1]]) = (true, true);
+            }
+        }
+        self.to_state = to_state;
+        self.become_(map, Origin { line: 0, file: 0 }, (radius, flat))
+    }
+
+    /// A block in other coordinates than the machine's.
+    fn run(
+        &mut self,
+        text: &[u8],
+        origin: Origin,
+        radius: &mut Radius<'o>,
+        flat: &mut Flat<'o>,
+    ) -> Result<(), Trouble> {
+        let Some(programmed) = self.programmed.as_mut() else {
+            return radius.block(text, origin, flat);
+        };
+        let (switch, rest) = crate::expanding::radius::words::divided(text)?;
+        let Some(motion) = Motion::of(&rest, &programmed.interpreter) else {
+            if !rest.trim_ascii().is_empty() {
+                programmed.add(&rest, origin)?;
+            }
+            return radius.block(text, origin, flat);
+        };
+        if !switch.is_empty() {
+            radius.block(&switch, origin, flat)?;
+        }
+        if !motion.before.is_empty() {
+            radius.block(&motion.before, origin, flat)?;
+        }
+        let stated = motion.states();
+        let made = motion.run(origin, programmed)?.ok_or_else(no_motion)?;
+        if !made.extra.is_empty() {
+            return wrong(
+                "an axis other than X, Y, Z moves in coordinates that are shifted, scaled or turned",
+                "move it before G68, G51 and G52, or behind their end",
+            );
+        }
+        let state = &programmed.interpreter;
+        let axes = state.plane_axes();
+        if self.to_state != [false; 3] {
+            self.to_state = first_motion(self.to_state, stated, state.is_incremental(), axes)?;
+        }
+        let shape = shape(&self.map, &made, axes)?;
+        let to = self.map.place(made.end);
+        let after = motion.after.clone();
+        let mut dress = motion.dress(&made, axes, origin);
+        dress.depth = dress.depth.map(|_| to[axes[2]]);
+        let piece = dress.last(shape, in_plane(&to, axes));
+        // The words are those of the run that the machine's own coordinates have.
+        if let Some(text) = piece.text(radius.interpreter(flat))? {
+            radius.block(&text, origin, flat)?;
+        }
+        if !after.is_empty() {
+            programmed.add(&after, origin)?;
+            radius.block(&after, origin, flat)?;
+        }
+        Ok(())
+    }
+}
+
+fn refuse_contour(radius: &Radius<'_>) -> Result<(), Trouble> {
+    match radius.refuses_cycles() {
+        Some(_) => wrong(
+            "coordinates are shifted, scaled or turned while cutter radius compensation is on, or before the first move behind G40",
+            "write G40 and a move before it",
+        ),
+        None => Ok(()),
+    }
+}
+
+/// The first motion in other coordinates states its place by all axes that they change: which place an axis has that is not
+/// named depends on the controller.
+fn first_motion(
+    to_state: [bool; 3],
+    stated: [bool; 3],
+    incremental: bool,
+    axes: Axes,
+) -> Result<[bool; 3], Trouble> {
+    let plane = [axes[0], axes[1]];
+    let moves_in_plane = plane.iter().any(|axis| stated[*axis]);
+    let missing = plane.iter().any(|axis| to_state[*axis] && !stated[*axis]);
+    let any = (0..3).any(|axis| to_state[axis] && stated[axis]);
+    if any && incremental || moves_in_plane && missing {
+        return wrong(
+            "the first motion in scaled or turned coordinates does not state its place",
+            "write G90 and all axes that are scaled or turned",
+        );
+    }
+    Ok([0, 1, 2].map(|axis| to_state[axis] && !stated[axis]))
+}
+
+fn shape(map: &Map, made: &Move, axes: Axes) -> Result<Shape, Trouble> {
+    if made.curve == Curve::Line {
+        return Ok(Shape::Straight(match made.kind {
+            MoveKind::Rapid => "G0",
+            MoveKind::Feed => "G1",
+        }));
+    }
+    match Programmed::of(made, axes)?.shape {
+        ProgrammedShape::Straight(code) => Ok(Shape::Straight(code)),
+        ProgrammedShape::Arc(arc) => {
+            let Some(sense) = map.sense(arc.sense, axes) else {
+                return wrong(
+                    "an arc whose axes are scaled differently is no arc any more",
+                    "write the same factor for both axes of the plane",
+                );
+            };
+            if arc.sweep > std::f64::consts::TAU + 1e-9 {
+                return wrong(
+                    "an arc of more than one turn in scaled or turned coordinates",
+                    "write each turn as a block",
+                );
+            }
+            let mut centre = made.end;
+            (centre[axes[0]], centre[axes[1]]) = (arc.centre.x, arc.centre.y);
+            let centre = in_plane(&map.place(centre), axes);
+            Ok(Shape::Arc { centre, sense })
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! What moves and paths say of the orientation of the tool.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::path::moves::{Move, Path};
+
+impl Move {
+    /// The orientation of the tool at a share of the move, part axes from tool axes; `None` in a program of positions.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG1 X9 F600\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// assert!(path.moves[1].orientation(0.5).is_none()); // in X, Y and Z alone
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn orientation(&self, share: f64) -> Option<UnitQuaternion<f64>> {
+        self.tool_turn.as_ref().map(|turn| turn.at(share))
+    }
+}
+
+impl Path {
+    /// Direction of the tool at a share of a move, from its tip to its holder, part axes: z in a program of positions.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    /// use nalgebra::Vector3;
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG1 X9 F600\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// assert_eq!(path.tool_direction(1, 0.5), Vector3::z());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn tool_direction(&self, move_index: usize, share: f64) -> Vector3<f64> {
+        let orientation = self.moves[move_index].orientation(share);
+        orientation.map_or_else(Vector3::z, |orientation| orientation * self.tool_axis)
+    }
+}
+
+impl Path {
+    /// A path of moves that a program of another language than G-code makes, with the direction from the tool's tip to its
+    /// holder in axes of the tool. All axes count as stated; nothing else is known of it.
+    ///
+    /// ```
+    /// use kinetostat_program::Path;
+    /// use nalgebra::Vector3;
+    ///
+    /// let path = Path::of_moves(Vec::new(), -Vector3::z());
+    /// assert_eq!(path.stated, [true; 3]);
+    /// ```
+    #[must_use]
+    pub fn of_moves(moves: Vec<Move>, tool_axis: Vector3<f64>) -> Self {
+        Self {
+            moves,
+            tool_axis,
+            stated: [true; 3],
+            warnings: Vec::new(),
+            tool_changes: Vec::new(),
+            spindle_changes: Vec::new(),
+            pauses: Vec::new(),
+            events: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! The account of every piece and every block, in whatever language they are written.
+
+use nalgebra::Vector3;
+
+use crate::number::at_most;
+use crate::number::{larger, smaller};
+use crate::path::moves::{Feed, Knowledge, Move, MoveKind, Path, Warning};
+use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
+use crate::writing::node::is_divided;
+use crate::writing::options::WriteOptions;
+use crate::writing::output_state::OutputMove;
+use crate::writing::written::Piece;
+
+/// What was written of a piece.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AsWritten {
+    /// Where it begins as written, in mm.
+    pub from: Vector3<f64>,
+    /// Where it ends as written, in mm.
+    pub to: Vector3<f64>,
+    /// Line of the output.
+    pub output_line: usize,
+    /// An arc that stays one.
+    pub kept_arc: bool,
+    /// The feed in force.
+    pub feed: Option<Feed>,
+    /// It was held to its largest.
+    pub feed_limited: bool,
+}
+
+/// Pieces and figures of a program that is being written.
+pub(crate) struct PieceAccount<'a> {
+    path: &'a Path,
+    options: &'a WriteOptions,
+    pub pieces: Vec<Piece>,
+    pub accounting: Accounting,
+    rate: Rate,
+    rate_in: Rate,
+    /// Where the steps at one place began, and where that place is: move and share.
+    jump_from: Option<(usize, f64, Vector3<f64>)>,
+}
+
+impl<'a> PieceAccount<'a> {
+    /// `accounting` holds what is known before the first piece.
+    pub fn new(path: &'a Path, options: &'a WriteOptions, accounting: Accounting) -> Self {
+        let mut account = Self {
+            path,
+            options,
+            pieces: Vec::new(),
+            accounting,
+            rate: Rate::default(),
+            rate_in: Rate::default(),
+            jump_from: None,
+        };
+        account.warn_of_axes_never_stated();
+        account
+    }
+
+    fn warn_of_axes_never_stated(&mut self) {
+        let left_out_mm = self.accounting.left_out_mm;
+        if left_out_mm <= self.options.tolerance_mm {
+            return;
+        }
+        let axes: Vec<&str> = (0..3)
+            .filter(|axis| !self.path.stated[*axis])
+            .map(|axis| ["X", "Y", "Z"][axis])
+            .collect();
+        self.accounting.warnings.push(Warning {
+            line: 1,
+            text: format!(
+                "the program never states {}: corrections there, up to {} mm, are left out",
+                axes.join(" and "),
+                at_most(left_out_mm)
+            ),
+        });
+    }
+
+    /// A piece that is written.
+    pub fn piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
+        self.note_piece(move_index, step, written);
+        self.pieces.push(Piece {
+            move_index,
+            share_from: step.share_from,
+            share_to: step.share_to,
+            commanded_from: written.from,
+            commanded_to: written.to,
+            output_line: written.output_line,
+            corner_step: step.corner_step,
+            turn: step.turn,
+            corrected: step.corrected,
+            kept_arc: written.kept_arc,
+            feed_limited: written.feed_limited,
+        });
+    }
+
+    /// A move that goes where the input has it, or to a place of the machine.
+    pub fn uncorrected(&mut self, move_index: usize, written: &AsWritten) {
+        self.pieces.push(Piece {
+            move_index,
+            share_from: 0.0,
+            share_to: 1.0,
+            commanded_from: written.from,
+            commanded_to: written.to,
+            output_line: written.output_line,
+            corner_step: false,
+            turn: None,
+            corrected: false,
+            kept_arc: false,
+            feed_limited: false,
+        });
+        self.rate.note(None);
+    }
+
+    fn note_piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
+        let motion = &self.path.moves[move_index];
+        let written_mm = match written.kept_arc {
+            true => motion.length_mm(),
+            false => (written.to - written.from).norm(),
+        };
+        let accounting = &mut self.accounting;
+        let rounding = (written.to - step.target).norm();
+        accounting.largest_rounding_mm = larger(accounting.largest_rounding_mm, rounding);
+        if step.corrected {
+            let correction = (step.target - motion.point(step.share_to)).norm();
+            if correction > accounting.largest_correction_mm {
+                accounting.largest_correction_mm = correction;
+                accounting.largest_correction_line = Some(motion.line);
+            }
+        }
+        self.note_step(motion, step, written_mm);
+        if motion.kind != MoveKind::Feed {
+            self.rate.note(None);
+            return;
+        }
+        let accounting = &mut self.accounting;
+        let part_mm = motion.length_between_mm(step.share_from, step.share_to);
+        if written.feed_limited {
+            accounting.feed_limited_pieces += 1;
+            accounting.feed_limited_line.get_or_insert(motion.line);
+            let speed = self.options.max_feed_factor * part_mm / written_mm;
+            let slowest = accounting.slowest_limited_speed.get_or_insert(speed);
+            *slowest = smaller(*slowest, speed);
+        }
+        if motion.known == Knowledge::Whole {
+            accounting.feed_length_out_mm += written_mm;
+            // A block that stays one keeps its inverse time; the pieces of others have their own.
+            let feed = written.feed.filter(|_| motion.feed.is_some());
+            self.rate
+                .note(feed.and_then(|feed| duration_at(feed, written_mm)));
+            self.note_backward(move_index, step, written);
+        } else {
+            self.rate.note(None);
+        }
+    }
+
+    fn note_step(&mut self, motion: &Move, step: &OutputMove, written_mm: f64) {
+        if !step.corner_step {
+            return;
+        }
+        let entry = match &step.turn {
+            Some(turn) => turn.is_entry(self.path),
+            // The tool stands where nobody corrected it.
+            None => !self.pieces.iter().any(|piece| piece.corrected),
+        };
+        let accounting = &mut self.accounting;
+        if entry {
+            accounting.entry_steps += 1;
+            if written_mm > accounting.largest_entry_step_mm {
+                accounting.largest_entry_step_line = Some(motion.line);
+            }
+            accounting.largest_entry_step_mm = larger(accounting.largest_entry_step_mm, written_mm);
+        } else {
+            accounting.corner_steps += 1;
+            accounting.largest_corner_step_mm =
+                larger(accounting.largest_corner_step_mm, written_mm);
+        }
+    }
+
+    /// How far the output goes against the direction in which the part is cut.
+    fn note_backward(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
+        let motion = &self.path.moves[move_index];
+        let began = match (step.corner_step, self.jump_from) {
+            (false, _) => {
+                self.jump_from = None;
+                written.from
+            }
+            // Further pieces of one step count from where the first began.
+            (true, Some((index, share, began)))
+                if (index, share) == (move_index, step.share_to) =>
+            {
+                began
+            }
+            (true, _) => {
+                self.jump_from = Some((move_index, step.share_to, written.from));
+                written.from
+            }
+        };
+        let displacement = written.to - began;
+        let middle = 0.5 * (step.share_from + step.share_to);
+        let mut backward = motion
+            .tangent(middle)
+            .map_or(0.0, |along| -displacement.dot(&along));
+        if step.corner_step && step.share_to == 0.0 {
+            let before = move_index
+                .checked_sub(1)
+                .map(|index| &self.path.moves[index]);
+            let before = before.filter(|before| is_divided(before));
+            if let Some(along) = before.and_then(|before| before.tangent(1.0)) {
+                backward = larger(backward, -displacement.dot(&along));
+            }
+        }
+        let accounting = &mut self.accounting;
+        if backward > self.options.backward_step_mm {
+            accounting.backward_steps += 1;
+            if backward > accounting.largest_backward_mm {
+                accounting.largest_backward_line = Some(motion.line);
+            }
+        }
+        accounting.largest_backward_mm = larger(accounting.largest_backward_mm, backward);
+    }
+
+    /// The block of a move, which became so many pieces; whether its bytes are the same.
+    pub fn block(&mut self, motion: &Move, pieces: usize, same: bool) {
+        let accounting = &mut self.accounting;
+        match same {
+            true => accounting.blocks_carried += 1,
+            false => accounting.blocks_corrected += 1,
+        }
+        accounting.blocks_out += pieces;
+        if pieces > 1 {
+            accounting.blocks_split += 1;
+            let new = &self.pieces[self.pieces.len() - pieces..];
+            for piece in new.iter().filter(|piece| !piece.corner_step) {
+                let length = motion.length_between_mm(piece.share_from, piece.share_to);
+                let smallest = accounting.smallest_piece_mm.get_or_insert(length);
+                *smallest = smallest.min(length);
+            }
+        }
+        let known = motion.is_known_feed();
+        if known {
+            self.accounting.feed_length_in_mm += motion.length_mm();
+        }
+        self.rate_in.note(match known {
+            true => duration(motion, motion.length_mm()),
+            false => None,
+        });
+    }
+
+    /// Pieces and figures, all told.
+    pub fn finish(mut self, bytes_out: usize) -> (Vec<Piece>, Accounting) {
+        self.warn_of_steps_and_feeds();
+        self.accounting.bytes_out = bytes_out;
+        self.accounting.pieces = self.pieces.len();
+        self.accounting.mean_blocks_per_second = self.rate.mean();
+        self.accounting.peak_blocks_per_second = self.rate.peak();
+        self.accounting.peak_blocks_per_second_in = self.rate_in.peak();
+        self.accounting.mean_blocks_per_second_in = self.rate_in.mean();
+        self.accounting.feed_time_in_s = self.rate_in.seconds();
+        self.accounting.feed_time_out_s = self.rate.seconds();
+        (self.pieces, self.accounting)
+    }
+
+    fn warn_of_steps_and_feeds(&mut self) {
+        let accounting = &mut self.accounting;
+        if let (Some(line), Some(speed)) = (
+            accounting.feed_limited_line,
+            accounting.slowest_limited_speed,
+        ) {
+            accounting.warnings.push(Warning {
+                line,
+                text: format!(
+                    "the feed of {}, first here, is held to {} times the programmed one, though the tool's own \
+                     path is longer: the part is cut more slowly there, the slowest at {} % of the programmed speed",
+                    counted(accounting.feed_limited_pieces, "piece"),
+                    self.options.max_feed_factor,
+                    least_percent(speed)
+                ),
+            });
+        }
+        let Some(line) = accounting.largest_backward_line else {
+            return;
+        };
+        accounting.warnings.push(Warning {
+            line,
+            text: format!(
+                "the written program goes {} against the direction of motion by more than {} mm, here by {} mm, to \
+                 follow a correction that changes at once (a load that turns or begins, a table that folds back): where \
+                 the machine does not do so, the tool cuts backwards",
+                counted(accounting.backward_steps, "time"),
+                self.options.backward_step_mm,
+                at_most(accounting.largest_backward_mm)
+            ),
+        });
+    }
+}
+
+/// A share in percent with two digits, neither stated too large nor as nothing.
+pub fn least_percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent < 1e-3 {
+        return "less than 0.001".to_owned();
+    }
+    let decimals = (1.0 - percent.log10().floor()).max(0.0) as usize;
+    let place = 10_f64.powi(decimals as i32);
+    format!("{:.decimals$}", (percent * place + 1e-9).floor() / place)
+}
+
+/// "1 piece", "2 pieces".
+fn counted(count: usize, one: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {one}s"),
+    }
+}

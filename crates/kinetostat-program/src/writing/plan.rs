@@ -1,0 +1,231 @@
+//! What is to be written in place of every move: for writers of any language.
+//!
+//! A [`Plan`] is made from the path and a field of corrections. A writer puts its pieces into the text of its language and says
+//! where each of them ends as written; [`Plan::corrected`] makes the account of it, the same for all languages.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::error::WriteError;
+use crate::field::correction::Correction;
+use crate::field::request::{CorrectionField, Monitor};
+use crate::path::curve::Curve;
+use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
+use crate::writing::accounting::Accounting;
+use crate::writing::divide::divide;
+use crate::writing::node::is_divided;
+use crate::writing::options::WriteOptions;
+use crate::writing::output_state::OutputMove;
+use crate::writing::piece_account::{AsWritten, PieceAccount};
+use crate::writing::steps::Steps;
+use crate::writing::written::Corrected;
+
+/// A piece to be written: a straight motion to a pose, or a whole arc that is kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlannedPiece {
+    /// Share of the move's length at which it ends.
+    pub share_to: f64,
+    /// Where it ends, part frame, in mm.
+    pub position_mm: Vector3<f64>,
+    /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// Its speed over that of the program, so that the speed along the part stays the same; at most
+    /// [`WriteOptions::max_feed_factor`].
+    pub speed_factor: f64,
+    /// The speed is held to that largest factor: the part is cut more slowly here.
+    pub speed_limited: bool,
+}
+
+/// What is to be written in place of one move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedMove {
+    /// The pieces, in order; one at least.
+    pub pieces: Vec<PlannedPiece>,
+    /// The move stays as it is: its place is not known, or it is an arc on which no correction reaches the last digit.
+    pub kept: bool,
+}
+
+/// What a writer made of a move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenMove {
+    /// Where each piece ends as written (rounded), part frame, in mm, with its orientation and its line of the output.
+    pub ends: Vec<(Vector3<f64>, Option<UnitQuaternion<f64>>, usize)>,
+    /// The text of the move is byte for byte that of the input.
+    pub same: bool,
+}
+
+/// All pieces of a program that is to be written.
+pub struct Plan<'a> {
+    path: &'a Path,
+    options: &'a WriteOptions,
+    steps: Vec<Vec<OutputMove>>,
+    moves: Vec<PlannedMove>,
+    evaluations: usize,
+    largest_jump_taken_up_mm: f64,
+}
+
+impl<'a> Plan<'a> {
+    /// Divides every move where the correction varies.
+    ///
+    /// # Errors
+    /// As [`crate::write_corrected`], but for what belongs to a text.
+    pub fn new(
+        path: &'a Path,
+        field: &dyn CorrectionField,
+        options: &'a WriteOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, WriteError> {
+        options.check()?;
+        let division = divide(path, field, options, monitor)?;
+        let evaluations = division.evaluations;
+        let mut steps = Steps::new(path, options, division.nodes, division.jumps);
+        let mut reached = path.moves.first().map_or_else(Vector3::zeros, |m| m.start);
+        let (mut all, mut moves) = (Vec::new(), Vec::new());
+        for (move_index, motion) in path.moves.iter().enumerate() {
+            let (list, nodes) = steps.of(move_index, reached);
+            let half = options.half_digit_mm(motion.words.mm_per_unit);
+            let nothing = |step: &OutputMove| {
+                let off = step.target - motion.point(step.share_to);
+                off.amax() <= half && step.tilt.amax() * options.turn_lever_mm <= half
+            };
+            let arc = motion.curve != Curve::Line;
+            let kept = motion.known == Knowledge::Nothing
+                || arc
+                    && is_divided(motion)
+                    && !nodes.is_empty()
+                    && list.iter().all(nothing)
+                    && (reached - motion.start).amax() <= half;
+            let list = match kept {
+                false => list,
+                true => vec![OutputMove {
+                    share_from: 0.0,
+                    share_to: 1.0,
+                    target: motion.end,
+                    tilt: Vector3::zeros(),
+                    corner_step: false,
+                    turn: None,
+                    corrected: motion.known != Knowledge::Nothing,
+                }],
+            };
+            moves.push(PlannedMove {
+                pieces: pieces(motion, &list, reached, kept, options),
+                kept,
+            });
+            reached = list.last().map_or(reached, |step| step.target);
+            all.push(list);
+        }
+        Ok(Self {
+            path,
+            options,
+            steps: all,
+            moves,
+            evaluations,
+            largest_jump_taken_up_mm: steps.largest_jump_taken_up_mm,
+        })
+    }
+
+    /// What is to be written, one entry for each move of the path.
+    #[must_use]
+    pub fn moves(&self) -> &[PlannedMove] {
+        &self.moves
+    }
+
+    /// The written program with its account. `blocks_in` counts the statements of the input, `bytes_in` its bytes; `written` has
+    /// one entry for each move.
+    #[must_use]
+    pub fn corrected(
+        self,
+        (blocks_in, bytes_in): (usize, usize),
+        written: &[WrittenMove],
+        bytes: Vec<u8>,
+    ) -> Corrected {
+        let accounting = Accounting {
+            blocks_in,
+            bytes_in,
+            moves_in: self.path.moves.len(),
+            blocks_carried: blocks_in - self.path.moves.len().min(blocks_in),
+            blocks_out: blocks_in - self.path.moves.len().min(blocks_in),
+            evaluations: self.evaluations,
+            largest_jump_taken_up_mm: self.largest_jump_taken_up_mm,
+            warnings: self.path.warnings.clone(),
+            ..Accounting::default()
+        };
+        let mut account = PieceAccount::new(self.path, self.options, accounting);
+        let mut orientations = Vec::new();
+        let mut from = self
+            .path
+            .moves
+            .first()
+            .map_or_else(Vector3::zeros, |m| m.start);
+        let planned = self.steps.iter().zip(&self.moves).zip(written);
+        for (move_index, ((steps, plan), written)) in planned.enumerate() {
+            let motion = &self.path.moves[move_index];
+            let ends = steps.iter().zip(&plan.pieces).zip(&written.ends);
+            for ((step, piece), (to, orientation, output_line)) in ends {
+                let factor = piece.speed_factor;
+                let as_written = AsWritten {
+                    from,
+                    to: *to,
+                    output_line: *output_line,
+                    kept_arc: plan.kept && motion.curve != Curve::Line,
+                    feed: motion.feed.map(|feed| Feed {
+                        value: feed.value * factor,
+                        ..feed
+                    }),
+                    feed_limited: piece.speed_limited,
+                };
+                match motion.known {
+                    Knowledge::Nothing => account.uncorrected(move_index, &as_written),
+                    _ => account.piece(move_index, step, &as_written),
+                }
+                orientations.extend(orientation);
+                from = *to;
+            }
+            account.block(motion, steps.len(), written.same);
+        }
+        let (pieces, accounting) = account.finish(bytes.len());
+        Corrected {
+            bytes,
+            beside: Vec::new(),
+            pieces,
+            orientations,
+            accounting,
+        }
+    }
+}
+
+fn pieces(
+    motion: &Move,
+    steps: &[OutputMove],
+    mut from: Vector3<f64>,
+    kept: bool,
+    options: &WriteOptions,
+) -> Vec<PlannedPiece> {
+    let mut list = Vec::with_capacity(steps.len());
+    for step in steps {
+        let part_mm = motion.length_between_mm(step.share_from, step.share_to);
+        let per_minute = motion.feed.is_none_or(|f| f.mode != FeedMode::InverseTime);
+        let measured = motion.kind == MoveKind::Feed
+            && motion.known == Knowledge::Whole
+            && !kept
+            && !step.corner_step
+            && per_minute
+            && part_mm > 0.0;
+        let raised = match measured {
+            true => (step.target - from).norm() / part_mm,
+            false => 1.0,
+        };
+        let turn = Correction {
+            shift_mm: Vector3::zeros(),
+            turn: step.tilt,
+        };
+        list.push(PlannedPiece {
+            share_to: step.share_to,
+            position_mm: step.target,
+            orientation: motion.orientation(step.share_to).map(|o| turn.turned(&o)),
+            speed_factor: raised.min(options.max_feed_factor),
+            speed_limited: raised > options.max_feed_factor,
+        });
+        from = step.target;
+    }
+    list
+}

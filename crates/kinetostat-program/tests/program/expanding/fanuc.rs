@@ -1,0 +1,124 @@
+//! Words of Fanuc's dialect: G65, vacant parameters, fine boring, repeats by K, levels of a row of cycles.
+
+use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, ProgramError, expand};
+
+const BEGIN: &str = "G21 G90 G17 F200\nG0 X0 Y0 Z15\n";
+
+fn run(text: &str, dialect: Dialect) -> Result<String, ProgramError> {
+    let mut options = ExpandOptions::default();
+    options.dialect = dialect;
+    let flat = expand(format!("{BEGIN}{text}"), &options, &NoSubprograms)?;
+    let bytes = String::from_utf8(flat.program.bytes().to_vec()).unwrap();
+    Ok(bytes.strip_prefix(BEGIN).unwrap().to_owned())
+}
+
+fn fanuc(text: &str) -> String {
+    run(text, Dialect::Fanuc).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+#[test]
+fn g65_gives_letters_as_numbers_to_a_subprogram() {
+    let letters = "A1 B2 C3 D7 E8 F9 H11 I4 J5 K6 M13 Q17 R18 S19 T20 U21 V22 W23 X24 Y25 Z26";
+    let sums = "O9\n#100=[#1+#2+#3+#4+#5+#6+#7+#8+#9+#11+#13+#17+#18+#19+#20+#21+#22+#23+#24+#25+#26]\nG0 X#100 Y#24 Z#7\nM99\n";
+    // Each letter has its number as its value.
+    let sum = 1 + 2 + 3 + 4 + 5 + 6 + 7 + 8 + 9 + 11 + 13 + (17..=26).sum::<i32>();
+    let made = fanuc(&format!("G65 P9 {letters}\nM30\n{sums}"));
+    assert_eq!(made, format!("G0 X{sum} Y24 Z7\nM30\n"));
+    // It has values of its own; repeats begin with the arguments.
+    let text = "#1=5\nG65 P9 L2 A1\nG0 X#1\nM30\nO9\nG0 Y#1\n#1=[#1+1]\n#33=4\nM99\n";
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+        assert_eq!(run(text, dialect).unwrap(), "G0 Y1\nG0 Y1\nG0 X5\nM30\n");
+    }
+    assert_eq!(fanuc("G67\nG65 P9\nM30\nO9\nG0 X1\nM99\n"), "G0 X1\nM30\n");
+    assert_eq!(
+        fanuc("M98 P9\nG0 X2\nN7 G0 X3\nM30\nO9\nM99 P7\n"),
+        "N7 G0 X3\nM30\n"
+    );
+}
+
+#[test]
+fn vacant_parameters_are_left_out() {
+    let text = "G65 P9 X1\nM30\nO9\nG0 X#24 Y#25\nIF [#25 EQ #0] THEN #25=3\nG0 Y#25\n#25=#0\nIF [#25 NE #0] GOTO 5\nG0 Z1\nN5 G0 X[#25+9]\nM99\n";
+    assert_eq!(fanuc(text), "G0 X1\nG0 Y3\nG0 Z1\nN5 G0 X9\nM30\n");
+    // In the order of the line; FIX and FUP by the size of the number.
+    assert_eq!(
+        fanuc("#1=2 #2=[#1+1]\nG0 X#2 Y[FIX[-2.5]] Z[FUP[-2.5]]\n"),
+        "G0 X3 Y-2 Z-3\n"
+    );
+    let linuxcnc = run("#1=2 #2=[#1+1]\nG0 X#2 Y[FIX[-2.5]]\n", Dialect::LinuxCnc).unwrap();
+    assert_eq!(linuxcnc, "G0 X1 Y-3\n");
+}
+
+#[test]
+fn fine_boring_and_repeats_of_cycles() {
+    let made = fanuc("M3 S100\nG76 X5 Y5 Z-10 R2 I0.5 P1\nG80\n");
+    assert_eq!(
+        made,
+        "M3 S100\nG0 X5 Y5\nG0 Z2\nG1 Z-10\nG4 P1\nM5\nM19\nG0 X5.5\nG0 Z15\nG0 X5\nM3\nG80\n"
+    );
+    // K0 keeps the words; with G91 the levels stay where they were.
+    let made = fanuc("G99 G81 X1 Z-3 R1 K0\nG91 X2 K2\n");
+    assert_eq!(
+        made,
+        "G99\nG91\nG0 X2\nG0 Z-14\nG1 Z-4\nG0 Z4\nG0 X2\nG1 Z-4\nG0 Z4\n"
+    );
+    // LinuxCNC reads the numbers anew: R 1 above the start, 3 deep from there.
+    let made = run("G99 G81 X1 Z-3 R1\nG91 X2\n", Dialect::LinuxCnc).unwrap();
+    assert_eq!(
+        made,
+        "G99\nG0 X1\nG0 Z1\nG1 Z-3\nG0 Z1\nG91\nG0 Z15\nG0 X2\nG1 Z-3\nG0 Z3\n"
+    );
+}
+
+#[test]
+fn what_dialects_disagree_on_is_refused_with_both_readings() {
+    let row = "G99 G81 X1 Z-3 R1\nG91 X2\n";
+    for (text, dialect, needles) in [
+        (
+            "G98 M3\nG76 X1 Z-1 R1 Q1\n",
+            Dialect::Undecided,
+            ["thread", "boring"],
+        ),
+        (
+            "M3\nG76 X1 Z-1 R1 Q1\n",
+            Dialect::Fanuc,
+            ["parameter", "G76"],
+        ),
+        (
+            "G76 X1 Z-1 R1 I1\n",
+            Dialect::LinuxCnc,
+            ["thread", "spindle"],
+        ),
+        (
+            "G81 X1 Z-1 R1\n",
+            Dialect::Undecided,
+            ["LinuxCNC begins with G99", "Fanuc with G98"],
+        ),
+        (row, Dialect::Undecided, ["Fanuc keeps", "LinuxCNC reads"]),
+        (
+            "G92 X0\nG52 X1\n",
+            Dialect::Undecided,
+            ["takes its place", "Fanuc adds"],
+        ),
+        ("G65 P9\n", Dialect::LinuxCnc, ["LinuxCNC has no G65", ""]),
+        ("G65 P9\n", Dialect::Fanuc, ["no subprogram O9", ""]),
+        ("G65 A1\n", Dialect::Fanuc, ["calls no subprogram", ""]),
+        ("G65 P9 I1 I2\n", Dialect::Fanuc, ["comes twice", "II"]),
+        ("G66 P9\n", Dialect::Fanuc, ["G66", "every move"]),
+        (
+            "IF [#1 EQ #0] GOTO 1\n",
+            Dialect::LinuxCnc,
+            ["#0 is no parameter", ""],
+        ),
+        (
+            "G87 X1 Z-1 R1 I1 J1 K1\n",
+            Dialect::Fanuc,
+            ["parameter", "G87"],
+        ),
+    ] {
+        let error = run(text, dialect).unwrap_err();
+        for needle in needles {
+            assert!(error.reason.contains(needle), "{text}: {error}");
+        }
+    }
+}
