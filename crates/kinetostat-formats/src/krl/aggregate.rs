@@ -180,3 +180,14 @@ impl Position {
         })
     }
 }
+
+/// `[3]`, or nothing, which is 0; none for all else.
+pub(crate) fn literal_index(file: &TokenFile<'_>, tokens: Range<usize>) -> Option<u32> {
+    if tokens.is_empty() {
+        return Some(0);
+    }
+    let is_number = tokens.len() == 3 && file.tokens[tokens.start + 1].kind == Kind::Number;
+    let closed = file.is(tokens.start, b'[') && file.is(tokens.end - 1, b']');
+    let text = std::str::from_utf8(file.word(tokens.start + 1)).ok()?;
+    (is_number && closed).then(|| text.parse().ok())?
+}

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use crate::krl::frames::{Reason, Values};
 use crate::krl::lex::TokenFile;
 use crate::krl::settings::Setter;
 use crate::krl::state::{Settings, State, Thing};
 use crate::krl::table::{Ends, MotionRow};
 use crate::krl::targets::{End, Targets};
 use crate::krl::usage::ends_of;
+use crate::krl::values::{Reason, Values};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, TargetSite};

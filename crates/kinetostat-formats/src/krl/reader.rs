@@ -1,14 +1,14 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
-use crate::krl::frames::Values;
 use crate::krl::lex::TokenFile;
-use crate::krl::parser::content_of;
+use crate::krl::parser::routines::content_of;
 use crate::krl::resolve::{resolve, unknown_frames};
 use crate::krl::symbols::Symbols;
 use crate::krl::targets::Targets;
 use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
+use crate::krl::values::Values;
 use crate::krl::walk::Walker;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Finding, Language, RobotProgram};

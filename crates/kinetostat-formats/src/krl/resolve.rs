@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 
 use crate::error::ProgramError;
+use crate::krl::calls::of_calls;
 use crate::krl::folds::{contradiction, folds_of, text_of};
-use crate::krl::frames::{Reason, Role, Values};
+use crate::krl::frames::Role;
 use crate::krl::motion::Followed;
 use crate::krl::state::{Settings, Slot, State, Thing};
 use crate::krl::targets::completed;
+use crate::krl::values::{Reason, Values};
 use crate::krl::walk::Walker;
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
@@ -24,33 +26,7 @@ pub(crate) struct Resolved {
 
 /// Fills in what is open in a walked program.
 pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
-    let count = walker.summaries.len();
-    let mut runs = vec![Runs::Elsewhere; count];
-    let mut entry = vec![State::UNKNOWN; count];
-    // Callers first.
-    for routine in walker.finished.iter().rev().copied() {
-        let summary = &walker.summaries[routine];
-        let reached = summary
-            .calls
-            .iter()
-            .filter(|call| runs[call.from] != Runs::Elsewhere);
-        let mut reached = reached.map(|call| runs[call.from].max(call.runs));
-        runs[routine] = match (reached.next(), reached.next()) {
-            _ if summary.recursive => Runs::Repeatedly,
-            (None, _) if Some(routine) == main => Runs::Once,
-            (None, _) => Runs::Elsewhere,
-            (Some(once), None) => once,
-            (Some(_), Some(_)) => Runs::Repeatedly,
-        };
-        let mut states = summary
-            .calls
-            .iter()
-            .map(|call| call.at.in_call(entry[call.from]));
-        entry[routine] = match (Some(routine) == main || summary.recursive, states.next()) {
-            (false, Some(first)) => states.fold(first, State::merged),
-            _ => State::UNKNOWN,
-        };
-    }
+    let (runs, entry) = of_calls(&walker.summaries, &walker.finished, main);
     let Walker {
         values,
         settings,

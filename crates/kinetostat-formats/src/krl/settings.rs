@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use crate::krl::aggregate::{aggregate_of, number_of};
-use crate::krl::frames::{Reason, Role, Values};
+use crate::krl::frames::Role;
 use crate::krl::lex::TokenFile;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
+use crate::krl::values::{Reason, Values};
 use crate::model::motion::Speed;
 
 /// What a line sets.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
-use crate::krl::frames::PointData;
+use crate::krl::values::PointData;
 use crate::model::frame::FrameUse;
 use crate::model::motion::Speed;
 

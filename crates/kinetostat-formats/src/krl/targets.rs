@@ -6,8 +6,9 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use crate::krl::aggregate::{Position, position_of};
-use crate::krl::frames::{Reason, Values, WRITE_IT, isometry};
+use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
+use crate::krl::values::{Reason, Values, WRITE_IT};
 use crate::model::orientation::OrientationText;
 use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, TargetSite};
 use crate::model::target::{PoseTarget, Target};

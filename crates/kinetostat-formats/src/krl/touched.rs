@@ -1,11 +1,11 @@
 //! What blocks and routines may change of what is in force.
 
-use crate::krl::frames::Values;
 use crate::krl::lex::TokenFile;
 use crate::krl::settings::{BAS, touched};
 use crate::krl::state::{Thing, Things};
 use crate::krl::table::{OPERATORS, motion_row, row};
 use crate::krl::tree::Statement;
+use crate::krl::values::Values;
 use crate::table::Treatment;
 
 /// By routine: what it may change, with all that it calls.

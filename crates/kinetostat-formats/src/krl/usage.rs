@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::krl::aggregate::literal_index;
 use crate::krl::lex::{Kind, TokenFile};
-use crate::krl::parser::literal_index;
 use crate::krl::symbols::{Meaning, Symbols};
 use crate::krl::table::{Ends, motion_row};
 use crate::krl::tree::Statement;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, excerpt};
-use crate::krl::frames::{Reason, Values};
+use crate::krl::calls::{Call, Summary};
 use crate::krl::lex::TokenFile;
 use crate::krl::motion::{Followed, Statement as MotionStatement, follow};
 use crate::krl::settings::Setter;
@@ -15,6 +15,7 @@ use crate::krl::table::{MotionRow, OPERATORS, motion_row, row};
 use crate::krl::targets::Targets;
 use crate::krl::touched::Touched;
 use crate::krl::tree::{Least, Statement};
+use crate::krl::values::{Reason, Values};
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
 use crate::options::UnknownTargets;
@@ -23,24 +24,6 @@ use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;
-
-/// What a routine is found to do.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Summary {
-    /// None while it is walked or was not.
-    leaves: Option<State>,
-    begun: bool,
-    pub calls: Vec<Call>,
-    pub recursive: bool,
-}
-
-/// A call of a routine.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Call {
-    pub from: usize,
-    pub at: State,
-    pub runs: Runs,
-}
 
 /// The routine that is walked.
 #[derive(Debug, Clone, Copy)]
