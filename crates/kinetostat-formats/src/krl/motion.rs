@@ -126,6 +126,19 @@ pub(crate) fn follow(
     let file = values.file(routine);
     let ends = ends_of(file, tokens, row.ends);
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
+    let next = file
+        .tokens
+        .get(end_tokens.end)
+        .map(|token| token.bytes().start);
+    if end_tokens.end < tokens.end
+        && next == Some(file.span(&end_tokens).end)
+        && file.name(end_tokens.end).is_some()
+    {
+        return Err((
+            "nothing stands between the target and the word behind it".to_owned(),
+            "write a blank there",
+        ));
+    }
     let mut behind = end_tokens.end;
     if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
         behind += 1;

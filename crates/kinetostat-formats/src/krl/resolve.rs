@@ -83,7 +83,7 @@ impl Resolver<'_, '_> {
             via_open,
             ..
         } = followed;
-        motion.runs = motion.runs.max(often);
+        motion.runs = often.max(motion.runs);
         motion.follows = match state.get(Thing::Place) {
             Slot::Is(index) => Some(index),
             Slot::Entry | Slot::Unknown => None,

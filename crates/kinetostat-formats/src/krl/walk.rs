@@ -124,7 +124,7 @@ impl<'w, 'p> Walker<'w, 'p> {
             state = self.statement(statement, state);
             if self.now.left.is_some() {
                 // What is behind a RETURN in a branch runs on a condition.
-                self.now.runs = self.now.runs.max(Runs::OnCondition);
+                self.now.runs = Runs::OnCondition.max(self.now.runs);
             }
         }
         self.now.runs = runs;
@@ -139,6 +139,11 @@ impl<'w, 'p> Walker<'w, 'p> {
             Statement::Exit => state,
             Statement::Leaves(line) => {
                 let state = self.functions(tokens(self, *line), state);
+                let at = tokens(self, *line).start;
+                // A jump leads to a label of the routine, where nothing is known.
+                if self.file().name(at).is_some_and(|name| name.is("GOTO")) {
+                    return state;
+                }
                 let left = self.now.left.map_or(state, |left| left.merged(state));
                 self.now.left = Some(left);
                 state

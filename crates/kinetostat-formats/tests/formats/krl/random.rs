@@ -2,6 +2,7 @@
 //! with a line; what is read comes back byte for byte, and with corrections is read again with those corrections.
 
 use kinetostat_formats::*;
+use kinetostat_testing::Worst;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A sequence of numbers by its seed (xorshift64*, Vigna 2016).
@@ -251,16 +252,10 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
     if again.motions.len() != program.motions.len() {
         return Err("another number of motions".to_owned());
     }
-    let (mut place, mut turn) = (0.0_f64, 0.0_f64);
+    let (mut place, mut turn) = (Worst::new(), Worst::new());
     let mut compare = |found: &PoseTarget, to: Vector3<f64>, orientation: UnitQuaternion<f64>| {
-        let far = (found.position_mm - to).amax();
-        let turned = found.orientation.angle_to(&orientation);
-        if far > place || far.is_nan() {
-            place = far;
-        }
-        if turned > turn || turned.is_nan() {
-            turn = turned;
-        }
+        place.add((found.position_mm - to).norm());
+        turn.add(found.orientation.angle_to(&orientation));
     };
     for (index, (before, after)) in program.motions.iter().zip(&again.motions).enumerate() {
         let (Some(old), Some(new)) = (before.target.pose(), after.target.pose()) else {
@@ -298,7 +293,8 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
             return Err(format!("motion {index}: another zone, tool or work object"));
         }
     }
-    Ok((place, turn))
+    let largest = |worst: &Worst| worst.measured().unwrap_or(0.0);
+    Ok((largest(&place), largest(&turn)))
 }
 
 /// One case of the fuzz: whether it was read.
