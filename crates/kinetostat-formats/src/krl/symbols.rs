@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, note};
 use crate::krl::lex::TokenFile;
 use crate::krl::tree::{Content, DatumNode, Routine};
 use crate::text::name::Name;
@@ -105,7 +105,7 @@ impl<'p> Symbols<'p> {
                     false => &mut all.in_module[module],
                 };
                 if names.insert(node.name, index).is_some() {
-                    faults.push(twice(file, node.name_at));
+                    note(faults, || twice(file, node.name_at));
                 }
             }
             for preset in &content.presets {
@@ -155,7 +155,7 @@ impl<'p> Symbols<'p> {
                     .insert(routine.name, index)
                     .is_some()
                 {
-                    faults.push(twice(file, routine.name_at));
+                    note(faults, || twice(file, routine.name_at));
                 }
                 all.routine_data(file, routine, faults);
             }
@@ -176,7 +176,7 @@ impl<'p> Symbols<'p> {
         for node in &routine.data {
             let index = self.add(file.index, node);
             if locals.insert(node.name, Meaning::Datum(index)).is_some() {
-                faults.push(twice(file, node.name_at));
+                note(faults, || twice(file, node.name_at));
             }
         }
         // Parameters are declared as data as well.

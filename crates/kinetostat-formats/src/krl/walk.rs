@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::error::{ProgramError, excerpt};
+use crate::error::{ProgramError, excerpt, note};
 use crate::krl::calls::{Call, Summary};
 use crate::krl::lex::TokenFile;
 use crate::krl::motion::{Followed, Statement as MotionStatement, follow};
@@ -192,8 +192,10 @@ impl<'w, 'p> Walker<'w, 'p> {
 
     fn refuse(&mut self, tokens: &Range<usize>, (reason, remedy): Reason) {
         let file = self.file();
-        let error = ProgramError::at(file.source, file.span(tokens), reason, remedy);
-        self.faults.push(error);
+        let span = file.span(tokens);
+        note(self.faults, || {
+            ProgramError::at(file.source, span, reason, remedy)
+        });
     }
 
     fn simple(&mut self, line: usize, state: State) -> State {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, note};
 use crate::krl::lex::TokenFile;
 use crate::krl::tree::{Content, Routine, Statement};
 
@@ -38,8 +38,10 @@ pub(super) struct Parser<'p, 'a> {
 impl Parser<'_, '_> {
     pub(super) fn fault(&mut self, tokens: &Range<usize>, reason: impl Into<String>, remedy: &str) {
         let span = self.file.span(tokens);
-        self.faults
-            .push(ProgramError::at(self.file.source, span, reason, remedy));
+        let source = self.file.source;
+        note(self.faults, || {
+            ProgramError::at(source, span, reason, remedy)
+        });
     }
 
     pub(super) fn push(&mut self, statement: Statement) {
