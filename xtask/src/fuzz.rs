@@ -38,13 +38,14 @@ fn macros(minutes: &str, seed: &str) -> Result<()> {
 }
 
 /// Robot programs, whole and broken, for a twelfth of the time. One case is repeated with
-/// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED`.
+/// `cargo run --package kinetostat-formats --example fuzz_rapid -- case SEED` (or `fuzz_krl`).
 fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
     let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
     for (what, name) in [
         ("fuzz of RAPID programs", "fuzz_rapid"),
         ("fuzz of TP programs", "fuzz_ls"),
         ("fuzz of APT files", "fuzz_apt"),
+        ("fuzz of KRL programs", "fuzz_krl"),
     ] {
         example(what, "kinetostat-formats", name, &[&minutes, seed])?;
     }

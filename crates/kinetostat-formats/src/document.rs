@@ -3,6 +3,8 @@
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
+use crate::krl::reader::read_krl;
+use crate::krl::write::KrlSyntax;
 use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};
@@ -36,6 +38,7 @@ pub fn read(
         Language::Rapid => read_rapid(files, options),
         Language::FanucLs => read_ls(files, options),
         Language::Apt => read_apt(files, options),
+        Language::Krl => read_krl(files, options),
     }
 }
 
@@ -74,5 +77,6 @@ pub fn write(
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
         Language::FanucLs => write_ls(program, pieces, options),
         Language::Apt => write_apt(program, pieces, options),
+        Language::Krl => write_with(program, pieces, options, &KrlSyntax),
     }
 }

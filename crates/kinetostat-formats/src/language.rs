@@ -28,8 +28,7 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
             Some(Language::Apt)
         }
         "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
-        "ls" if holds("/PROG") => Some(Language::FanucLs),
-        "apt" | "aptsource" | "apt_source" | "cls" | "cl" if holds("GOTO") => Some(Language::Apt),
+        "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
         _ => None,
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! The way of a program:
 //!
-//! 1. A reader ([`read_rapid`], or [`read`] by language) takes the files of a program together and says where the tool
+//! 1. A reader ([`read_rapid`], [`read_krl`], or [`read`] by language) takes the files of a program together and says where the tool
 //!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
-//!    taken for stands in a table ([`RAPID_STATEMENTS`]).
+//!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
 //! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
@@ -40,6 +40,7 @@ mod document;
 mod error;
 #[doc(hidden)]
 pub mod internal;
+mod krl;
 mod language;
 mod ls;
 mod model;
@@ -54,6 +55,8 @@ pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
+pub use krl::reader::read_krl;
+pub use krl::table::KRL_STATEMENTS;
 pub use language::language_of;
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;

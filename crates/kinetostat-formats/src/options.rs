@@ -63,7 +63,8 @@ pub struct ReadOptions {
 /// Where a motion that is written as several pieces stops, if it stops at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExactStops {
-    /// At its end alone: the pieces before pass their ends by the controller's smallest zone (RAPID: `z0`, 0.3 mm).
+    /// At its end alone: the pieces before pass their ends by the controller's smallest zone (RAPID: `z0`, 0.3 mm;
+    /// KRL: `C_DIS`, within the distance in force).
     #[default]
     AtEnd,
     /// At the end of every piece: zones are copied as written.

@@ -16,6 +16,8 @@ pub enum Language {
     FanucLs,
     /// APT and CLDATA.
     Apt,
+    /// KUKA KRL.
+    Krl,
 }
 
 /// Something that a person should know of a program that was taken.

@@ -33,6 +33,10 @@ fn comments(language: Language) -> Comments {
             opens: "   1:  !",
             below: Some("/MN"),
         },
+        Language::Krl => Comments {
+            opens: "; ",
+            below: Some("DEF"),
+        },
     }
 }
 

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::rapid::expression::{Argument, Expression, arguments_of};
-use crate::rapid::name::Name;
 use crate::rapid::tree::TokenFile;
+use crate::text::name::Name;
 
 /// The arguments of one instruction.
 pub(crate) struct Arguments {

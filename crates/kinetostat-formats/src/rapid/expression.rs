@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
 use crate::rapid::tree::TokenFile;
+use crate::text::name::Name;
 
 /// Deepest nesting of lists, calls and indices.
 const DEEPEST: usize = 32;

@@ -9,9 +9,9 @@ use crate::model::motion::Zone;
 use crate::options::ReadOptions;
 use crate::rapid::expression::{Expression, Value, expression_of};
 use crate::rapid::literals::{frame_of, values};
-use crate::rapid::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::tree::{Change, TokenFile};
+use crate::text::name::Name;
 
 /// Why something is refused, and what to do.
 pub(crate) type Reason = (String, &'static str);

@@ -12,7 +12,6 @@ pub(crate) mod frames;
 pub(crate) mod lex;
 pub(crate) mod literals;
 pub(crate) mod motion;
-pub(crate) mod name;
 pub(crate) mod parser;
 pub(crate) mod reader;
 pub(crate) mod symbols;

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::error::{ProgramError, note};
-use crate::rapid::name::Name;
 use crate::rapid::tree::{
     Change, DatumNode, Module, Routine, RoutineKind, Sight, Statement, TokenFile,
 };
+use crate::text::name::Name;
 
 /// A datum of the program.
 #[derive(Debug)]

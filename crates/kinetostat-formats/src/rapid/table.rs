@@ -1,8 +1,8 @@
 //! What is done with each statement of RAPID, as data.
 
-use crate::rapid::name::Name;
 use crate::table::Treatment::{Carried, Refused, Understood};
 use crate::table::{StatementRow, Treatment};
+use crate::text::name::Name;
 
 const KERNEL: &str = "ABB, Technical reference manual - RAPID kernel";
 const INSTRUCTIONS: &str =

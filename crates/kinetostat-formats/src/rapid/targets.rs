@@ -11,9 +11,9 @@ use crate::model::target::PoseTarget;
 use crate::rapid::expression::{Argument, Expression, Value};
 use crate::rapid::frames::{Reason, Values};
 use crate::rapid::literals::target_of;
-use crate::rapid::name::Name;
 use crate::rapid::symbols::Meaning;
 use crate::rapid::tree::Change;
+use crate::text::name::Name;
 use crate::text::number::NumberText;
 
 /// Deepest nesting of offsets of offsets.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Token;
-use crate::rapid::name::Name;
+use crate::text::name::Name;
 use crate::text::source::SourceFile;
 
 /// A file and its tokens.

@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::table::{Ends, motion_row, row};
 use crate::rapid::tree::{Change, Statement, TokenFile};
 use crate::table::Treatment;
+use crate::text::name::Name;
 
 /// Notes it in the symbols, for all statements of all routines.
 pub(crate) fn note_usage(files: &[TokenFile<'_>], symbols: &mut Symbols<'_>) {

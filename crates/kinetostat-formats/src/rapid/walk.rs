@@ -12,11 +12,11 @@ use crate::options::{ReadOptions, UnknownTargets};
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
-use crate::rapid::name::Name;
 use crate::rapid::table::{motion_row, row};
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
 use crate::table::Treatment;
+use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;

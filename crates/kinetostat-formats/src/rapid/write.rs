@@ -7,9 +7,9 @@ use crate::model::motion::{Motion, Zone};
 use crate::model::program::RobotProgram;
 use crate::options::{ExactStops, WriteOptions};
 use crate::rapid::lex::{Kind, tokens_of};
-use crate::rapid::name::{LONGEST, Name};
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
+use crate::text::name::{LONGEST, Name};
 use crate::writing::syntax::Syntax;
 
 /// RAPID.

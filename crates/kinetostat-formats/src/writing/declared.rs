@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::model::program::RobotProgram;
 use crate::model::site::{Declaration, DeclarationCopy};
 use crate::text::edits::Edits;
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{Renamed, Syntax};
 
 /// Which pose each use of each declaration wants, as the bytes of its literal.
 #[derive(Debug, Default)]
@@ -39,6 +39,7 @@ impl Demands {
         names: &mut Names,
         edits: &mut [Edits],
     ) -> Option<()> {
+        let mut renamed = Vec::new();
         for (index, demands) in self.0 {
             let declaration = program.declarations.get(index)?;
             let home = declaration.text.file;
@@ -68,7 +69,16 @@ impl Demands {
                 }
                 let name = new.get(demand.literal.as_slice())?;
                 edits[demand.file].replace(demand.name.clone(), name.clone());
+                renamed.push(Renamed {
+                    home,
+                    file: demand.file,
+                    place: demand.name.clone(),
+                    name: name.clone(),
+                });
             }
+        }
+        if !renamed.is_empty() {
+            syntax.renamed(program, &renamed, edits);
         }
         Some(())
     }

@@ -2,8 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::UnitQuaternion;
+
 use crate::error::WriteError;
 use crate::model::motion::{Motion, MotionKind};
+use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
@@ -137,6 +140,18 @@ impl Writer<'_> {
         };
         let end = motion.target.pose().ok_or(NO_END)?;
         check(pieces)?;
+        let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
+        let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
+        if text_of(self.program, &motion.site.target).is_some_and(states_none)
+            && pieces
+                .iter()
+                .any(|piece| piece.orientation.is_some_and(turns))
+        {
+            return Err((
+                "the end states no orientation that could be corrected",
+                "write its angles, or correct its place alone",
+            ));
+        }
         let is_circle = matches!(
             motion.kind,
             MotionKind::Circular { .. } | MotionKind::Arc { .. }
@@ -158,10 +173,21 @@ impl Writer<'_> {
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
         (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
-        if let Some((speed, text)) = speed_of(motion, last)? {
-            self.edits[motion.file].replace(speed.span.clone(), text);
+        // Where a speed stays in force, each piece states its own, and the speed of before is restored behind them.
+        let restored = match pieces.iter().any(|piece| piece.speed_factor != 1.0) {
+            true => self.syntax.restored_speed(self.program, motion),
+            false => None,
+        };
+        let stated = match &restored {
+            Some(_) => Stated::Always,
+            None => Stated::IfChanged,
+        };
+        let own_speed = speed_of(motion, last, stated)?;
+        if let Some((at, text)) = restored {
+            self.edits[motion.file].replace(at..at, text);
         }
         if before.is_empty() && !becomes_straight {
+            self.state_speed(motion, own_speed);
             return Ok(());
         }
         if motion.kind == MotionKind::Joint {
@@ -200,7 +226,7 @@ impl Writer<'_> {
                 }
                 _ => literal,
             };
-            let speed = speed_of(motion, piece)?.map(|(_, text)| text);
+            let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
             let (program, options) = (self.program, self.options);
             let statement = self
                 .syntax
@@ -210,7 +236,14 @@ impl Writer<'_> {
             inserted.extend_from_slice(file.indentation(motion.span.start));
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
+        self.state_speed(motion, own_speed);
         Ok(())
+    }
+
+    fn state_speed(&mut self, motion: &Motion, speed: Option<(&SpeedSite, Vec<u8>)>) {
+        if let Some((site, text)) = speed {
+            self.edits[motion.file].replace(site.span.clone(), text);
+        }
     }
 
     /// Writes one pose of a motion; without a wanted one it stays, which other uses of its declaration must know.
@@ -310,12 +343,20 @@ const SAME_RAD: f64 = 1e-9;
 /// Farther than any robot reaches, mm.
 const FARTHEST_MM: f64 = 1e6;
 
-/// The speed of a piece where it is not that of the motion.
+/// When the speed of a piece is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stated {
+    IfChanged,
+    Always,
+}
+
+/// The speed of a piece where it is written.
 fn speed_of<'m>(
     motion: &'m Motion,
     piece: &Piece,
+    stated: Stated,
 ) -> Result<Option<(&'m SpeedSite, Vec<u8>)>, Reason> {
-    if piece.speed_factor == 1.0 {
+    if piece.speed_factor == 1.0 && stated == Stated::IfChanged {
         return Ok(None);
     }
     let (Some(site), Some(speed)) = (&motion.site.speed, motion.speed.mm_per_s) else {

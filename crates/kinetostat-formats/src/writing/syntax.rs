@@ -1,6 +1,7 @@
 //! What the writer must know of a language.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
@@ -48,4 +49,29 @@ pub(crate) trait Syntax {
 
     /// Makes a circular motion a straight one to the same end.
     fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits);
+
+    /// Where a written speed stays in force for the motions behind: where to restore the speed of before, and how.
+    fn restored_speed(
+        &self,
+        _program: &RobotProgram,
+        _motion: &Motion,
+    ) -> Option<(usize, Vec<u8>)> {
+        None
+    }
+
+    /// Changes what else speaks of names that became others: texts around the statement, data that belong to a name.
+    fn renamed(&self, _program: &RobotProgram, _names: &[Renamed], _edits: &mut [Edits]) {}
+}
+
+/// A use of a declared pose under a further name.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Renamed {
+    /// The file of the declaration.
+    pub home: usize,
+    /// The file of the use.
+    pub file: usize,
+    /// Where the name stands there.
+    pub place: Range<usize>,
+    /// The further name.
+    pub name: Vec<u8>,
 }

@@ -116,6 +116,11 @@ fn real_tp_programs_are_corrected_along_their_paths() {
 }
 
 #[test]
+fn real_krl_programs_are_corrected_along_their_paths() {
+    real(Language::Krl, "krl", 8);
+}
+
+#[test]
 fn real_apt_programs_are_corrected_along_their_paths() {
     real(Language::Apt, "apt", 8);
 }

@@ -307,3 +307,127 @@ fn fanuc_programs_come_back_byte_for_byte() {
 fn apt_files_come_back_byte_for_byte() {
     come_back("apt", Language::Apt, &READ_APT, &REFUSED_APT);
 }
+/// Ends of the names of KRL modules, and motions of what is read with the options as they are.
+const KRL_READ: [(&str, usize); 6] = [
+    ("_My_Job", 839),
+    ("_MosaicoK_Pallet2E", 36),
+    ("_CalcWobj_KUE_WEG", 0),
+    ("_Dat_MillingData", 0),
+    ("_Dat_xPoints", 0),
+    ("_EKIserver_command_handler", 0),
+];
+
+/// KRL modules that are refused even where what is unknown is left: a sensor moves the tool, it goes on from where the tool
+/// is (LIN_REL), or it is no program that a controller loads.
+const KRL_REFUSED: [&str; 10] = [
+    "kuka_files_RSI_Ethernet",
+    "kuka_rsi_driver",
+    "RSI_rsi_gpio_example",
+    "RSI_rsi_joint_pos_4ms",
+    "KR_C2_ros_rsi",
+    "KR_C4_ros_rsi",
+    "krl_ros_eki",
+    "krc_PoseTrack",
+    "sample_welding",
+    "VisionRun",
+];
+
+/// The modules of a folder: files of one name are one.
+fn krl_modules() -> Vec<(String, Vec<SourceFile>)> {
+    let mut modules: Vec<(String, Vec<SourceFile>)> = Vec::new();
+    for (name, bytes) in programs("krl") {
+        let stem = name.rsplit_once('.').unwrap().0.to_owned();
+        let file = SourceFile::new(name, bytes);
+        match modules.last_mut().filter(|(last, _)| *last == stem) {
+            Some((_, files)) => files.push(file),
+            None => modules.push((stem, vec![file])),
+        }
+    }
+    modules
+}
+
+#[test]
+fn krl_programs_come_back_byte_for_byte() {
+    let (mut read, mut left, mut files_left, mut files_all) = (Vec::new(), Vec::new(), 0, 0);
+    for (name, files) in krl_modules() {
+        files_all += files.len();
+        let mut options = ReadOptions::default();
+        if let Ok(program) = read_krl(files.clone(), &options) {
+            read.push((name.clone(), program.motions.len()));
+        }
+        options.unknown_targets = UnknownTargets::LeftAsWritten;
+        options.external_axes = ExternalAxes::Carried;
+        match read_krl(files.clone(), &options) {
+            Ok(program) => {
+                let written = write(&program, &[], &WriteOptions::default()).unwrap();
+                assert!(
+                    written
+                        .iter()
+                        .zip(&files)
+                        .all(|((_, bytes), file)| bytes == file.bytes()),
+                    "{name}"
+                );
+                files_left += files.len();
+                left.push(name);
+            }
+            Err(errors) => assert!(
+                KRL_REFUSED.iter().any(|end| name.ends_with(end)),
+                "{name}: {}",
+                errors[0]
+            ),
+        }
+    }
+    if files_all == 0 {
+        return;
+    }
+    assert!(files_left >= 8, "{left:?}");
+    assert_eq!(read.len(), KRL_READ.len(), "{read:?}");
+    for (end, motions) in KRL_READ {
+        assert!(
+            read.iter()
+                .any(|(name, found)| name.ends_with(end) && *found == motions),
+            "{end}: {read:?}"
+        );
+    }
+    let _ = writeln!(
+        std::io::stderr(),
+        "{} KRL modules are read, {} ({files_left} of {files_all} files) with what is unknown left: {read:?}",
+        read.len(),
+        left.len()
+    );
+}
+
+#[test]
+fn corrected_krl_programs_are_read_again_at_the_corrected_places() {
+    for (name, files) in krl_modules() {
+        let mut options = ReadOptions::default();
+        options.external_axes = ExternalAxes::Carried;
+        options.unknown_targets = UnknownTargets::LeftAsWritten;
+        let Ok(program) = read_krl(files, &options) else {
+            continue;
+        };
+        let wave = |place: Vector3<f64>| 0.1 * (place / 70.0).map(f64::sin);
+        let mut pieces = Vec::new();
+        for (index, motion) in program.motions.iter().enumerate() {
+            if let Some(end) = motion.target.pose() {
+                pieces.push(Piece::to(index, end.position_mm + wave(end.position_mm)));
+            }
+        }
+        let written = write(&program, &pieces, &WriteOptions::default()).unwrap();
+        let files = written
+            .into_iter()
+            .map(|(name, bytes)| SourceFile::new(name, bytes))
+            .collect();
+        let again = read_krl(files, &options).unwrap();
+        assert_eq!(again.motions.len(), program.motions.len(), "{name}");
+        for piece in &pieces {
+            let found = again.motions[piece.motion]
+                .target
+                .pose()
+                .unwrap()
+                .position_mm;
+            let away = (found - piece.position_mm).norm();
+            assert!(away <= 1e-3, "{name}: {away} mm");
+        }
+    }
+}

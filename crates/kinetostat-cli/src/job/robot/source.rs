@@ -83,6 +83,7 @@ fn usual_axis(language: Language) -> Vector3<f64> {
 fn has_data_beside(language: Language) -> bool {
     match language {
         Language::Rapid => false,
+        Language::Krl => true,
         _ => false,
     }
 }

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
 use crate::rapid::tree::TokenFile;
+use crate::text::name::Name;
 
 /// Words that begin a statement or end a block: a statement before them has no semicolon.
 const KEYWORDS: [&str; 36] = [

@@ -1,9 +1,9 @@
 //! Declarations of data and parameters.
 
 use crate::rapid::lex::Kind;
-use crate::rapid::name::Name;
 use crate::rapid::parser::cursor::Parser;
 use crate::rapid::tree::{Change, DatumNode, Parameter, Sight};
+use crate::text::name::Name;
 
 impl Parser<'_, '_> {
     /// None where no declaration begins; nothing inside where it is wrong, which is noted.

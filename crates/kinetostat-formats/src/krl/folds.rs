@@ -1,0 +1,56 @@
+//! FOLDs: what the pendant shows of the statements in them. They are carried; nothing here trusts their text.
+
+use std::ops::Range;
+
+use crate::krl::lex::{TokenFile, closes, opens};
+use crate::model::frame::FrameUse;
+
+/// For each line the line that opens the fold around it.
+pub(crate) fn folds_of(file: &TokenFile<'_>) -> Vec<Option<usize>> {
+    let mut open: Vec<usize> = Vec::new();
+    let mut around = Vec::with_capacity(file.lines.len());
+    for (index, line) in file.lines.iter().enumerate() {
+        let comment = line.comment.as_ref().map(|span| file.source.part(span));
+        if comment.is_some_and(closes) {
+            open.pop();
+        }
+        around.push(open.last().copied());
+        if comment.is_some_and(opens) {
+            open.push(index);
+        }
+    }
+    around
+}
+
+/// The number behind `Tool[` or `Base[` in the text of a fold.
+fn shown(text: &str, array: &str) -> Option<u32> {
+    let (_, rest) = text.split_once(array)?;
+    rest.split(']').next()?.trim().parse().ok()
+}
+
+/// What the text of the fold around a motion says otherwise than its statements.
+pub(crate) fn contradiction(text: &[u8], tool: &FrameUse, base: &FrameUse) -> Option<String> {
+    let text = String::from_utf8_lossy(text).to_uppercase();
+    for (frame, array, in_force) in [(tool, "TOOL[", "TOOL_DATA["), (base, "BASE[", "BASE_DATA[")] {
+        let in_force = shown(&frame.name, in_force);
+        if let (Some(shown), Some(in_force)) = (shown(&text, array), in_force)
+            && shown != in_force
+        {
+            let word = match array {
+                "TOOL[" => "Tool",
+                _ => "Base",
+            };
+            return Some(format!(
+                "the text of the FOLD says {word}[{shown}], its statements set {}: the statements count",
+                frame.name
+            ));
+        }
+    }
+    None
+}
+
+/// The comment of the line that opens a fold.
+pub(crate) fn text_of<'f>(file: &'f TokenFile<'_>, line: usize) -> &'f [u8] {
+    let span: Range<usize> = file.lines[line].comment.clone().unwrap_or(0..0);
+    file.source.part(&span)
+}

@@ -1,0 +1,239 @@
+//! From a motion statement to a motion; what is in force there is filled in when the order of all is known.
+
+use std::ops::Range;
+
+use crate::krl::lex::TokenFile;
+use crate::krl::settings::Setter;
+use crate::krl::state::{Settings, State, Thing};
+use crate::krl::table::{Ends, MotionRow};
+use crate::krl::targets::{End, Targets};
+use crate::krl::usage::ends_of;
+use crate::krl::values::{Reason, Values};
+use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::site::{MotionSite, TargetSite};
+use crate::model::target::Target;
+use crate::options::UnknownTargets;
+
+/// A motion that waits for what was in force before it.
+pub(crate) struct Followed {
+    pub motion: Motion,
+    pub routine: usize,
+    /// What is in force as it runs.
+    pub state: State,
+    /// Which rounding it asks for.
+    pub rounding: Option<Thing>,
+    /// Its own WITH states the speed.
+    pub own_speed: bool,
+    /// Members that its end leaves open, and those of the pose on its circle.
+    pub open: Option<[Option<f64>; 6]>,
+    pub via_open: Option<[Option<f64>; 6]>,
+}
+
+const ROUNDINGS: [(&str, Option<Thing>); 5] = [
+    ("C_DIS", Some(Thing::Distance)),
+    ("C_PTP", Some(Thing::Percent)),
+    ("C_VEL", Some(Thing::VelocityPercent)),
+    ("C_ORI", None),
+    ("C_SPL", Some(Thing::Distance)),
+];
+
+/// What stands behind the ends of a motion.
+struct Rest {
+    /// Place of the words of rounding.
+    zone: Option<Range<usize>>,
+    rounding: Option<Thing>,
+    /// What follows WITH.
+    with: Range<usize>,
+}
+
+fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
+    let mut rest = Rest {
+        zone: None,
+        rounding: None,
+        with: tokens.end..tokens.end,
+    };
+    let mut at = tokens.start;
+    while at < tokens.end {
+        let Some(name) = file.name(at) else {
+            // A comma between words of rounding.
+            if file.is(at, b',') && rest.zone.is_some() {
+                at += 1;
+                continue;
+            }
+            return Err(inline_form());
+        };
+        if let Some((_, thing)) = ROUNDINGS.iter().find(|(word, _)| name.is(word)) {
+            let span = file.span(&(at..at + 1));
+            let start = rest.zone.as_ref().map_or(span.start, |zone| zone.start);
+            if rest.zone.is_none() {
+                rest.rounding = *thing;
+            }
+            rest.zone = Some(start..span.end);
+            at += 1;
+        } else if name.is("WITH") {
+            rest.with = at + 1..tokens.end;
+            // Words of rounding may stand behind it.
+            if let Some(zone) = file.name(tokens.end - 1) {
+                let found = ROUNDINGS.iter().find(|(word, _)| zone.is(word));
+                if let (Some((_, thing)), true) = (found, rest.with.len() > 1) {
+                    rest.with.end -= 1;
+                    rest.rounding = *thing;
+                    rest.zone = Some(file.span(&(tokens.end - 1..tokens.end)));
+                }
+            }
+            return Ok(rest);
+        } else if name.is("CA") {
+            return Err((
+                "the angle CA lets the circle end elsewhere than at its end point".to_owned(),
+                "write the circle with the point at which it ends, without CA",
+            ));
+        } else {
+            return Err(inline_form());
+        }
+    }
+    Ok(rest)
+}
+
+fn inline_form() -> Reason {
+    (
+        "behind the target stands what only the text of an inline form has: no controller runs that".to_owned(),
+        "give the file as the controller saves it, with the statements in its FOLDs",
+    )
+}
+
+/// Where a motion statement stands.
+pub(crate) struct Statement<'r> {
+    pub row: &'static MotionRow,
+    pub routine: usize,
+    pub tokens: &'r Range<usize>,
+}
+
+/// What a statement does, or why it is refused.
+pub(crate) fn follow(
+    statement: &Statement<'_>,
+    values: &Values<'_>,
+    targets: &mut Targets,
+    settings: &mut Settings,
+    mut state: State,
+    unknown: UnknownTargets,
+) -> Result<Followed, Reason> {
+    let Statement {
+        row,
+        routine,
+        tokens,
+    } = *statement;
+    let file = values.file(routine);
+    let ends = ends_of(file, tokens, row.ends);
+    let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
+    let next = file
+        .tokens
+        .get(end_tokens.end)
+        .map(|token| token.bytes().start);
+    if end_tokens.end < tokens.end
+        && next == Some(file.span(&end_tokens).end)
+        && file.name(end_tokens.end).is_some()
+    {
+        return Err((
+            "nothing stands between the target and the word behind it".to_owned(),
+            "write a blank there",
+        ));
+    }
+    let mut behind = end_tokens.end;
+    if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
+        behind += 1;
+    }
+    let rest = rest_of(file, behind..tokens.end)?;
+    let speed_before = state.get(Thing::Speed);
+    let mut start = rest.with.start;
+    while start < rest.with.end {
+        let end = file
+            .find(start..rest.with.end, b',')
+            .unwrap_or(rest.with.end);
+        if let Some(equals) = file.assign(&(start..end)) {
+            let mut setter = Setter {
+                values,
+                settings,
+                routine,
+            };
+            setter.assign(&(start..end), equals, &mut state)?;
+        }
+        start = end + 1;
+    }
+    let own_speed = state.get(Thing::Speed) != speed_before;
+    let end = left(targets.find(values, routine, &end_tokens), unknown)?;
+    let (kind, via, via_open) = match row.ends {
+        Ends::Linear => (MotionKind::Linear, None, None),
+        Ends::Joint => (MotionKind::Joint, None, None),
+        Ends::Circular => {
+            let via = left(targets.find(values, routine, &ends[0]), unknown)?;
+            // With the comma and the blanks up to the end.
+            let span = file.span(&ends[0]).start..file.span(&end_tokens).start;
+            (
+                MotionKind::Circular { via: via.target },
+                Some((span, via.site)),
+                via.open,
+            )
+        }
+    };
+    let span = file.span(tokens);
+    let joint = row.ends == Ends::Joint;
+    let motion = Motion {
+        file: file.index,
+        line: file.source.line_of(span.start),
+        kind,
+        target: end.target,
+        speed: Speed {
+            mm_per_s: None,
+            text: String::new(),
+        },
+        zone: match rest.zone {
+            None => Zone::Exact,
+            Some(_) => Zone::Unstated,
+        },
+        tool: nowhere("$TOOL"),
+        work_object: nowhere("$BASE"),
+        runs: Runs::Once,
+        follows: None,
+        site: MotionSite {
+            keyword: file.span(&(tokens.start..tokens.start + 1)),
+            target_span: file.span(&end_tokens),
+            target: end.site,
+            via,
+            speed: None,
+            zone: rest.zone,
+            indivisible: joint.then_some("this motion cannot be divided"),
+        },
+        span,
+    };
+    Ok(Followed {
+        motion,
+        routine,
+        state,
+        rounding: rest.rounding,
+        own_speed,
+        open: end.open,
+        via_open,
+    })
+}
+
+/// A frame that nothing before it sets.
+fn nowhere(name: &str) -> FrameUse {
+    let reason = "no statement sets it on every way to here: set it before the motion, or state it"
+        .to_owned();
+    FrameUse {
+        name: name.to_owned(),
+        frame: Frame::Unknown { reason },
+    }
+}
+
+fn left(found: Result<End, Reason>, unknown: UnknownTargets) -> Result<End, Reason> {
+    match found {
+        Err((reason, _)) if unknown == UnknownTargets::LeftAsWritten => Ok(End {
+            target: Target::Unknown { reason },
+            site: TargetSite::Fixed("where it goes is not known from the text"),
+            open: None,
+        }),
+        other => other,
+    }
+}

@@ -1,0 +1,155 @@
+//! Lines of a file: routines, data lists, and what stands in them.
+
+use std::ops::Range;
+
+use crate::error::ProgramError;
+use crate::krl::lex::TokenFile;
+use crate::krl::parser::cursor::Parser;
+use crate::krl::tree::{Content, Parameter, Routine};
+
+/// Types that need no DECL.
+const TYPES: [&str; 11] = [
+    "INT", "REAL", "BOOL", "CHAR", "FRAME", "POS", "E3POS", "E6POS", "AXIS", "E3AXIS", "E6AXIS",
+];
+
+/// The content of a file.
+pub(crate) fn content_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -> Content {
+    let mut parser = Parser {
+        file,
+        faults,
+        content: Content::default(),
+        routine: None,
+        blocks: Vec::new(),
+        in_list: false,
+        in_spline: false,
+        lost: false,
+        outside: false,
+    };
+    for line in 0..file.lines.len() {
+        parser.line(line);
+    }
+    parser.end_of_file();
+    parser.content
+}
+
+impl Parser<'_, '_> {
+    fn line(&mut self, line: usize) {
+        let tokens = self.file.lines[line].tokens.clone();
+        if tokens.is_empty() {
+            return;
+        }
+        let word = |offset: usize| {
+            let at = tokens.start + offset;
+            (at < tokens.end).then(|| self.file.name(at)).flatten()
+        };
+        let is = |offset: usize, capitals: &str| word(offset).is_some_and(|name| name.is(capitals));
+        let second = usize::from(is(0, "GLOBAL"));
+        if is(second, "DEF") || is(second, "DEFFCT") {
+            return self.begin_routine(&tokens, tokens.start + second, is(second, "DEFFCT"));
+        }
+        if is(0, "DEFDAT") {
+            self.in_list = true;
+            self.content.list = word(1);
+            return;
+        }
+        if self.in_spline {
+            self.in_spline = !is(0, "ENDSPLINE");
+            return;
+        }
+        if is(0, "END") || is(0, "ENDFCT") {
+            return self.end_routine(&tokens);
+        }
+        if is(0, "ENDDAT") {
+            self.in_list = false;
+            return;
+        }
+        if is(0, "SPLINE") || is(0, "PTP_SPLINE") {
+            self.in_spline = true;
+        }
+        let declares = is(0, "DECL")
+            || is(0, "CONST")
+            || (is(0, "GLOBAL") && !is(1, "INTERRUPT"))
+            || (word(1).is_some() && TYPES.iter().any(|capitals| is(0, capitals)));
+        if declares {
+            return self.declaration(&tokens);
+        }
+        match self.routine.is_some() {
+            true => self.statement(line, &tokens),
+            false if self.in_list => self.preset(&tokens),
+            false if self.outside => {}
+            false => {
+                // Once for a file: nothing of it is where it must be.
+                self.outside = true;
+                self.fault(
+                    &tokens,
+                    "it stands in no routine and no data list",
+                    "begin the file with DEF or DEFDAT, as the controller saves it",
+                );
+            }
+        }
+    }
+
+    fn begin_routine(&mut self, tokens: &Range<usize>, def: usize, is_function: bool) {
+        if let Some(routine) = &self.routine {
+            let open = routine.name_at..routine.name_at + 1;
+            self.fault(&open, "the routine has no end", "end it with END or ENDFCT");
+            self.close();
+        }
+        // A function has its type before its name, with `[]` where it is an array.
+        let mut name_at = def + 1 + usize::from(is_function);
+        while self.file.is(name_at, b'[') || self.file.is(name_at, b']') {
+            name_at += 1;
+        }
+        let name = (name_at < tokens.end)
+            .then(|| self.file.name(name_at))
+            .flatten();
+        let Some(name) = name else {
+            return self.fault(tokens, "the routine has no name", "write DEF name()");
+        };
+        let mut parameters = Vec::new();
+        for at in name_at + 1..tokens.end {
+            let separated = self.file.is(at - 1, b'(') || self.file.is(at - 1, b',');
+            if let (true, Some(name)) = (separated, self.file.name(at)) {
+                let mut rest = at + 1;
+                while rest < tokens.end && !self.file.is(rest, b',') && !self.file.is(rest, b':') {
+                    rest += 1;
+                }
+                let is_in = self.file.is(rest, b':')
+                    && self.file.word(rest + 1).eq_ignore_ascii_case(b"IN");
+                parameters.push(Parameter {
+                    name,
+                    changes: !is_in,
+                });
+            }
+        }
+        self.lost = false;
+        self.routine = Some(Routine {
+            is_global: def > tokens.start,
+            name,
+            name_at,
+            parameters,
+            data: Vec::new(),
+            body: Vec::new(),
+            jumps: false,
+        });
+    }
+
+    fn end_routine(&mut self, tokens: &Range<usize>) {
+        match self.routine.is_some() {
+            true => self.close(),
+            false => self.fault(
+                tokens,
+                "no routine is open here",
+                "remove it, or begin the routine with DEF",
+            ),
+        }
+    }
+
+    fn end_of_file(&mut self) {
+        if let Some(routine) = &self.routine {
+            let open = routine.name_at..routine.name_at + 1;
+            self.fault(&open, "the routine has no end", "end it with END or ENDFCT");
+            self.close();
+        }
+    }
+}

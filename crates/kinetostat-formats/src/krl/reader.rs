@@ -1,0 +1,185 @@
+//! The reader of KRL programs.
+
+use crate::error::ProgramError;
+use crate::krl::lex::TokenFile;
+use crate::krl::parser::routines::content_of;
+use crate::krl::resolve::{resolve, unknown_frames};
+use crate::krl::symbols::Symbols;
+use crate::krl::targets::Targets;
+use crate::krl::tree::Content;
+use crate::krl::usage::note_usage;
+use crate::krl::values::Values;
+use crate::krl::walk::Walker;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::target::Target;
+use crate::options::{ExternalAxes, ReadOptions};
+use crate::text::source::SourceFile;
+
+/// Most bytes of a file; the memory needed is some forty times as much.
+const MOST_BYTES: usize = 1 << 28;
+
+/// Reads KRL programs (`.src`) with their data (`.dat`) together; `$config.dat` for tools, bases and home positions if given.
+///
+/// Files of one name are one module. The program begins with the first routine of the first `.src` file that no other
+/// calls. Bases and tools that neither the statements nor the data say are those that [`ReadOptions::frames`] states as
+/// `BASE_DATA[1]`, `TOOL_DATA[1]`, or `$BASE` and `$TOOL` for where nothing sets them. Relative motions, spline blocks, motions of
+/// sensors and ends computed at run time are refused, as are external axes that move unless the options carry them. The text of
+/// FOLDs is carried and never trusted; where it contradicts its statements a finding says so.
+///
+/// ```
+/// use kinetostat_formats::{MotionKind, ReadOptions, SourceFile, Zone, read_krl};
+///
+/// let source = "DEF groove()\nBAS(#INITMOV,0)\n$BASE=BASE_DATA[1]\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n\
+///     $VEL.CP=0.02\n$APO.CDIS=1\nPTP start:{X 0,Y 0,Z -50,A 0,B 0,C 0} ; above\nLIN Start C_DIS\nEND\n";
+/// let data = "DEFDAT groove\nDECL E6POS START={X 100,Y 0,Z 0,A 0,B 0,C 180,S 2,T 35}\nENDDAT\n";
+/// let files = vec![SourceFile::new("groove.src", source), SourceFile::new("groove.dat", data)];
+/// let program = read_krl(files, &ReadOptions::default()).unwrap();
+/// assert_eq!(program.motions.len(), 2);
+/// let motion = &program.motions[1];
+/// assert_eq!((&motion.kind, motion.zone, motion.follows), (&MotionKind::Linear, Zone::Radius(1.0), Some(0)));
+/// assert_eq!(motion.speed.mm_per_s, Some(20.0));
+/// assert_eq!(motion.tool.known().unwrap().translation.z, 150.0);
+/// // A sum is in the axes of what is added to: this tool points down.
+/// assert!((program.motions[0].target.pose().unwrap().position_mm.z - 50.0).abs() < 1e-9);
+/// ```
+///
+/// # Errors
+/// All that is refused, in the order of files and lines.
+pub fn read_krl(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<RobotProgram, Vec<ProgramError>> {
+    let mut faults = Vec::new();
+    for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
+        faults.push(ProgramError::at(
+            file,
+            0..0,
+            "the file is larger than 256 MiB",
+            "divide it",
+        ));
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
+        .map(|(index, source)| TokenFile::of(index, source))
+        .collect();
+    let mut contents: Vec<Content> = Vec::with_capacity(files.len());
+    for file in &token_files {
+        let before = faults.len();
+        let content = content_of(file, &mut faults);
+        if content.routines.is_empty() && content.list.is_none() && faults.len() == before {
+            faults.push(ProgramError::at(
+                file.source,
+                0..0,
+                "there is no DEF and no DEFDAT in the file",
+                "give a .src or .dat file as the controller saves it",
+            ));
+        }
+        contents.push(content);
+    }
+    let mut symbols = Symbols::of(&token_files, &contents, &mut faults);
+    note_usage(&token_files, &mut symbols);
+    let values = Values::new(&token_files, symbols, options);
+    let mut targets = Targets::default();
+    let main = main(&values);
+    let mut walker = Walker::new(&values, &mut targets, options.unknown_targets, &mut faults);
+    walker.walk(main);
+    let resolved = resolve(walker, main);
+    if options.external_axes == ExternalAxes::Refused {
+        faults.extend(moving_axis(&files, &resolved.motions));
+    }
+    if !faults.is_empty() {
+        let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
+        let place = |fault: &ProgramError| {
+            let file = order.iter().position(|name| *name == fault.file);
+            (file, fault.span.start, fault.line)
+        };
+        faults.sort_by_key(place);
+        faults.dedup();
+        return Err(faults);
+    }
+    let motions = resolved.motions;
+    let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
+    findings.sort_by_key(|finding| (finding.file, finding.line));
+    Ok(RobotProgram {
+        language: Language::Krl,
+        files,
+        motions,
+        findings,
+        declarations: targets.declarations,
+    })
+}
+
+/// The routine with which the program begins.
+fn main(values: &Values<'_>) -> Option<usize> {
+    let routines = &values.symbols.routines;
+    let mut called = vec![false; routines.len()];
+    for (index, home) in routines.iter().enumerate() {
+        let file = &values.files[home.file];
+        let next = routines
+            .get(index + 1)
+            .filter(|next| next.file == home.file);
+        let end = next.map_or(file.tokens.len(), |next| next.routine.name_at);
+        for at in home.routine.name_at + 1..end {
+            let name = file.name(at).filter(|_| file.is(at + 1, b'('));
+            let Some(found) = name.and_then(|name| values.symbols.routine(index, &name)) else {
+                continue;
+            };
+            // The name of the next routine, in its own line, is no call.
+            called[found] |= found != index && !(at + 1 >= end && found == index + 1);
+        }
+    }
+    let mut firsts = (0..routines.len()).filter(|index| routines[*index].is_first);
+    let first = firsts.clone().next();
+    firsts.find(|index| !called[*index]).or(first)
+}
+
+/// Motions that stay as they are written because their ends are not known.
+fn left(motions: &[Motion]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for motion in motions {
+        let via = match &motion.kind {
+            MotionKind::Circular { via } => Some(via),
+            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
+        };
+        for target in via.into_iter().chain([&motion.target]) {
+            if let Target::Unknown { reason } = target {
+                let message = format!("it stays as it is written: {reason}");
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
+            }
+        }
+    }
+    findings
+}
+
+/// The first motion at which an external axis is elsewhere than at the motions before it.
+fn moving_axis(files: &[SourceFile], motions: &[Motion]) -> Option<ProgramError> {
+    let mut known: [Option<f64>; 6] = [None; 6];
+    for motion in motions {
+        let external = motion.target.pose().map_or(&[][..], |pose| &pose.external);
+        for (axis, value) in external.iter().enumerate().take(6) {
+            match (known[axis], value) {
+                (None, Some(_)) => known[axis] = *value,
+                (Some(before), Some(value)) if before != *value => {
+                    return Some(ProgramError::at(
+                        &files[motion.file],
+                        motion.span.clone(),
+                        format!(
+                            "external axis E{} moves from {before} to {value}: the arm stands elsewhere then",
+                            axis + 1
+                        ),
+                        "read with external axes carried if they do not move the arm or the part",
+                    ));
+                }
+                _ => {}
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,219 @@
+//! What depends on where routines are called from: how often motions run, where they begin, what is in force.
+
+use std::collections::BTreeSet;
+
+use crate::error::ProgramError;
+use crate::krl::calls::of_calls;
+use crate::krl::folds::{contradiction, folds_of, text_of};
+use crate::krl::frames::Role;
+use crate::krl::motion::Followed;
+use crate::krl::state::{Settings, Slot, State, Thing};
+use crate::krl::targets::completed;
+use crate::krl::values::{Reason, Values};
+use crate::krl::walk::Walker;
+use crate::model::frame::FrameUse;
+use crate::model::motion::{Motion, MotionKind, Runs, Zone};
+use crate::model::program::Finding;
+use crate::model::site::SpeedSite;
+use crate::model::target::Target;
+use crate::options::UnknownTargets;
+
+/// Motions in their order, and what a person should know of them.
+pub(crate) struct Resolved {
+    pub motions: Vec<Motion>,
+    pub findings: Vec<Finding>,
+}
+
+/// Fills in what is open in a walked program.
+pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
+    let (runs, entry) = of_calls(&walker.summaries, &walker.finished, main);
+    let Walker {
+        values,
+        settings,
+        unknown,
+        faults,
+        motions,
+        findings,
+        ..
+    } = walker;
+    let mut resolver = Resolver {
+        values,
+        settings,
+        unknown,
+        findings,
+        done: Vec::with_capacity(motions.len()),
+    };
+    let mut folds: Vec<Option<Vec<Option<usize>>>> = values.files.iter().map(|_| None).collect();
+    for followed in motions {
+        let state = followed.state.in_call(entry[followed.routine]);
+        let often = runs[followed.routine];
+        let (file, span) = (followed.motion.file, followed.motion.span.clone());
+        if let Err((reason, remedy)) = resolver.motion(followed, state, often) {
+            faults.push(ProgramError::at(
+                values.files[file].source,
+                span,
+                reason,
+                remedy,
+            ));
+        }
+        let around = folds[file].get_or_insert_with(|| folds_of(&values.files[file]));
+        resolver.compare_fold(around);
+    }
+    Resolved {
+        motions: resolver.done,
+        findings: resolver.findings,
+    }
+}
+
+struct Resolver<'v, 'p> {
+    values: &'v Values<'p>,
+    settings: Settings,
+    unknown: UnknownTargets,
+    findings: Vec<Finding>,
+    done: Vec<Motion>,
+}
+
+impl Resolver<'_, '_> {
+    fn motion(&mut self, followed: Followed, state: State, often: Runs) -> Result<(), Reason> {
+        let Followed {
+            mut motion,
+            rounding,
+            own_speed,
+            open,
+            via_open,
+            ..
+        } = followed;
+        motion.runs = often.max(motion.runs);
+        motion.follows = match state.get(Thing::Place) {
+            Slot::Is(index) => Some(index),
+            Slot::Entry | Slot::Unknown => None,
+        };
+        motion.tool = self.frame(state.get(Thing::Tool), Role::Tool, motion.tool);
+        motion.work_object = self.frame(state.get(Thing::Base), Role::Base, motion.work_object);
+        if motion.kind != MotionKind::Joint
+            && let Some(speed) = self.settings.speeds.get(state.get(Thing::Speed))
+        {
+            motion.speed = speed.clone();
+            let source = self.values.files[motion.file].source;
+            let start = motion.span.start;
+            let line_end = [source.line_ending(), source.indentation(start)].concat();
+            motion.site.speed = (!own_speed && speed.mm_per_s.is_some()).then(|| SpeedSite {
+                span: start..start,
+                before: "$VEL.CP=".to_owned(),
+                after: format!("/1000.0{}", String::from_utf8_lossy(&line_end)),
+            });
+        }
+        if let Some(thing) = rounding
+            && let Some(number) = self.settings.numbers.get(state.get(thing))
+        {
+            motion.zone = match thing {
+                Thing::Distance => Zone::Radius(*number),
+                _ => Zone::Percent(*number),
+            };
+        }
+        let before = motion
+            .follows
+            .and_then(|index| self.before(index, &motion).cloned());
+        let mut fault = None;
+        let mut fill = |target: &mut Target, open: Option<[Option<f64>; 6]>| {
+            let (Some(open), Target::Pose(pose)) = (open, &mut *target) else {
+                return;
+            };
+            let filled = before.as_ref().and_then(|before| completed(&open, before));
+            match (filled, self.unknown) {
+                (Some((position_mm, orientation)), _) => {
+                    pose.position_mm = position_mm;
+                    pose.orientation = orientation;
+                }
+                (None, UnknownTargets::LeftAsWritten) => {
+                    *target = Target::Unknown {
+                        reason: OPEN.to_owned(),
+                    }
+                }
+                (None, UnknownTargets::Refused) => {
+                    fault = Some((OPEN.to_owned(), "write all of X, Y, Z, A, B and C"));
+                }
+            }
+        };
+        fill(&mut motion.target, open);
+        let mut is_open = open.is_some();
+        if let MotionKind::Circular { via } = &mut motion.kind {
+            // The orientation on the way is that of the ends: only the place counts.
+            let placed = via_open.filter(|open| open[..3].iter().any(Option::is_none));
+            is_open |= placed.is_some();
+            fill(via, placed);
+        }
+        if is_open && matches!(motion.target, Target::Pose(_)) {
+            self.findings.push(Finding {
+                file: motion.file,
+                line: motion.line,
+                message: "it states only some of X, Y, Z, A, B, C: a correction of the motion before moves its end too".to_owned(),
+            });
+        }
+        self.done.push(motion);
+        fault.map_or(Ok(()), Err)
+    }
+
+    /// The pose before, where it is in the same axes and of the same tool.
+    fn before(&self, index: usize, motion: &Motion) -> Option<&crate::model::target::PoseTarget> {
+        let before = self.done.get(index)?;
+        let same = before.tool == motion.tool && before.work_object == motion.work_object;
+        same.then(|| before.target.pose())?
+    }
+
+    fn frame(&self, slot: Slot, role: Role, none: FrameUse) -> FrameUse {
+        let found = self.settings.frames.get(slot).cloned();
+        found
+            .or_else(|| self.values.stated(role.variable()))
+            .unwrap_or(none)
+    }
+
+    fn compare_fold(&mut self, around: &[Option<usize>]) {
+        let Some(motion) = self.done.last() else {
+            return;
+        };
+        let file = &self.values.files[motion.file];
+        let line = file.lines.partition_point(|line| {
+            file.tokens
+                .get(line.tokens.start)
+                .is_some_and(|token| token.bytes().start <= motion.span.start)
+        });
+        let fold = line
+            .checked_sub(1)
+            .and_then(|line| around.get(line).copied().flatten());
+        let text = fold.map(|fold| text_of(file, fold));
+        if let Some(message) =
+            text.and_then(|text| contradiction(text, &motion.tool, &motion.work_object))
+        {
+            let (file, line) = (motion.file, motion.line);
+            self.findings.push(Finding {
+                file,
+                line,
+                message,
+            });
+        }
+    }
+}
+
+const OPEN: &str = "it states only some of X, Y, Z, A, B, C, and the pose before it is not known from the text in these axes";
+
+/// Names of frames that are not known, each once.
+pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
+    let mut named = BTreeSet::new();
+    let mut findings = Vec::new();
+    for motion in motions {
+        for frame in [&motion.tool, &motion.work_object] {
+            if let crate::model::frame::Frame::Unknown { reason } = &frame.frame
+                && named.insert(frame.name.clone())
+            {
+                let message = format!("where `{}` is, is not known: {reason}", frame.name);
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
+            }
+        }
+    }
+    findings
+}

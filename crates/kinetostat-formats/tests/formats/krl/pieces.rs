@@ -1,0 +1,107 @@
+//! Motions that become several, circles, and speeds.
+
+use kinetostat_formats::*;
+use nalgebra::Vector3;
+
+use super::{main_with, written};
+
+const DATA: &str = "DECL POS XP1={X 100,Y 0,Z 5,A 0,B 0,C 180,S 2,T 35}\nDECL POS XP2={X 50,Y 50,Z 5,A 0,B 0,C 180,S 2,T 35}";
+
+fn at(motion: usize, place: [f64; 3]) -> Piece {
+    Piece::to(motion, Vector3::from(place))
+}
+
+#[test]
+fn pieces_stand_before_the_end_with_all_else_as_written() {
+    let program = main_with(DATA, "\tLIN XP1 ; groove\n\tSLIN XP2 C_DIS");
+    let pieces = [
+        at(0, [33.0, 0.0, 5.01]),
+        at(0, [100.0, 0.0, 5.03]),
+        at(1, [75.0, 25.0, 5.0]),
+        at(1, [50.0, 50.0, 5.0]),
+    ];
+    let text = written(&program, &pieces);
+    let expected = "\tLIN {X 33.000,Y 0,Z 5.010,A 0,B 0,C 180,S 2,T 35} C_DIS\n\tLIN XP1 ; groove\n\
+        \tSLIN {X 75.000,Y 25.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n\tSLIN XP2 C_DIS\n";
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("XP1={X 100,Y 0,Z 5.030,"));
+    let mut options = WriteOptions::default();
+    options.exact_stops = ExactStops::AtEveryPiece;
+    let files = write(&program, &pieces[..2], &options).unwrap();
+    assert!(String::from_utf8_lossy(&files[0].1).contains("T 35}\n\tLIN XP1 ; groove"));
+}
+
+#[test]
+fn circles_stay_circles_with_a_via_and_become_chords_with_pieces() {
+    let program = main_with(DATA, "LIN {X 0,Y 0,Z 5,A 0,B 0,C 180}\nCIRC XP2, XP1 C_DIS");
+    let mut piece = at(1, [100.0, 0.1, 5.0]);
+    let error = write(&program, &[piece.clone()], &WriteOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("one piece of a circle states no place between"));
+    piece.via_mm = Some(Vector3::new(50.0, 50.2, 5.0));
+    let text = written(&program, &[piece]);
+    assert!(text.contains("CIRC XP2, XP1 C_DIS") && text.contains("XP2={X 50,Y 50.200,Z 5,"));
+    let text = written(
+        &program,
+        &[at(1, [50.0, 50.0, 5.0]), at(1, [100.0, 0.0, 5.0])],
+    );
+    assert!(
+        text.contains("LIN {X 50.000,Y 50.000,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\nLIN XP1 C_DIS\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn joint_motions_are_not_divided() {
+    let program = main_with(DATA, "PTP XP1");
+    let error = write(
+        &program,
+        &[at(0, [1.0; 3]), at(0, [2.0; 3])],
+        &WriteOptions::default(),
+    )
+    .unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("a joint motion cannot be divided")
+    );
+}
+
+#[test]
+fn a_changed_speed_is_stated_and_the_one_before_restored() {
+    let program = main_with(DATA, "$VEL.CP=0.02\n  LIN XP1 C_DIS ; groove\n  LIN XP2");
+    let mut piece = at(0, [100.0, 0.0, 5.0]);
+    piece.speed_factor = 0.5;
+    let text = written(&program, &[piece.clone()]);
+    let expected =
+        "$VEL.CP=0.02\n  $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
+    assert!(text.contains(expected), "{text}");
+    // Each of several pieces states its own.
+    let text = written(&program, &[at(0, [50.0, 0.0, 5.0]), piece]);
+    let expected = "$VEL.CP=0.02\n  $VEL.CP=20/1000.0\n  LIN {X 50.000,Y 0,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n  \
+        $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
+    assert!(text.contains(expected), "{text}");
+    let again = read_krl(
+        vec![
+            SourceFile::new("part.src", text.split("DEFDAT").next().unwrap()),
+            SourceFile::new("part.dat", format!("DEFDAT part\n{DATA}\nENDDAT")),
+        ],
+        &ReadOptions::default(),
+    );
+    let speeds: Vec<Option<f64>> = again
+        .unwrap()
+        .motions
+        .iter()
+        .map(|motion| motion.speed.mm_per_s)
+        .collect();
+    assert_eq!(speeds, [Some(20.0), Some(10.0), Some(20.0)]);
+    // What is not known cannot be changed.
+    let program = main_with(DATA, "LIN XP1");
+    let mut piece = at(0, [100.0, 0.0, 5.0]);
+    piece.speed_factor = 0.5;
+    let error = write(&program, &[piece], &WriteOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("its speed cannot be changed"));
+}
