@@ -1,6 +1,8 @@
 //! The languages that are read, and what their writers keep.
 
-use kinetostat_formats::{APT_STATEMENTS, LS_STATEMENTS, RAPID_STATEMENTS, StatementRow};
+use kinetostat_formats::{
+    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, RAPID_STATEMENTS, StatementRow,
+};
 
 /// Where the table of a language is.
 #[derive(Clone, Copy)]
@@ -23,7 +25,7 @@ pub(crate) struct Language {
 }
 
 /// All of them.
-pub(crate) const LANGUAGES: [Language; 4] = [
+pub(crate) const LANGUAGES: [Language; 5] = [
     Language {
         name: "gcode",
         title: "G-code as LinuxCNC and most controllers read it",
@@ -37,6 +39,13 @@ pub(crate) const LANGUAGES: [Language; 4] = [
         endings: &["mod", "modx", "prg", "sys", "sysx"],
         written: "Written: numbers of targets in place, declarations edited or copied under a free name of at most 32 characters, further motions as MoveL with the same speed, tool and work object. A divided motion stops at its end alone; circles that are corrected become straight motions.",
         words: Words::Statements(RAPID_STATEMENTS),
+    },
+    Language {
+        name: "krl",
+        title: "KUKA KRL",
+        endings: &["src", "dat", "sub"],
+        written: "Written: numbers in place, in the program or in its data list; points that several motions use copied under a free name of at most 24 characters, with the texts of their FOLDs; further motions as LIN with the same approximation. S, T and external axes stay as they are.",
+        words: Words::Statements(KRL_STATEMENTS),
     },
     Language {
         name: "ls",

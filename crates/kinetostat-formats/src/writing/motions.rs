@@ -7,7 +7,7 @@ use nalgebra::UnitQuaternion;
 use crate::error::WriteError;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{OffsetAxes, PoseText, SpeedSite, TargetSite};
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
@@ -142,7 +142,9 @@ impl Writer<'_> {
         check(pieces)?;
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
         let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
-        if text_of(self.program, &motion.site.target).is_some_and(states_none)
+        // Places of APT may have an axis from before: its own writer knows.
+        if self.program.language != Language::Apt
+            && text_of(self.program, &motion.site.target).is_some_and(states_none)
             && pieces
                 .iter()
                 .any(|piece| piece.orientation.is_some_and(turns))

@@ -74,7 +74,7 @@ pub(crate) fn robot_source(
 /// From the tool's tip to its holder, in axes of the tool, as is usual.
 fn usual_axis(language: Language) -> Vector3<f64> {
     match language {
-        Language::Rapid => -Vector3::z(),
+        Language::Krl => -Vector3::x(),
         _ => -Vector3::z(),
     }
 }
