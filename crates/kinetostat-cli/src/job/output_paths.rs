@@ -13,6 +13,24 @@ use crate::ui::failure::Answer;
 /// What the flat program is called among outputs.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
+/// What further files of a program are called among outputs.
+pub(crate) const BESIDE: &str = "file of the compensated program";
+
+/// Where a further file of a program goes: beside the program, with the name of that where it had its name before, and behind it
+/// otherwise.
+pub(crate) fn beside_program(out: &Path, program: &Path, file: &Path) -> PathBuf {
+    let mut name = out.file_stem().unwrap_or_default().to_owned();
+    if file.file_stem() != program.file_stem() {
+        name.push("-");
+        name.push(file.file_stem().unwrap_or_default());
+    }
+    if let Some(extension) = file.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    out.with_file_name(name)
+}
+
 /// Whether a program is written flat on its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
@@ -29,6 +47,8 @@ pub(crate) struct OutputPaths {
     pub(crate) points: Option<PathBuf>,
     /// Of a program that is written flat.
     pub(crate) flat: Option<PathBuf>,
+    /// Further files of a program of a robot, in their order.
+    pub(crate) beside: Vec<PathBuf>,
 }
 
 impl OutputPaths {
@@ -43,6 +63,7 @@ impl OutputPaths {
         ]
         .into_iter()
         .filter_map(|(what, path)| Some((what, path.as_deref()?)))
+        .chain(self.beside.iter().map(|path| (BESIDE, path.as_path())))
     }
 }
 
@@ -80,6 +101,7 @@ pub(crate) fn output_paths(
             })
     };
     let mut targets = OutputPaths {
+        beside: Vec::new(),
         program: from_job(writing.out, |j| j.output.program.as_ref())?,
         report: from_job(flags.report.as_deref(), |j| j.output.report.as_ref())?,
         json: from_job(writing.json.filter(|p| *p != Path::new("-")), |j| {

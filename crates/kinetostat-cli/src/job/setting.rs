@@ -12,7 +12,7 @@ use crate::job::expansion::flat::flattened;
 use crate::job::expansion::settings::wanted;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
-use crate::job::output_paths::{Form, OutputPaths, output_paths};
+use crate::job::output_paths::{Form, OutputPaths, beside_program, output_paths};
 use crate::job::reading::reading;
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::read_program::read_robot;
@@ -113,7 +113,7 @@ pub(crate) fn setting(
         Some(_) => Form::Flat,
         None => Form::AsItStands,
     };
-    let targets = output_paths(job, flags, writing, (&path, form))?;
+    let mut targets = output_paths(job, flags, writing, (&path, form))?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
@@ -122,6 +122,12 @@ pub(crate) fn setting(
     let robot = robot.map(|(source, read)| {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());
+        if let Some(out) = &targets.program {
+            let further = source.paths.iter();
+            targets.beside = further
+                .map(|file| beside_program(out, &path, file))
+                .collect();
+        }
         source
     });
     if let (Some(_), Some(_)) = (&robot, &expand) {

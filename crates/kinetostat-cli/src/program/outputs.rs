@@ -6,7 +6,7 @@ use kinetostat_machining::Run;
 use kinetostat_model::Model;
 
 use crate::files::outputs::{Existing, Outputs};
-use crate::job::output_paths::{FLAT_PROGRAM, OutputPaths};
+use crate::job::output_paths::{BESIDE, FLAT_PROGRAM, OutputPaths};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
@@ -23,6 +23,8 @@ pub(crate) struct RunOutputs {
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
     pub(crate) flat: Option<usize>,
+    /// Further files of the program.
+    pub(crate) beside: Vec<usize>,
     pub(crate) listing: Listing,
 }
 
@@ -51,6 +53,14 @@ impl RunOutputs {
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,
+            beside: match aim {
+                Aim::Compensate => {
+                    let all = targets.beside.iter();
+                    all.map(|path| outputs.claim(BESIDE, path))
+                        .collect::<Answer<_>>()?
+                }
+                Aim::Analyse => Vec::new(),
+            },
             listing: Listing::default(),
             files: outputs,
         })
@@ -80,6 +90,9 @@ impl RunOutputs {
         }
         if let (Some(index), Some(written)) = (self.program, &run.written) {
             self.files.fill(index, &written.bytes)?;
+            for (index, (_, bytes)) in self.beside.iter().zip(&written.beside) {
+                self.files.fill(*index, bytes)?;
+            }
         }
         if let Some(index) = self.json {
             let flat = setting.flat.as_ref();

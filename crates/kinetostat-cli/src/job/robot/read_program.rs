@@ -41,6 +41,12 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
     let path = path_of(&program, &settings.making)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    if path.file != 0 {
+        let name = program.files[path.file].name();
+        return Err(Failure::input(format!(
+            "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
+        )));
+    }
     Ok(RobotRead {
         program,
         path,
