@@ -3,8 +3,8 @@
 
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_formats::{
-    Correctable, PathOptions, ReadOptions, RobotProgram, SourceFile, WriteOptions as TextOptions,
-    path_of, read_rapid,
+    Correctable, Language, PathOptions, ReadOptions, RobotProgram, SourceFile,
+    WriteOptions as TextOptions, path_of,
 };
 use kinetostat_machining::{
     Bounds, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Run, RunInputs, Task,
@@ -15,7 +15,7 @@ use kinetostat_program::{ToolTurn, WriteOptions, irregular};
 use kinetostat_testing::Worst;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, vector};
 
-/// A pose in base axes, mm.
+/// A pose of RAPID, base axes, mm.
 fn rapid_pose(pose: &Pose) -> String {
     let p = 1e3 * pose.translation.vector;
     let q = pose.rotation.quaternion();
@@ -25,29 +25,57 @@ fn rapid_pose(pose: &Pose) -> String {
     )
 }
 
-/// The poses that a text states, base axes, m: the first two lists of numbers of every target.
+/// A pose of KRL, base axes, mm and degrees: Rz(A) Ry(B) Rx(C).
+fn krl_pose(pose: &Pose) -> String {
+    let p = 1e3 * pose.translation.vector;
+    let (c, b, a) = pose.rotation.euler_angles();
+    let [a, b, c] = [a, b, c].map(f64::to_degrees);
+    format!(
+        "{{X {:.4},Y {:.4},Z {:.4},A {a:.6},B {b:.6},C {c:.6},S 2,T 35}}",
+        p.x, p.y, p.z
+    )
+}
+
+/// The first numbers of every target that begins so.
+fn numbers_of(text: &str, begins: &str, count: usize) -> Vec<Vec<f64>> {
+    let targets = text.split(begins).skip(1);
+    targets
+        .map(|target| {
+            let numbers: Vec<f64> = target
+                .split([',', '[', ']', ' ', '}'])
+                .filter_map(|number| number.parse().ok())
+                .take(count)
+                .collect();
+            assert_eq!(numbers.len(), count);
+            numbers
+        })
+        .collect()
+}
+
+/// The poses that a text states, base axes, m: of RAPID and of KRL.
 fn poses_of(text: &str) -> Vec<Pose> {
-    let mut poses = Vec::new();
-    for target in text.split("[[").skip(1) {
-        let numbers: Vec<f64> = target
-            .split([',', '[', ']'])
-            .filter(|number| !number.is_empty())
-            .map_while(|number| number.parse().ok())
-            .take(7)
-            .collect();
-        let [x, y, z, w, i, j, k] = numbers[..] else {
-            panic!("a target of {numbers:?}");
-        };
-        poses.push(Pose::from_parts(
-            (vector![x, y, z] * 1e-3).into(),
-            UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k)),
-        ));
-    }
-    poses
+    let pose = |n: &[f64], rotation: UnitQuaternion<f64>| {
+        Pose::from_parts((vector![n[0], n[1], n[2]] * 1e-3).into(), rotation)
+    };
+    let rapid = numbers_of(text, "[[", 7);
+    let rapid = rapid.iter().map(|n| {
+        let quaternion = Quaternion::new(n[3], n[4], n[5], n[6]);
+        pose(n, UnitQuaternion::from_quaternion(quaternion))
+    });
+    let krl = numbers_of(text, "{X ", 6);
+    let krl = krl.iter().map(|n| {
+        let about =
+            |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
+        let turn = about(Vector3::z_axis(), n[3])
+            * about(Vector3::y_axis(), n[4])
+            * about(Vector3::x_axis(), n[5]);
+        pose(n, turn)
+    });
+    rapid.chain(krl).collect()
 }
 
 /// Straight motions that turn the tool by some degrees each, round the pose in which the arm is drawn.
-fn program(home: &Pose, seed: u64) -> (String, Vec<Pose>) {
+fn program(language: Language, home: &Pose, seed: u64) -> (String, Vec<Pose>) {
     let mut poses = Vec::new();
     for k in 0..7 {
         let off = |n: u64, size: f64| size * (2.0 * irregular(seed, k, n) - 1.0);
@@ -56,23 +84,40 @@ fn program(home: &Pose, seed: u64) -> (String, Vec<Pose>) {
         let at = home.translation.vector + shift;
         poses.push(Pose::from_parts(at.into(), turn * home.rotation));
     }
-    let mut text = "MODULE Cut\n  ! by hand\n  PROC main()\n".to_owned();
-    text.push_str(&format!(
-        "    MoveJ {},v500,z10,tool0;\n",
-        rapid_pose(&poses[0])
-    ));
-    for pose in &poses[1..] {
-        text.push_str(&format!("    MoveL {},v20,fine,tool0;\n", rapid_pose(pose)));
+    let mut text = String::new();
+    match language {
+        Language::Krl => {
+            text.push_str("DEF cut( )\n$VEL.CP=0.02\n");
+            text.push_str(&format!("PTP {}\n", krl_pose(&poses[0])));
+            for pose in &poses[1..] {
+                text.push_str(&format!("LIN {}\n", krl_pose(pose)));
+            }
+            text.push_str("END\n");
+        }
+        _ => {
+            text.push_str("MODULE Cut\n  ! by hand\n  PROC main()\n");
+            text.push_str(&format!(
+                "    MoveJ {},v500,z10,tool0;\n",
+                rapid_pose(&poses[0])
+            ));
+            for pose in &poses[1..] {
+                text.push_str(&format!("    MoveL {},v20,fine,tool0;\n", rapid_pose(pose)));
+            }
+            text.push_str("  ENDPROC\nENDMODULE\n");
+        }
     }
-    text.push_str("  ENDPROC\nENDMODULE\n");
     // As written, with its digits.
     let poses = poses_of(&text);
     (text, poses)
 }
 
 fn read(text: &str) -> RobotProgram {
-    let files = vec![SourceFile::new("cut.mod", text)];
-    read_rapid(files, &ReadOptions::default()).expect("a program")
+    let language = match text.starts_with("DEF") {
+        true => Language::Krl,
+        false => Language::Rapid,
+    };
+    let files = vec![SourceFile::new("cut", text)];
+    kinetostat_formats::read(language, files, &ReadOptions::default()).expect("a program")
 }
 
 fn run(mechanism: &Mechanism, text: &str, corrected: Directions, load: ProgramLoad) -> Run {
@@ -109,11 +154,11 @@ fn tool(mechanism: &Mechanism, commanded: &Pose, wrench: &Wrench) -> Pose {
 
 /// Position (mm) and orientation (rad) missed at the ends of motions and between them, where the arm goes evenly along the line
 /// while it turns about one axis.
-fn missed(corrected: Directions, load: ProgramLoad, seed: u64) -> [f64; 4] {
+fn missed(language: Language, corrected: Directions, load: ProgramLoad, seed: u64) -> [f64; 4] {
     let model = Model::preset("heavy_6r").expect("preset");
     let mechanism = &model.mechanism;
     let home = mechanism.platforms()[mechanism.tool()].home;
-    let (text, wanted) = program(&home, seed);
+    let (text, wanted) = program(language, &home, seed);
     let run = run(mechanism, &text, corrected, load);
     let written = run.written.expect("a program");
     let output = String::from_utf8(written.bytes.clone()).expect("text");
@@ -181,52 +226,49 @@ fn constant(axes: LoadAxes) -> ProgramLoad {
     ProgramLoad::new(CuttingLoad::Constant { axes, wrench })
 }
 
-#[test]
-fn figure_rapid_of_a_heavy_arm_is_where_it_should_be_with_its_orientation() {
+/// Of all loads and seeds.
+fn largest_missed(language: Language, name: &str) {
     let mut largest = [0.0_f64; 4];
     for (seed, axes) in [
         (1, LoadAxes::Tool),
         (2, LoadAxes::Base),
         (3, LoadAxes::Feed),
     ] {
-        let found = missed(Directions::ALL, constant(axes), seed);
+        let found = missed(language, Directions::ALL, constant(axes), seed);
         for (all, one) in largest.iter_mut().zip(found) {
             *all = kinetostat::number::larger(*all, one);
         }
     }
     let [position, orientation, between, turned] = largest;
     use kinetostat_testing::figure::at_most;
-    let name = "RAPID of heavy_6r, pose corrected";
-    assert!(at_most(
-        &format!("{name}: position at the points"),
-        position,
-        1e-3,
-        "mm"
-    ));
-    assert!(at_most(
-        &format!("{name}: orientation at the points"),
-        orientation,
-        1e-5,
-        "rad"
-    ));
-    assert!(at_most(
-        &format!("{name}: position between the points"),
-        between,
-        1.5e-3,
-        "mm"
-    ));
-    assert!(at_most(
-        &format!("{name}: orientation between the points"),
-        turned,
-        3e-5,
-        "rad"
-    ));
+    let held = |what: &str, measured, most, unit| {
+        let name = format!("{name} of heavy_6r, pose corrected: {what}");
+        assert!(at_most(&name, measured, most, unit), "{what}: {measured}");
+    };
+    held("position at the points", position, 1e-3, "mm");
+    held("orientation at the points", orientation, 1e-5, "rad");
+    held("position between the points", between, 1e-3, "mm");
+    held("orientation between the points", turned, 1e-5, "rad");
+}
+
+#[test]
+fn figure_rapid_of_a_heavy_arm_is_where_it_should_be_with_its_orientation() {
+    largest_missed(Language::Rapid, "RAPID");
+}
+
+#[test]
+fn figure_krl_of_a_heavy_arm_is_where_it_should_be_with_its_orientation() {
+    largest_missed(Language::Krl, "KRL");
 }
 
 #[test]
 fn where_only_the_position_is_corrected_the_orientation_is_that_of_the_program() {
-    let [position, orientation, between, _] =
-        missed(Directions::POSITION, constant(LoadAxes::Tool), 5);
+    let [position, orientation, between, _] = missed(
+        Language::Rapid,
+        Directions::POSITION,
+        constant(LoadAxes::Tool),
+        5,
+    );
     assert!(position < 1e-3 && between < 1.5e-3, "{position} {between}");
     // The arm turns under its load, and is let.
     assert!((1e-5..0.01).contains(&orientation), "{orientation}");
@@ -236,7 +278,7 @@ fn where_only_the_position_is_corrected_the_orientation_is_that_of_the_program()
 fn forces_of_milling_turn_with_the_tool() {
     let model = Model::preset("heavy_6r").expect("preset");
     let home = model.mechanism.platforms()[model.mechanism.tool()].home;
-    let (text, _) = program(&home, 9);
+    let (text, _) = program(Language::Rapid, &home, 9);
     let path = path_of(&read(&text), &PathOptions::default())
         .expect("a path")
         .path;
