@@ -41,7 +41,10 @@ impl JointColumns {
         if self.limits != [false; 2] {
             names.push("nearest_limit".to_owned());
         }
-        names.extend(self.limited().map(|unit| format!("distance_to_limit_{unit}")));
+        names.extend(
+            self.limited()
+                .map(|unit| format!("distance_to_limit_{unit}")),
+        );
         if self.ratings {
             names.extend(["most_loaded_drive", "share_of_rating"].map(String::from));
         }
@@ -130,4 +133,3 @@ pub(crate) fn one_word(name: &str) -> String {
         false => word,
     }
 }
-
