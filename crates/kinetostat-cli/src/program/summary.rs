@@ -232,7 +232,11 @@ fn joints(f: &Figures) -> String {
     }
     let configuration = f.configuration.iter();
     sentences.extend(configuration.map(|found| format!("configuration: {found}")));
-    sentences.iter().map(|said| wrapped(said, 2)).collect()
+    let text: String = sentences.iter().map(|said| wrapped(said, 2)).collect();
+    match text.is_empty() {
+        true => text,
+        false => format!("\n{text}"),
+    }
 }
 
 /// What a force that is computed from the cut rests on.

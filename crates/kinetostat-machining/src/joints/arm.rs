@@ -4,34 +4,78 @@
 //! neighbours. The determinant of such an arm's Jacobian is a product of three factors, one each of shoulder, elbow and wrist, and the
 //! sign of each is a flag of the configuration (Pieper 1968; Paul and Zhang, Int. J. Robotics Research 5(2), 1986).
 
+use std::f64::consts::TAU;
+
 use kinetostat::model::{Chain, Element, Role};
 use kinetostat::{Mechanism, MotionKind, Pose};
-use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::result::joints::ArmConfiguration;
 
 /// Axes meet or are parallel that do so within this: a tenth of a millimetre per metre, as models from rounded figures have it.
 const CLOSE: f64 = 1e-4;
 
-/// An arm of six axes with a wrist in one point.
+/// An arm of six axes with a wrist in one point: how shoulder, elbow and wrist change with joint values.
+///
+/// Elbow and wrist turn with joints 3 and 5 alone. The wrist's centre moves in the arm's plane with joints 2 and 3, and what counts
+/// is how far it is from axis 1 in that plane: a sum of cosines and sines.
 #[derive(Clone, Debug)]
 pub(crate) struct Arm {
-    /// From the frame behind joint k to joint k + 1, the first from the base.
-    offsets: [Pose; 6],
-    /// Axes, each in the frame that its offset reaches.
-    axes: [Unit<Vector3<f64>>; 6],
-    /// Centre of the wrist in the frame behind joint 3, m.
-    wrist: Point3<f64>,
+    /// Joints 2, 3 and 5 at home, rad; joint 3 as it turns about axis 2.
+    home: [f64; 3],
+    /// 1 if axis 3 points as axis 2 does, -1 if against it.
+    third: f64,
+    /// Axis 2 off axis 1, m.
+    off: f64,
+    /// Upper arm and forearm (to the wrist's centre) at home: off axis 1, and the same a quarter turn on, m.
+    links: [[f64; 2]; 2],
+    /// Elbow and wrist at home, rad.
+    angles: [f64; 2],
     /// Signs that make front, elbow up and a wrist that is not flipped positive.
     signs: [f64; 3],
 }
 
-/// Axes of an arm at joint values: their directions and a point of each, base axes, m.
+/// Axes of an arm at home: their directions and a point of each, base axes, m.
 struct Axes {
     directions: [Vector3<f64>; 6],
     points: [Vector3<f64>; 6],
-    /// The frame behind joint 3.
-    forearm: Pose,
+}
+
+impl Axes {
+    fn of(chain: &Chain) -> Option<Self> {
+        let (offsets, axes) = six_turning(chain)?;
+        let mut frame = Pose::identity();
+        let mut found = Self {
+            directions: [Vector3::zeros(); 6],
+            points: [Vector3::zeros(); 6],
+        };
+        let home = chain.home_commands();
+        let joints = offsets.iter().zip(&axes).zip(home);
+        for (joint, ((offset, axis), command)) in joints.enumerate() {
+            frame *= offset;
+            found.directions[joint] = frame.rotation * axis.into_inner();
+            found.points[joint] = frame.translation.vector;
+            frame *= UnitQuaternion::from_axis_angle(axis, command);
+        }
+        Some(found)
+    }
+
+    /// The point where axes 4, 5 and 6 meet; none if they do not within a distance, or if the angles are not those of an arm.
+    fn wrist(&self, reach: f64) -> Option<Vector3<f64>> {
+        let [first, second, third, fourth, fifth, sixth] = self.directions;
+        let square = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < CLOSE;
+        let angles = square(&first, &second)
+            && second.cross(&third).norm() < CLOSE
+            && square(&fourth, &fifth)
+            && square(&fifth, &sixth);
+        // Axis 5 is square to axis 4: where they meet is as far along axis 4 as any point of axis 5.
+        let centre = self.points[3] + fourth * (self.points[4] - self.points[3]).dot(&fourth);
+        let on = |axis: usize| {
+            let off = centre - self.points[axis];
+            off.cross(&self.directions[axis]).norm() < reach
+        };
+        (angles && on(4) && on(5)).then_some(centre)
+    }
 }
 
 impl Arm {
@@ -40,121 +84,89 @@ impl Arm {
         let [limb] = mechanism.limbs() else {
             return None;
         };
-        let (offsets, axes) = six_turning(&limb.nominal)?;
+        let axes = Axes::of(&limb.nominal)?;
+        let reach = CLOSE * mechanism.size();
+        let centre = axes.wrist(reach)?;
+        let [first, second, third, fourth, fifth, sixth] = axes.directions;
+        // Out of axis 1 in the arm's plane.
+        let out = second.cross(&first);
+        let upper_arm = axes.points[2] - axes.points[1];
+        let forearm = centre - axes.points[2];
+        let third = second.dot(&third).signum();
+        let commands = limb.nominal.home_commands();
         let mut arm = Self {
-            offsets,
-            axes,
-            wrist: Point3::origin(),
+            home: [commands[1], third * commands[2], commands[4]],
+            third,
+            off: (axes.points[1] - axes.points[0]).dot(&out),
+            links: [upper_arm, forearm].map(|link| [link.dot(&out), second.cross(&link).dot(&out)]),
+            angles: [
+                angle_about(&second, &upper_arm, &forearm),
+                angle_about(&fifth, &fourth, &sixth),
+            ],
             signs: [1.0; 3],
         };
-        let commands = limb.nominal.home_commands();
-        let home = arm.axes_at(&commands);
-        let reach = CLOSE * mechanism.size();
-        let [first, second, third, fourth, fifth, sixth] = home.directions;
-        let square = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < CLOSE;
-        let angles = square(&first, &second)
-            && second.cross(&third).norm() < CLOSE
-            && square(&fourth, &fifth)
-            && square(&fifth, &sixth);
-        if !angles {
-            return None;
-        }
-        // Axis 5 is square to axis 4: where they meet, they are nearest to each other.
-        let off = home.points[4] - home.points[3];
-        let centre = home.points[3] + fourth * off.dot(&fourth);
-        let on = |axis: usize| {
-            (centre - home.points[axis])
-                .cross(&home.directions[axis])
-                .norm()
-                < reach
-        };
-        if !(on(4) && on(5)) {
-            return None;
-        }
-        arm.wrist = home.forearm.inverse_transform_point(&Point3::from(centre));
-        arm.signs = arm.signs_of(&home, reach);
+        arm.signs = arm.signs_at_home(&axes, &commands, reach);
         Some(arm)
     }
 
     /// Which signs mean front, up and not flipped.
-    fn signs_of(&self, home: &Axes, reach: f64) -> [f64; 3] {
+    fn signs_at_home(&self, axes: &Axes, commands: &[f64], reach: f64) -> [f64; 3] {
         let sign = |value: f64, otherwise: f64| match value == 0.0 {
             true => otherwise,
             false => value.signum(),
         };
-        let [shoulder_home, _, wrist_home] = self.signed(home);
-        let [first, second, ..] = home.directions;
-        // How far axis 2 lies off axis 1.
-        let off = sideways(home, &home.points[1]);
-        let front = match off.abs() > reach {
-            true => off.signum(),
-            false => sign(shoulder_home, 1.0),
+        let [first, second, ..] = axes.directions;
+        let front = match self.off.abs() > reach {
+            true => self.off.signum(),
+            false => sign(self.signed(commands)[0], 1.0),
         };
         let forward = second.cross(&first) * front;
         // Along axis 1, away from the base.
-        let up = first * sign(home.points[1].dot(&first), sign(first.z, 1.0));
+        let up = first * sign(axes.points[1].dot(&first), sign(first.z, 1.0));
         // An elbow that is up bends the forearm about axis 2 as up turns to the front.
         let bends = second.dot(&up.cross(&forward)).signum();
-        let wrist = match wrist_home.abs() > CLOSE.to_degrees() {
-            true => wrist_home.signum(),
+        let [_, wrist] = self.angles;
+        let wrist = match wrist.abs() > CLOSE {
+            true => wrist.signum(),
             false => 1.0,
         };
         [front, bends, wrist]
     }
 
-    fn axes_at(&self, commands: &[f64]) -> Axes {
-        let mut frame = Pose::identity();
-        let mut axes = Axes {
-            directions: [Vector3::zeros(); 6],
-            points: [Vector3::zeros(); 6],
-            forearm: frame,
+    /// Shoulder, mm, elbow and wrist, deg, with the signs of the axes, at joint values, rad.
+    fn signed(&self, commands: &[f64]) -> [f64; 3] {
+        let &[_, second, third, _, fifth, _] = commands else {
+            return [f64::NAN; 3];
         };
-        let joints = self.offsets.iter().zip(&self.axes).zip(commands);
-        for (joint, ((offset, axis), command)) in joints.enumerate() {
-            frame *= offset;
-            axes.directions[joint] = frame.rotation * axis.into_inner();
-            axes.points[joint] = frame.translation.vector;
-            frame *= UnitQuaternion::from_axis_angle(axis, *command);
-            if joint == 2 {
-                axes.forearm = frame;
-            }
-        }
-        axes
-    }
-
-    /// Shoulder, mm, elbow and wrist, deg, with the signs of the axes.
-    fn signed(&self, axes: &Axes) -> [f64; 3] {
-        let [_, second, _, fourth, fifth, sixth] = axes.directions;
-        let centre = axes.forearm.transform_point(&self.wrist).coords;
-        let angle = |about: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>| {
-            let across = |v: &Vector3<f64>| v - about * about.dot(v);
-            let (from, to) = (across(from), across(to));
-            about
-                .dot(&from.cross(&to))
-                .atan2(from.dot(&to))
-                .to_degrees()
+        let [second, third, fifth] = [
+            second - self.home[0],
+            self.third * third - self.home[1],
+            fifth - self.home[2],
+        ];
+        let turned = |[along, across]: [f64; 2], angle: f64| {
+            let (sine, cosine) = angle.sin_cos();
+            along * cosine + across * sine
         };
-        let upper_arm = axes.points[2] - axes.points[1];
-        let forearm = centre - axes.points[2];
-        [
-            1e3 * sideways(axes, &centre),
-            angle(&second, &upper_arm, &forearm),
-            angle(&fifth, &fourth, &sixth),
-        ]
+        let [upper_arm, forearm] = self.links;
+        let out = self.off + turned(upper_arm, second) + turned(forearm, second + third);
+        let [elbow, wrist] = [self.angles[0] + third, self.angles[1] + fifth]
+            .map(|angle| (angle - TAU * (angle / TAU).round()).to_degrees());
+        [1e3 * out, elbow, wrist]
     }
 
     /// The configuration at joint values, rad; none if one of them is no number.
     pub(crate) fn configuration(&self, commands: &[f64]) -> Option<ArmConfiguration> {
-        let signed = self.signed(&self.axes_at(commands));
+        let signed = self.signed(commands);
         let [shoulder, elbow, wrist] = [0, 1, 2].map(|k| self.signs[k] * signed[k]);
         ArmConfiguration::of(shoulder, elbow, wrist)
     }
 }
 
-/// Distance of a point from the plane through axis 1 that axis 2 is parallel to, m.
-fn sideways(axes: &Axes, point: &Vector3<f64>) -> f64 {
-    let [first, second, ..] = axes.directions;
-    second.dot(&first.cross(&(point - axes.points[0])))
+/// Angle from one direction to another about an axis, rad.
+fn angle_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    let across = |v: &Vector3<f64>| v - axis * axis.dot(v);
+    let (from, to) = (across(from), across(to));
+    axis.dot(&from.cross(&to)).atan2(from.dot(&to))
 }
 
 /// Offsets and axes of a chain of six commanded turns and nothing else that moves but springs.

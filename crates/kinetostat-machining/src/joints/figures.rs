@@ -4,18 +4,18 @@ use kinetostat::{Mechanism, MotionKind};
 
 use crate::joints::arm::Arm;
 use crate::near::natural_length;
-use crate::result::joints::{LimitEnd, MostLoaded, NearestLimit};
+use crate::result::joints::{ArmConfiguration, LimitEnd, MostLoaded, NearestLimit};
 use crate::result::point::PointResult;
 
 /// What joint values and drive loads of a machine are compared with.
 #[derive(Clone, Debug)]
 pub(crate) struct JointFigures<'r> {
-    /// Kind and limits, m or rad, of every actuator.
-    joints: Vec<(MotionKind, Option<(f64, f64)>)>,
+    /// Kind and limits, mm or deg, of every actuator.
+    joints: Vec<(MotionKind, Option<[f64; 2]>)>,
     ratings: &'r [Option<f64>],
     arm: Option<Arm>,
-    /// At which length angles are compared with lengths, m.
-    length: f64,
+    /// A degree at the machine's natural length, where angles are compared with lengths.
+    mm_per_deg: f64,
 }
 
 impl<'r> JointFigures<'r> {
@@ -24,11 +24,16 @@ impl<'r> JointFigures<'r> {
         Self {
             joints: limbs
                 .flat_map(|limb| limb.nominal.actuators())
-                .map(|actuator| (actuator.kind, actuator.limits))
+                .map(|actuator| {
+                    let shown = |(low, high): (f64, f64)| {
+                        [low, high].map(|limit| in_display(actuator.kind) * limit)
+                    };
+                    (actuator.kind, actuator.limits.map(shown))
+                })
                 .collect(),
             ratings,
             arm: Arm::of(mechanism),
-            length: natural_length(mechanism),
+            mm_per_deg: 1e3 * natural_length(mechanism) * 1_f64.to_radians(),
         }
     }
 
@@ -44,37 +49,37 @@ impl<'r> JointFigures<'r> {
 
     /// Limits of every actuator, mm or deg.
     pub(crate) fn limits(&self) -> impl Iterator<Item = Option<[f64; 2]>> + '_ {
-        self.joints.iter().map(|(kind, limits)| {
-            limits.map(|(low, high)| [low, high].map(|limit| in_display(*kind) * limit))
-        })
+        self.joints.iter().map(|joint| joint.1)
     }
 
     /// Puts the figures of a point beside its joint values and drive loads.
     pub(crate) fn fill(&self, point: &mut PointResult) {
-        let kinds = self.joints.iter().map(|joint| in_display(joint.0));
-        let commands = point.actuator_command.iter().zip(kinds);
-        let commands: Vec<f64> = commands.map(|(value, factor)| value / factor).collect();
-        point.nearest_limit = self.nearest_limit(&commands);
+        point.nearest_limit = self.nearest_limit(&point.actuator_command);
         point.most_loaded = most_loaded(self.ratings, &point.actuator_force);
-        let arm = self.arm.as_ref();
-        point.configuration = arm.and_then(|arm| arm.configuration(&commands));
+        point.configuration = self.configuration(&point.actuator_command);
     }
 
-    /// The joint nearest to a limit, of commands in m or rad. Angles are compared with lengths at the machine's natural length.
+    /// The configuration at joint values, deg.
+    fn configuration(&self, commands: &[f64]) -> Option<ArmConfiguration> {
+        let arm = self.arm.as_ref()?;
+        let commands: [f64; 6] = commands.try_into().ok()?;
+        arm.configuration(&commands.map(f64::to_radians))
+    }
+
+    /// The joint nearest to a limit, of commands in mm or deg. Angles are compared with lengths at the machine's natural length.
     fn nearest_limit(&self, commands: &[f64]) -> Option<NearestLimit> {
         let mut nearest: Option<(f64, NearestLimit)> = None;
         for (actuator, (command, (kind, limits))) in commands.iter().zip(&self.joints).enumerate() {
-            let Some((low, high)) = limits else { continue };
+            let Some([low, high]) = limits else { continue };
             let (end, distance) = match command - low <= high - command {
                 true => (LimitEnd::Lower, command - low),
                 false => (LimitEnd::Upper, high - command),
             };
             let far = match kind {
                 MotionKind::Prismatic => distance,
-                MotionKind::Revolute => distance * self.length,
+                MotionKind::Revolute => distance * self.mm_per_deg,
             };
             if far.is_finite() && nearest.is_none_or(|(least, _)| far < least) {
-                let distance = in_display(*kind) * distance;
                 let found = NearestLimit {
                     actuator,
                     end,

@@ -91,11 +91,11 @@ fn change(
     let number = |point: &PointResult| point.configuration.map(|c| c.number);
     let beside =
         turn_deg.abs() > TURN_DEG && turn_deg.abs() > TIMES_TOOL * tool_turn_deg(before, after);
-    let same_machine = {
+    let same_machine = || {
         let machine = |point: &PointResult| -> *const Mechanism { task.mechanism_on(point.line) };
         std::ptr::eq(machine(before), machine(after))
     };
-    let changes = same_machine && (number(before) != number(after) || beside);
+    let changes = (number(before) != number(after) || beside) && same_machine();
     changes.then_some(PostureChange {
         line_before: before.line,
         line: after.line,
