@@ -148,7 +148,7 @@ pub(crate) fn posture_warning(
     let first = joints.changes.first()?;
     let names = task.mechanism.actuator_names();
     let name = names.get(first.actuator).map_or("", String::as_str);
-    let turn = format!("joint '{name}' turns by {:.0} deg", first.turn_deg.abs());
+    let turn = format!("'{name}' turns by {:.0} deg", first.turn_deg.abs());
     let between = match first.line_before == first.line {
         true => format!("within line {}", first.line),
         false => format!("between lines {} and {}", first.line_before, first.line),

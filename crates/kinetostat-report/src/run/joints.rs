@@ -115,7 +115,7 @@ pub(crate) fn facts(result: &Shown<'_>) -> Vec<Value> {
     if let Some(found) = &figures.configuration {
         let changes = result.joints.change_count;
         let size = match changes {
-            0 => "one".to_owned(),
+            0 => "no change".to_owned(),
             count => number::counted(count, "change"),
         };
         let way = result.joints.way_out.as_ref();
@@ -123,7 +123,7 @@ pub(crate) fn facts(result: &Shown<'_>) -> Vec<Value> {
         rows.push(row(
             "Configuration of the arm",
             size,
-            format!("{found}.{way}"),
+            format!("At the first cut: {found}.{way}"),
         ));
     }
     rows
