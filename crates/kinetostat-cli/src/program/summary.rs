@@ -228,7 +228,10 @@ fn joints(f: &Figures) -> String {
         sentences.push(format!("nearest to a limit: {}", f.nearest_limit_at));
     }
     if f.share_of_rating.is_some() {
-        sentences.push(format!("most loaded by its rating: {}", f.share_of_rating_at));
+        sentences.push(format!(
+            "most loaded by its rating: {}",
+            f.share_of_rating_at
+        ));
     }
     let configuration = f.configuration.iter();
     sentences.extend(configuration.map(|found| format!("configuration: {found}")));

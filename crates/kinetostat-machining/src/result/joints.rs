@@ -265,6 +265,9 @@ impl WayOut {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct JointsResult {
+    /// Smallest and largest joint value of every actuator on cutting moves (everywhere if none cuts), mm or deg.
+    #[serde(rename = "ranges_mm_or_deg", default)]
+    pub ranges: Vec<[f64; 2]>,
     /// Where a joint comes nearest to a limit; none where no joint has limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest_limit: Option<LimitPlace>,

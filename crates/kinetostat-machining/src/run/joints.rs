@@ -1,5 +1,6 @@
 //! Limits, ratings and configuration along a program, and where an arm cannot follow it in one posture.
 
+use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -22,6 +23,7 @@ const TIMES_TOOL: f64 = 3.0;
 pub(crate) fn joints_result(task: &Task<'_>, points: &[PointResult]) -> JointsResult {
     let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
     let mut result = JointsResult {
+        ranges: ranges(points),
         nearest_limit: nearest_limit(task, points),
         most_loaded: share_of_rating(task, points),
         configuration: points
@@ -51,6 +53,28 @@ pub(crate) fn joints_result(task: &Task<'_>, points: &[PointResult]) -> JointsRe
         result.way_out = Some(way_out(task, arm, &Places::of_points(task, points, &worst)));
     }
     result
+}
+
+/// Smallest and largest joint values where the program cuts, to a millionth of a millimetre or degree.
+fn ranges(points: &[PointResult]) -> Vec<[f64; 2]> {
+    let cuts = points.iter().any(|p| p.kind != PointKind::Rapid);
+    let counts = |point: &&PointResult| !cuts || point.kind != PointKind::Rapid;
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    for point in points.iter().filter(counts) {
+        if ranges.is_empty() {
+            ranges = point
+                .actuator_command
+                .iter()
+                .map(|value| [*value; 2])
+                .collect();
+        }
+        for ([low, high], value) in ranges.iter_mut().zip(&point.actuator_command) {
+            (*low, *high) = (smaller(*low, *value), larger(*high, *value));
+        }
+    }
+    // Digits below a nanometre are those of the arithmetic.
+    let shown = |value: f64| (1e6 * value).round() / 1e6 + 0.0;
+    ranges.into_iter().map(|range| range.map(shown)).collect()
 }
 
 fn nearest_limit(task: &Task<'_>, points: &[PointResult]) -> Option<LimitPlace> {

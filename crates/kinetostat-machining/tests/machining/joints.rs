@@ -322,7 +322,12 @@ fn a_machine_without_limits_says_nothing() {
         model.ratings(),
     );
     let result = run.expect("run").result;
-    assert_eq!(result.joints, Default::default());
+    let joints = &result.joints;
+    assert_eq!(joints.ranges, [[0.0, 30.0], [0.0, 20.0], [0.0, 0.0]]);
+    assert!(joints.nearest_limit.is_none() && joints.most_loaded.is_none());
+    assert!(
+        joints.configuration.is_none() && joints.changes.is_empty() && joints.way_out.is_none()
+    );
     for point in &result.points {
         let known = (point.nearest_limit.is_some(), point.most_loaded.is_some());
         assert_eq!((known, point.configuration), ((false, false), None));

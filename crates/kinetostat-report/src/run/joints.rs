@@ -41,12 +41,12 @@ fn panel(
     let values = along.values(result.points, |p| p.actuator_command.get(index).copied());
     let span = Span::of(values.iter().flatten().map(|value| value.1))?;
     let unit = text::shorten(&actuator.motion_unit, 8);
-    let one = |value: f64| number::fixed(value, 1);
+    let [low, high] = result.joints.ranges.get(index).copied()?;
     let title = format!(
         "{}: {} to {}",
         text::shorten(&actuator.name, 24),
-        one(span.low),
-        number::with_unit(&one(span.high), &unit)
+        number::setting(low),
+        number::with_unit(&number::setting(high), &unit)
     );
     let ends = actuator.limits.iter().flatten();
     let ends: Vec<f64> = ends.copied().filter_map(number::drawable).collect();
