@@ -15,12 +15,15 @@ pub(crate) struct JointColumns {
     arm: bool,
 }
 
-/// Units of joints that slide and of those that turn.
-const UNITS: [&str; 2] = ["mm", "deg"];
+/// Units of joints that slide and of those that turn, and their columns.
+const UNITS: [(&str, &str); 2] = [
+    ("mm", "distance_to_limit_mm"),
+    ("deg", "distance_to_limit_deg"),
+];
 
 impl JointColumns {
     pub(crate) fn of(run_inputs: &RunInputs) -> Self {
-        let limited = |unit: &str| {
+        let limited = |(unit, _): (&str, &str)| {
             let mut actuators = run_inputs.actuators.iter();
             actuators.any(|a| a.motion_unit == unit && a.limits.is_some())
         };
@@ -31,7 +34,7 @@ impl JointColumns {
         }
     }
 
-    fn limited(self) -> impl Iterator<Item = &'static str> {
+    fn limited(self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let both = UNITS.into_iter().zip(self.limits);
         both.filter(|(_, limited)| *limited).map(|(unit, _)| unit)
     }
@@ -41,10 +44,7 @@ impl JointColumns {
         if self.limits != [false; 2] {
             names.push("nearest_limit".to_owned());
         }
-        names.extend(
-            self.limited()
-                .map(|unit| format!("distance_to_limit_{unit}")),
-        );
+        names.extend(self.limited().map(|(_, column)| column.to_owned()));
         if self.ratings {
             names.extend(["most_loaded_drive", "share_of_rating"].map(String::from));
         }
@@ -73,7 +73,7 @@ impl JointColumns {
                 format!("{}_{}", name(limit.actuator), limit.end.word())
             }));
         }
-        for unit in self.limited() {
+        for (unit, _) in self.limited() {
             let of_unit = point
                 .nearest_limit
                 .filter(|limit| actuator(limit.actuator).is_some_and(|a| a.motion_unit == unit));

@@ -43,15 +43,14 @@ struct Axes {
 
 impl Axes {
     fn of(chain: &Chain) -> Option<Self> {
-        let (offsets, axes) = six_turning(chain)?;
+        let joints = six_turning(chain)?;
         let mut frame = Pose::identity();
         let mut found = Self {
             directions: [Vector3::zeros(); 6],
             points: [Vector3::zeros(); 6],
         };
         let home = chain.home_commands();
-        let joints = offsets.iter().zip(&axes).zip(home);
-        for (joint, ((offset, axis), command)) in joints.enumerate() {
+        for (joint, ((offset, axis), command)) in joints.iter().zip(home).enumerate() {
             frame *= offset;
             found.directions[joint] = frame.rotation * axis.into_inner();
             found.points[joint] = frame.translation.vector;
@@ -169,11 +168,14 @@ fn angle_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f
     axis.dot(&from.cross(&to)).atan2(from.dot(&to))
 }
 
+/// An offset and the axis behind it.
+type Joint = (Pose, Unit<Vector3<f64>>);
+
 /// Offsets and axes of a chain of six commanded turns and nothing else that moves but springs.
-fn six_turning(chain: &Chain) -> Option<([Pose; 6], [Unit<Vector3<f64>>; 6])> {
+fn six_turning(chain: &Chain) -> Option<[Joint; 6]> {
     let passive =
         |index: usize| chain.coordinates().get(index).map(|c| c.role) != Some(Role::Spring);
-    let mut joints: Vec<(Pose, Unit<Vector3<f64>>)> = Vec::new();
+    let mut joints: Vec<Joint> = Vec::new();
     let mut offset = Pose::identity();
     for element in chain.elements() {
         let motion = match element {
@@ -199,6 +201,5 @@ fn six_turning(chain: &Chain) -> Option<([Pose; 6], [Unit<Vector3<f64>>; 6])> {
             motion.axis,
         ));
     }
-    let joints: [(Pose, Unit<Vector3<f64>>); 6] = joints.try_into().ok()?;
-    Some((joints.map(|joint| joint.0), joints.map(|joint| joint.1)))
+    joints.try_into().ok()
 }
