@@ -1,8 +1,18 @@
 //! What this crate's own tests reach inside it, in `tests/machining/internal`. It is no part of the interface and changes
 //! without a word.
 
+use kinetostat::Mechanism;
+
+use crate::joints::arm::Arm;
 use crate::limits::{Limit, apart};
 use crate::profile::limited::{Begins, Place, SinceRapid, limited};
+use crate::result::joints::ArmConfiguration;
+
+/// The configuration of a machine at joint values, rad; none if it is no arm of six axes with a wrist in one point.
+#[must_use]
+pub fn configuration_at(mechanism: &Mechanism, commands: &[f64]) -> Option<ArmConfiguration> {
+    Arm::of(mechanism)?.configuration(commands)
+}
 
 /// A figure beyond a limit as it is stated beside what is allowed.
 #[must_use]

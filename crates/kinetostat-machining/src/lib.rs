@@ -11,6 +11,7 @@ mod field;
 mod flat_program;
 #[doc(hidden)]
 pub mod internal;
+mod joints;
 mod limits;
 mod load;
 mod map;
@@ -58,6 +59,10 @@ pub use placement::Placement;
 pub use result::cutting::{CutPlace, CuttingResult};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
+pub use result::joints::{
+    ArmConfiguration, Elbow, JointsResult, LimitEnd, LimitPlace, MostLoaded, NearestLimit,
+    PostureChange, RatingPlace, Shoulder, WayOut, Wrist,
+};
 pub use result::largest_change::LargestChange;
 pub use result::point::{PointKind, PointResult};
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};

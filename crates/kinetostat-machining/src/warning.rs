@@ -28,6 +28,8 @@ pub enum WarningCode {
     OrientationFollows,
     /// A singular posture is near.
     NearSingular,
+    /// A feed motion in which an arm changes its configuration, or passes beside a singular posture.
+    PostureChanges,
     /// More blocks per second than the controller takes.
     BlocksPerSecond,
     /// A figure beyond a limit, in an analysis that writes no program.

@@ -5,6 +5,7 @@
 
 pub(crate) mod aim;
 pub(crate) mod flat_lines;
+mod joint_columns;
 pub(crate) mod outputs;
 mod points_table;
 pub(crate) mod report;

@@ -7,6 +7,7 @@ use kinetostat_machining::{PointKind, PointResult, RunInputs, thinned};
 use kinetostat_model::Controller;
 
 use crate::program::flat_lines;
+use crate::program::joint_columns::{JointColumns, one_word};
 use crate::ui::csv_cell::{decimals, digits};
 use crate::ui::failure::{Answer, Failure};
 
@@ -100,6 +101,7 @@ fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> 
     per("correction", &|i| {
         unit(&run_inputs.actuators[i].motion_unit)
     });
+    header.extend(JointColumns::of(run_inputs).names());
     for axis in listing.controller.iter().flat_map(|c| c.axes()) {
         header.push(format!(
             "pendant_{}_{}",
@@ -112,22 +114,6 @@ fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> 
         header.extend(flat_lines::COLUMNS.map(String::from));
     }
     distinct(header)
-}
-
-/// A name of a file in a name of a column: no blanks, nothing that a spreadsheet takes for a formula.
-fn one_word(name: &str) -> String {
-    let plain = |c: char| {
-        if c.is_alphanumeric() || c == '.' {
-            c
-        } else {
-            '_'
-        }
-    };
-    let word: String = name.chars().map(plain).collect();
-    match word.starts_with('.') || word.is_empty() {
-        true => format!("_{word}"),
-        false => word,
-    }
 }
 
 /// Names that have become the same are numbered.
@@ -160,6 +146,7 @@ fn lines(
 ) -> Answer<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::with_capacity(256 * BLOCK));
     let mut row: Vec<String> = Vec::new();
+    let joints = JointColumns::of(run_inputs);
     for point in points {
         row.clear();
         row.push(point.line.to_string());
@@ -190,6 +177,7 @@ fn lines(
         row.extend(point.actuator_command.iter().map(|x| decimals(*x, 5)));
         row.extend(point.actuator_force.iter().map(|x| decimals(*x, 3)));
         row.extend(point.actuator_correction.iter().map(|x| decimals(*x, 6)));
+        row.extend(joints.cells(run_inputs, point));
         if let Some(controller) = &listing.controller {
             let shown = controller
                 .coordinates(&in_si(run_inputs, point))

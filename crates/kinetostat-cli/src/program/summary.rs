@@ -193,6 +193,12 @@ fn figures(result: &RunResult) -> String {
     if let Some(share) = &f.share_to_buckling {
         last("share of the way to buckling", share);
     }
+    if let Some(distance) = &f.nearest_limit {
+        last("smallest distance to a limit", distance);
+    }
+    if let Some(share) = &f.share_of_rating {
+        last("largest share of a rating", share);
+    }
     columns(&rows, 2)
 }
 
@@ -210,7 +216,30 @@ fn actuators(result: &RunResult) -> String {
         }
         rows.push(row);
     }
-    columns(&rows, 2)
+    let mut text = columns(&rows, 2);
+    text.push_str(&joints(&f));
+    text
+}
+
+/// Where limits and ratings are nearest, and how an arm stands.
+fn joints(f: &Figures) -> String {
+    let mut sentences = Vec::new();
+    if f.nearest_limit.is_some() {
+        sentences.push(format!("nearest to a limit: {}", f.nearest_limit_at));
+    }
+    if f.share_of_rating.is_some() {
+        sentences.push(format!(
+            "most loaded by its rating: {}",
+            f.share_of_rating_at
+        ));
+    }
+    let configuration = f.configuration.iter();
+    sentences.extend(configuration.map(|found| format!("configuration: {found}")));
+    let text: String = sentences.iter().map(|said| wrapped(said, 2)).collect();
+    match text.is_empty() {
+        true => text,
+        false => format!("\n{text}"),
+    }
 }
 
 /// What a force that is computed from the cut rests on.

@@ -9,7 +9,9 @@ use crate::checks::correction::corrections;
 use crate::checks::exceeded::Exceeded;
 use crate::checks::load::{loads, numbered, of_law};
 use crate::checks::tool::note_length;
+use crate::joints::figures::most_loaded;
 use crate::limits::{Beyond, Limits};
+use crate::result::joints::RatingPlace;
 use crate::result::point::{PointResult, most, place};
 use crate::task::{Task, kinds};
 use crate::warning::{Warning, WarningCode};
@@ -66,17 +68,21 @@ pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
     exceeded.found
 }
 
-/// Share of its rating that a drive carries at a place, the largest of all drives.
-fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<(f64, usize, usize)> {
-    let mut worst: Option<(f64, usize, usize)> = None;
-    for (drive, rating) in task.bounds.ratings.iter().enumerate() {
-        let Some(rating) = rating else { continue };
-        let load = |p: &PointResult| p.actuator_force.get(drive).map_or(0.0, |f| f.abs());
-        if let Some((force, at)) = most(points, load) {
-            let share = force / rating;
-            if worst.is_none_or(|(largest, ..)| share > largest || share.is_nan()) {
-                worst = Some((share, drive, at.line));
-            }
+/// Where a drive carries the largest share of its rating; none where no rating is known.
+pub(crate) fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<RatingPlace> {
+    let mut worst: Option<RatingPlace> = None;
+    for point in points {
+        let Some(drive) = most_loaded(&task.bounds.ratings, &point.actuator_force) else {
+            continue;
+        };
+        let share = drive.share_of_rating;
+        let larger = |w: RatingPlace| share > w.drive.share_of_rating || share.is_nan();
+        if worst.is_none_or(larger) {
+            worst = Some(RatingPlace {
+                line: point.line,
+                position_mm: point.position_mm,
+                drive,
+            });
         }
     }
     worst
@@ -84,7 +90,7 @@ fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<(f64, usiz
 
 /// The largest share of a rating; none where no rating is known.
 pub(crate) fn largest_share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<f64> {
-    share_of_rating(task, points).map(|(share, ..)| share)
+    share_of_rating(task, points).map(|worst| worst.drive.share_of_rating)
 }
 
 /// Figures of the answer that are beyond their limits.
@@ -100,7 +106,8 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
     };
     largest("tilt_deg", &|p| p.residual_rotation_deg);
     largest("share_of_buckling", &|p| p.share_to_buckling.unwrap_or(0.0));
-    if let Some((share, drive, line)) = share_of_rating(task, points) {
+    if let Some(worst) = share_of_rating(task, points) {
+        let (share, drive) = (worst.drive.share_of_rating, worst.drive.actuator);
         let name = task.mechanism.actuator_names().get(drive).cloned();
         let rating = task.bounds.ratings.get(drive).copied().flatten();
         let unit = match kinds(task.mechanism).nth(drive) {
@@ -113,7 +120,7 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
             short(share * rating.unwrap_or(f64::NAN)),
             short(rating.unwrap_or(f64::NAN)),
         );
-        exceeded.above("share_of_rating", share, Some(line), place);
+        exceeded.above("share_of_rating", share, Some(worst.line), place);
     }
     corrections(&mut exceeded, task, points);
     exceeded.found

@@ -5,6 +5,7 @@ use crate::number::{
     MISSING, Rounding, largest, largest_angle, largest_length, least, least_length, mean_length,
     share, significant, with_unit,
 };
+use crate::result::joints::LimitPlace;
 use crate::result::run_result::RunResult;
 
 /// The figures of a [`RunResult`], as [`crate::number`] writes them: largest values rounded up, least
@@ -43,6 +44,16 @@ pub struct Figures {
     pub stiffness: String,
     /// Largest share of the way to buckling; none where no limb can buckle.
     pub share_to_buckling: Option<String>,
+    /// Smallest distance of a joint to one of its limits; none where no joint has limits.
+    pub nearest_limit: Option<String>,
+    /// Which joint and end, and where: "joint 5, upper, line 12".
+    pub nearest_limit_at: String,
+    /// Largest force or torque of a drive as a share of its rating; none where the model states no rating.
+    pub share_of_rating: Option<String>,
+    /// Which drive, and where.
+    pub share_of_rating_at: String,
+    /// Configuration of an arm; none of other machines.
+    pub configuration: Option<String>,
     /// Largest force or torque of each actuator.
     pub actuator_force: Vec<String>,
     /// Largest change of each actuator.
@@ -70,6 +81,11 @@ impl Figures {
                 })
                 .collect()
         };
+        let joints = &result.joints;
+        let actuator = |index: usize| actuators.get(index);
+        let name = |index: usize| actuator(index).map_or("", |a| a.name.as_str());
+        let limit = joints.nearest_limit.as_ref();
+        let loaded = joints.most_loaded.as_ref();
         let above_zero = |value: f64| (value.is_finite() && value > 0.0).then_some(value);
         Self {
             error_before: largest_length(s.max_position_error_before_mm),
@@ -91,6 +107,23 @@ impl Figures {
             feed_length: with_unit(&significant(s.feed_length_mm, 5, Rounding::Nearest), "mm"),
             stiffness: least(s.smallest_stiffness_n_per_mm, "N/mm"),
             share_to_buckling: s.largest_share_to_buckling.map(share),
+            nearest_limit: limit.map(|found| {
+                let unit = actuator(found.limit.actuator).map_or("", |a| a.motion_unit.as_str());
+                least(found.limit.distance, unit)
+            }),
+            nearest_limit_at: limit.map_or_else(String::new, |found| {
+                let LimitPlace { line, limit, .. } = found;
+                format!(
+                    "{}, {} end, line {line}",
+                    name(limit.actuator),
+                    limit.end.word()
+                )
+            }),
+            share_of_rating: loaded.map(|found| share(found.drive.share_of_rating)),
+            share_of_rating_at: loaded.map_or_else(String::new, |found| {
+                format!("{}, line {}", name(found.drive.actuator), found.line)
+            }),
+            configuration: joints.configuration_text(),
             actuator_force: per(&s.max_actuator_force, |a| &a.force_unit),
             actuator_correction: per(&s.max_actuator_correction, |a| &a.motion_unit),
         }

@@ -4,6 +4,7 @@
 pub(crate) mod cutting;
 pub(crate) mod figures;
 pub(crate) mod force_band;
+pub(crate) mod joints;
 pub(crate) mod largest_change;
 pub(crate) mod point;
 pub(crate) mod run_inputs;

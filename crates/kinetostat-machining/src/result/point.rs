@@ -6,6 +6,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::placement::Placement;
+use crate::result::joints::{ArmConfiguration, MostLoaded, NearestLimit};
 
 /// What happens at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,6 +103,15 @@ pub struct PointResult {
     /// Change of every actuator by the compensation, mm or deg.
     #[serde(rename = "actuator_correction_mm_or_deg")]
     pub actuator_correction: Vec<f64>,
+    /// The joint that is nearest to one of its limits; none where no joint has limits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearest_limit: Option<NearestLimit>,
+    /// The drive that carries the largest share of its rating; none where the model states no rating.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub most_loaded: Option<MostLoaded>,
+    /// Configuration of an arm of six axes with a wrist in one point; none of other machines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub configuration: Option<ArmConfiguration>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest share of the way to buckling of any limb, mu; 1 is buckling.

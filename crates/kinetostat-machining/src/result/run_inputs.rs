@@ -43,6 +43,9 @@ pub struct RunInputs {
     pub tool: String,
     /// Actuators in the order of the per-actuator lists.
     pub actuators: Vec<ActuatorColumn>,
+    /// The machine is an arm of six axes with a wrist in one point, whose configuration is stated at every point.
+    #[serde(default)]
+    pub has_configuration: bool,
     /// Tolerance of the corrected path, mm.
     pub tolerance_mm: f64,
     /// Where this tolerance comes from, in words; empty where it is not known.
@@ -95,4 +98,18 @@ pub struct ActuatorColumn {
     pub motion_unit: String,
     /// `N` or `N m`.
     pub force_unit: String,
+    /// Smallest and largest command that is allowed, mm or deg; none where the model states none.
+    #[serde(
+        rename = "limits_mm_or_deg",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub limits: Option<[f64; 2]>,
+    /// Largest force or torque that the model states, N or N m.
+    #[serde(
+        rename = "rating_n_or_n_m",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub rating: Option<f64>,
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::near::NearSingular;
 use crate::result::cutting::CuttingResult;
 use crate::result::force_band::ForceBand;
+use crate::result::joints::JointsResult;
 use crate::result::point::PointResult;
 use crate::result::run_inputs::RunInputs;
 use crate::result::summary::Summary;
@@ -47,6 +48,9 @@ pub struct RunResult {
     /// [`Self::MAX_POSTURES`] places along it; none if no singular posture is near.
     #[serde(default)]
     pub near_singularity: Option<NearSingularPlace>,
+    /// Limits, ratings and configuration along the program.
+    #[serde(default)]
+    pub joints: JointsResult,
     /// Points along the path, at most [`Self::MAX_POINTS`] of them: in every stretch those with the
     /// largest and the smallest error before and after, and everywhere those that the summary is
     /// taken from; `points.csv` has all of them.

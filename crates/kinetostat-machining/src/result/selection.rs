@@ -54,6 +54,12 @@ fn extremes(points: &[PointResult]) -> Vec<usize> {
         farthest(points, |p| p.residual_rotation_deg),
         farthest(points, |p| -p.smallest_stiffness_n_per_mm),
         farthest(points, |p| p.share_to_buckling.unwrap_or(f64::NAN)),
+        farthest(points, |p| {
+            p.nearest_limit.map_or(f64::NAN, |l| -l.distance)
+        }),
+        farthest(points, |p| {
+            p.most_loaded.map_or(f64::NAN, |d| d.share_of_rating)
+        }),
         points.iter().position(|p| !p.stable),
     ];
     let actuators = points.first().map_or(0, |p| p.actuator_force.len());

@@ -25,6 +25,7 @@ use crate::run::largest_change::changes;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
+use crate::run::way_out::with_way_out;
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
 
@@ -48,6 +49,10 @@ fn has_motion(task: &Task<'_>) -> Result<(), RunError> {
 /// # Errors
 /// [`RunError`] naming the line; [`RunError::BeyondLimits`] where a load that no cutting has folds the machine over.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    analysed(task, watch).map_err(|error| with_way_out(task, error))
+}
+
+fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
     let looked = FirstLook::new(task, &load, watch)?;
@@ -72,6 +77,10 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// # Errors
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    compensated(task, watch).map_err(|error| with_way_out(task, error))
+}
+
+fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     refuse(of_task(task))?;
     has_motion(task)?;
     let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);

@@ -6,6 +6,7 @@ use kinetostat_program::{Corrected, Path};
 
 use crate::checks::refused::{as_warning, of_points, of_task};
 use crate::checks::unusual::unusual;
+use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
 use crate::result::point::{PointKind, PointResult};
@@ -18,10 +19,11 @@ use crate::run::checked::Checked;
 use crate::run::cutting::cutting_result;
 use crate::run::fast_change::changes_faster_than_stated;
 use crate::run::following::following;
+use crate::run::joints::{joints_result, posture_warning};
 use crate::run::nearest_singular::nearest_singular;
 use crate::run::summary::summarise;
 use crate::run::tolerance::tolerance;
-use crate::task::{Task, kinds};
+use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
 /// A run's result, all its points, and the written program.
@@ -66,7 +68,9 @@ pub(crate) fn conclude(
 ) -> Run {
     let summary = summarise(task, &points, written.as_ref(), checked);
     let near_singularity = nearest_singular(task, &points);
+    let joints = joints_result(task, &points);
     let mut warnings = warnings(task, load, &points, &summary, written.as_ref(), checked);
+    warnings.splice(0..0, posture_warning(task, &points, &joints));
     // Said first: near a singular posture every other figure is larger than elsewhere.
     if let Some(near) = &near_singularity {
         warnings.insert(0, near_singular_warning(near));
@@ -83,6 +87,7 @@ pub(crate) fn conclude(
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,
         near_singularity,
+        joints,
         points: Vec::new(),
     };
     result.tolerance = tolerance(&result, &points, written.as_ref(), &checked.ramps.too_fast);
@@ -119,19 +124,23 @@ fn run_inputs_of(
                 load_at_corners: tool.load.at_corners,
             })
             .collect(),
-        actuators: actuator_columns(task.mechanism),
+        actuators: actuator_columns(task),
+        has_configuration: points.iter().any(|p| p.configuration.is_some()),
         box_min_mm,
         box_max_mm,
         ..task.run_inputs.clone()
     }
 }
 
-/// Names and units of the lists that have one number per actuator.
-fn actuator_columns(mechanism: &Mechanism) -> Vec<ActuatorColumn> {
-    let names = mechanism.actuator_names().into_iter();
+/// Names, units, limits and ratings of the actuators.
+fn actuator_columns(task: &Task<'_>) -> Vec<ActuatorColumn> {
+    let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
+    let names = task.mechanism.actuator_names().into_iter();
+    let ratings = task.bounds.ratings.iter().copied();
     names
-        .zip(kinds(mechanism))
-        .map(|(name, kind)| {
+        .zip(figures.kinds().zip(figures.limits()))
+        .zip(ratings.chain(std::iter::repeat(None)))
+        .map(|((name, (kind, limits)), rating)| {
             let (motion, force) = match kind {
                 MotionKind::Prismatic => ("mm", "N"),
                 MotionKind::Revolute => ("deg", "N m"),
@@ -140,6 +149,8 @@ fn actuator_columns(mechanism: &Mechanism) -> Vec<ActuatorColumn> {
                 name,
                 motion_unit: motion.into(),
                 force_unit: force.into(),
+                limits,
+                rating,
             }
         })
         .collect()

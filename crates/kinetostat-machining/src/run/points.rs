@@ -3,10 +3,11 @@
 
 use kinetostat::batch::BatchEquilibrium;
 use kinetostat::chain::FoundBy;
-use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
+use kinetostat::{Error, MechanismEquilibrium, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::field::cause_and_advice;
+use crate::joints::figures::{JointFigures, in_display};
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
@@ -41,6 +42,7 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
     let mut points: Vec<PointResult> = Vec::with_capacity(total);
     let mut worse = None;
     let machines = Machines::new(task);
+    let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
     let mut sites = sites();
     loop {
         let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
@@ -58,7 +60,8 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
             })
         });
         for (site, point) in batch.iter().zip(solved) {
-            let point = point?;
+            let mut point = point?;
+            figures.fill(&mut point);
             worse = worse.or_else(|| worse_than_before(task, site, &point));
             points.push(point);
         }
@@ -185,6 +188,16 @@ impl Loaded {
     }
 }
 
+/// A change of a joint value without whole turns: of two values a turn apart, that stand for the same posture, a solution takes
+/// one as well as the other.
+fn change(kind: MotionKind, difference: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    match kind {
+        MotionKind::Prismatic => difference,
+        MotionKind::Revolute => difference - turn * (difference / turn).round(),
+    }
+}
+
 /// `before`: commands and pose of the tool without compensation, of a written program.
 fn point(
     task: &Task<'_>,
@@ -204,7 +217,7 @@ fn point(
             let both = after.commands.iter().zip(&nominal);
             let correction = both
                 .zip(kinds(task.mechanism))
-                .map(|((after, before), kind)| in_display(kind) * (after - before))
+                .map(|((after, before), kind)| in_display(kind) * change(kind, after - before))
                 .collect();
             (off(&tool), correction)
         }
@@ -245,18 +258,13 @@ fn point(
             .collect(),
         actuator_force: after.actuator_forces,
         actuator_correction,
+        nearest_limit: None,
+        most_loaded: None,
+        configuration: None,
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
         share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
         stable: after.stable,
         found_by: after.found_by,
-    }
-}
-
-/// Millimetres per metre or degrees per radian.
-fn in_display(kind: MotionKind) -> f64 {
-    match kind {
-        MotionKind::Prismatic => 1e3,
-        MotionKind::Revolute => 1_f64.to_degrees(),
     }
 }
 

@@ -12,6 +12,7 @@ mod again;
 mod cut_forces;
 mod force_band;
 mod internal;
+mod joints;
 mod load;
 mod map;
 mod measured_forces;

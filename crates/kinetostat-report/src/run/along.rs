@@ -142,7 +142,12 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
         }
     }
     share_spans(&mut panels);
-    grid(&panels, &along, sheet)
+    grid(
+        &panels,
+        &along,
+        sheet,
+        "Forces and corrections of the actuators along the path",
+    )
 }
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
@@ -330,7 +335,7 @@ fn stacked(
 }
 
 /// Small panels in two columns, or one on a narrow sheet.
-fn grid(panels: &[Panel], along: &Along, sheet: Sheet) -> String {
+pub(crate) fn grid(panels: &[Panel], along: &Along, sheet: Sheet, description: &str) -> String {
     if panels.is_empty() {
         return String::new();
     }
@@ -359,9 +364,5 @@ fn grid(panels: &[Panel], along: &Along, sheet: Sheet) -> String {
         panel.draw(&mut svg, frame, (left, left + title), along, numbered);
     }
     let total = rows as f64 * row_height + 34.0;
-    svg.inline(
-        sheet.class(),
-        (sheet.width(), total),
-        "Forces and corrections of the actuators along the path",
-    )
+    svg.inline(sheet.class(), (sheet.width(), total), description)
 }

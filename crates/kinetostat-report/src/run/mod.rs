@@ -8,6 +8,7 @@ pub(crate) mod cutting;
 pub(crate) mod engagement;
 pub(crate) mod facts;
 pub(crate) mod force_band;
+pub(crate) mod joints;
 pub(crate) mod meaning;
 pub(crate) mod page;
 pub(crate) mod plan;

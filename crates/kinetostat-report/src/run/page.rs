@@ -5,7 +5,7 @@ use minijinja::{Environment, Value, context};
 use crate::chart::panel::Sheet;
 use crate::number::{self, MISSING};
 use crate::run::shown::Shown;
-use crate::run::{along, cut_table, cutting, facts, meaning, plan};
+use crate::run::{along, cut_table, cutting, facts, joints, meaning, plan};
 use crate::text;
 
 /// The name ends in `.html`, which switches automatic escaping on.
@@ -52,6 +52,8 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         cutting => cut_table::cutting(result, figure(result, cutting::figure)),
         actuators => figure(result, along::actuators),
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
+        joints => figure(result, joints::figure),
+        joint_facts => joints::facts(result),
         stiffness => figure(result, along::stiffness),
         can_buckle => result.summary.largest_share_to_buckling.is_some(),
         worst => facts::worst(result),

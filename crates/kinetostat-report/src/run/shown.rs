@@ -69,6 +69,11 @@ pub(crate) fn in_type(result: &RunResult) -> Figures {
         feed_length: set(&plain.feed_length),
         stiffness: set(&plain.stiffness),
         share_to_buckling: maybe(&plain.share_to_buckling),
+        nearest_limit: maybe(&plain.nearest_limit),
+        nearest_limit_at: plain.nearest_limit_at.clone(),
+        share_of_rating: maybe(&plain.share_of_rating),
+        share_of_rating_at: plain.share_of_rating_at.clone(),
+        configuration: plain.configuration.clone(),
         actuator_force: list(&plain.actuator_force),
         actuator_correction: list(&plain.actuator_correction),
     }

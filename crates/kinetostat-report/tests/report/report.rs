@@ -209,6 +209,40 @@ fn how_fast_the_correction_changes_is_said() {
     assert!(page.contains("Steps where a rapid ends") && page.contains("2, longest"));
 }
 
+/// Joint values stand between the limits of the model, and a machine without limits, ratings and configuration has no such section.
+#[test]
+fn joint_values_stand_between_their_limits() {
+    const TITLE: &str = "How near the joints are to their limits";
+    let mut result = pocket_on_serial_robot(300);
+    assert!(!html(&result).unwrap().contains(TITLE));
+    let actuators = &mut result.run_inputs.actuators;
+    let names: Vec<String> = actuators.iter().map(|a| a.name.clone()).collect();
+    for actuator in actuators.iter_mut().skip(1) {
+        actuator.limits = Some([-123.0, 45.0]);
+    }
+    result.joints.ranges = vec![[-30.0, 30.0]; names.len()];
+    for (number, point) in result.points.iter_mut().enumerate() {
+        let value = 30.0 * (0.02 * number as f64).sin();
+        point.actuator_command = vec![value; names.len()];
+        point.actuator_command[1] = match number {
+            17 => f64::NAN,
+            _ => value,
+        };
+    }
+    let page = html(&result).unwrap();
+    assert_balanced("limits", &page);
+    assert!(page.contains(TITLE) && !page.contains("NaN"));
+    for name in &names {
+        let title = format!(">{name}: \u{2212}30 to 30");
+        assert!(page.contains(&title), "{title}");
+    }
+    // On the wide sheet and on the narrow one.
+    for limit in ["limit \u{2212}123", "limit 45"] {
+        let times = page.matches(&format!(">{limit}<")).count();
+        assert_eq!(times, 2 * (names.len() - 1), "{limit}");
+    }
+}
+
 #[test]
 fn worst_points_carry_line_numbers() {
     let result = pocket_on_serial_robot(4000);

@@ -27,6 +27,7 @@ fn actuator(name: &str, motion_unit: &str, force_unit: &str) -> ActuatorColumn {
         name: name.to_owned(),
         motion_unit: motion_unit.to_owned(),
         force_unit: force_unit.to_owned(),
+        ..ActuatorColumn::default()
     }
 }
 

@@ -1,0 +1,205 @@
+//! Which of its eight ways an arm takes to a pose, from its joint values.
+//!
+//! Six turning axes: 2 and 3 parallel, 1 at a right angle to them, and 4, 5, 6 through one point with right angles between
+//! neighbours. The determinant of such an arm's Jacobian is a product of three factors, one each of shoulder, elbow and wrist, and the
+//! sign of each is a flag of the configuration (Pieper 1968; Paul and Zhang, Int. J. Robotics Research 5(2), 1986).
+
+use std::f64::consts::TAU;
+
+use kinetostat::model::{Chain, Element, Role};
+use kinetostat::{Mechanism, MotionKind, Pose};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+
+use crate::result::joints::ArmConfiguration;
+
+/// Axes meet or are parallel that do so within this: a tenth of a millimetre per metre, as models from rounded figures have it.
+const CLOSE: f64 = 1e-4;
+
+/// An arm of six axes with a wrist in one point: how shoulder, elbow and wrist change with joint values.
+///
+/// Elbow and wrist turn with joints 3 and 5 alone. The wrist's centre moves in the arm's plane with joints 2 and 3, and what counts
+/// is how far it is from axis 1 in that plane: a sum of cosines and sines.
+#[derive(Clone, Debug)]
+pub(crate) struct Arm {
+    /// Joints 2, 3 and 5 at home, rad; joint 3 as it turns about axis 2.
+    home: [f64; 3],
+    /// 1 if axis 3 points as axis 2 does, -1 if against it.
+    third: f64,
+    /// Axis 2 off axis 1, m.
+    off: f64,
+    /// Upper arm and forearm (to the wrist's centre) at home: off axis 1, and the same a quarter turn on, m.
+    links: [[f64; 2]; 2],
+    /// Elbow and wrist at home, rad.
+    angles: [f64; 2],
+    /// Signs that make front, elbow up and a wrist that is not flipped positive.
+    signs: [f64; 3],
+}
+
+/// Axes of an arm at home: their directions and a point of each, base axes, m.
+struct Axes {
+    directions: [Vector3<f64>; 6],
+    points: [Vector3<f64>; 6],
+}
+
+impl Axes {
+    fn of(chain: &Chain) -> Option<Self> {
+        let joints = six_turning(chain)?;
+        let mut frame = Pose::identity();
+        let mut found = Self {
+            directions: [Vector3::zeros(); 6],
+            points: [Vector3::zeros(); 6],
+        };
+        let home = chain.home_commands();
+        for (joint, ((offset, axis), command)) in joints.iter().zip(home).enumerate() {
+            frame *= offset;
+            found.directions[joint] = frame.rotation * axis.into_inner();
+            found.points[joint] = frame.translation.vector;
+            frame *= UnitQuaternion::from_axis_angle(axis, command);
+        }
+        Some(found)
+    }
+
+    /// The point where axes 4, 5 and 6 meet; none if they do not within a distance, or if the angles are not those of an arm.
+    fn wrist(&self, reach: f64) -> Option<Vector3<f64>> {
+        let [first, second, third, fourth, fifth, sixth] = self.directions;
+        let square = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < CLOSE;
+        let angles = square(&first, &second)
+            && second.cross(&third).norm() < CLOSE
+            && square(&fourth, &fifth)
+            && square(&fifth, &sixth);
+        // Axis 5 is square to axis 4: where they meet is as far along axis 4 as any point of axis 5.
+        let centre = self.points[3] + fourth * (self.points[4] - self.points[3]).dot(&fourth);
+        let on = |axis: usize| {
+            let off = centre - self.points[axis];
+            off.cross(&self.directions[axis]).norm() < reach
+        };
+        (angles && on(4) && on(5)).then_some(centre)
+    }
+}
+
+impl Arm {
+    /// The arm that a machine is; none if it is another machine.
+    pub(crate) fn of(mechanism: &Mechanism) -> Option<Self> {
+        let [limb] = mechanism.limbs() else {
+            return None;
+        };
+        let axes = Axes::of(&limb.nominal)?;
+        let reach = CLOSE * mechanism.size();
+        let centre = axes.wrist(reach)?;
+        let [first, second, third, fourth, fifth, sixth] = axes.directions;
+        // Out of axis 1 in the arm's plane.
+        let out = second.cross(&first);
+        let upper_arm = axes.points[2] - axes.points[1];
+        let forearm = centre - axes.points[2];
+        let third = second.dot(&third).signum();
+        let commands = limb.nominal.home_commands();
+        let mut arm = Self {
+            home: [commands[1], third * commands[2], commands[4]],
+            third,
+            off: (axes.points[1] - axes.points[0]).dot(&out),
+            links: [upper_arm, forearm].map(|link| [link.dot(&out), second.cross(&link).dot(&out)]),
+            angles: [
+                angle_about(&second, &upper_arm, &forearm),
+                angle_about(&fifth, &fourth, &sixth),
+            ],
+            signs: [1.0; 3],
+        };
+        arm.signs = arm.signs_at_home(&axes, &commands, reach);
+        Some(arm)
+    }
+
+    /// Which signs mean front, up and not flipped.
+    fn signs_at_home(&self, axes: &Axes, commands: &[f64], reach: f64) -> [f64; 3] {
+        let sign = |value: f64, otherwise: f64| match value == 0.0 {
+            true => otherwise,
+            false => value.signum(),
+        };
+        let [first, second, ..] = axes.directions;
+        let front = match self.off.abs() > reach {
+            true => self.off.signum(),
+            false => sign(self.signed(commands)[0], 1.0),
+        };
+        let forward = second.cross(&first) * front;
+        // Along axis 1, away from the base.
+        let up = first * sign(axes.points[1].dot(&first), sign(first.z, 1.0));
+        // An elbow that is up bends the forearm about axis 2 as up turns to the front.
+        let bends = second.dot(&up.cross(&forward)).signum();
+        let [_, wrist] = self.angles;
+        let wrist = match wrist.abs() > CLOSE {
+            true => wrist.signum(),
+            false => 1.0,
+        };
+        [front, bends, wrist]
+    }
+
+    /// Shoulder, mm, elbow and wrist, deg, with the signs of the axes, at joint values, rad.
+    fn signed(&self, commands: &[f64]) -> [f64; 3] {
+        let &[_, second, third, _, fifth, _] = commands else {
+            return [f64::NAN; 3];
+        };
+        let [second, third, fifth] = [
+            second - self.home[0],
+            self.third * third - self.home[1],
+            fifth - self.home[2],
+        ];
+        let turned = |[along, across]: [f64; 2], angle: f64| {
+            let (sine, cosine) = angle.sin_cos();
+            along * cosine + across * sine
+        };
+        let [upper_arm, forearm] = self.links;
+        let out = self.off + turned(upper_arm, second) + turned(forearm, second + third);
+        let [elbow, wrist] = [self.angles[0] + third, self.angles[1] + fifth]
+            .map(|angle| (angle - TAU * (angle / TAU).round()).to_degrees());
+        [1e3 * out, elbow, wrist]
+    }
+
+    /// The configuration at joint values, rad; none if one of them is no number.
+    pub(crate) fn configuration(&self, commands: &[f64]) -> Option<ArmConfiguration> {
+        let signed = self.signed(commands);
+        let [shoulder, elbow, wrist] = [0, 1, 2].map(|k| self.signs[k] * signed[k]);
+        ArmConfiguration::of(shoulder, elbow, wrist)
+    }
+}
+
+/// Angle from one direction to another about an axis, rad.
+fn angle_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    let across = |v: &Vector3<f64>| v - axis * axis.dot(v);
+    let (from, to) = (across(from), across(to));
+    axis.dot(&from.cross(&to)).atan2(from.dot(&to))
+}
+
+/// An offset and the axis behind it.
+type Joint = (Pose, Unit<Vector3<f64>>);
+
+/// Offsets and axes of a chain of six commanded turns and nothing else that moves but springs.
+fn six_turning(chain: &Chain) -> Option<[Joint; 6]> {
+    let passive =
+        |index: usize| chain.coordinates().get(index).map(|c| c.role) != Some(Role::Spring);
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut offset = Pose::identity();
+    for element in chain.elements() {
+        let motion = match element {
+            Element::Rigid(pose) => {
+                offset *= pose;
+                continue;
+            }
+            Element::Node(_) => continue,
+            Element::Motion(motion) => motion,
+        };
+        if motion.coordinate.is_some_and(|drive| passive(drive.index)) {
+            return None;
+        }
+        let Some(command) = motion.command else {
+            continue;
+        };
+        let plain = command.ratio == 1.0 && command.index == joints.len();
+        if !plain || motion.kind != MotionKind::Revolute {
+            return None;
+        }
+        joints.push((
+            std::mem::replace(&mut offset, Pose::identity()),
+            motion.axis,
+        ));
+    }
+    joints.try_into().ok()
+}
