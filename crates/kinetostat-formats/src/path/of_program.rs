@@ -31,7 +31,7 @@ pub struct RobotPath {
     /// axes of the robot's base.
     pub work_object: Option<FrameUse>,
     /// The tools that poses are of, in the order in which they are first used; of several, [`Path::tool_changes`] names them by
-    /// [`tool_number`].
+    /// [`crate::tool_number`].
     pub tools: Vec<FrameUse>,
     /// The file with the motions, an index of [`RobotProgram::files`].
     pub file: usize,

@@ -3,7 +3,7 @@
 
 use kinetostat::batch::BatchEquilibrium;
 use kinetostat::chain::FoundBy;
-use kinetostat::{Error, MechanismEquilibrium, Pose, Posture, Wrench};
+use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::field::cause_and_advice;
