@@ -491,8 +491,8 @@ fn a_planted_limit_is_reported_with_line_and_way_out() {
     let (text, placement) = through(&home);
     let force = vector![0.0, 0.0, 50.0];
     let error = run(&mechanism, &text, placement, force, Vec::new())
-        .err()
-        .expect("a limit");
+        .map(|_| "a run")
+        .expect_err("a limit");
     let RunError::Point {
         line, ref message, ..
     } = error
