@@ -16,10 +16,7 @@ pub(crate) struct JointColumns {
 }
 
 /// Units of joints that slide and of those that turn, and their columns.
-const UNITS: [(&str, &str); 2] = [
-    ("mm", "distance_to_limit_mm"),
-    ("deg", "distance_to_limit_deg"),
-];
+const UNITS: [(&str, &str); 2] = [("mm", "limit_distance_mm"), ("deg", "limit_distance_deg")];
 
 impl JointColumns {
     pub(crate) fn of(run_inputs: &RunInputs) -> Self {
