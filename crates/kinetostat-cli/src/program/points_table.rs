@@ -85,6 +85,10 @@ fn header(run_inputs: &RunInputs, points: &[PointResult], listing: &Listing) -> 
     ] {
         header.extend(["x", "y", "z"].map(|axis| format!("{name}{axis}{unit}")));
     }
+    // Of the program, program axes from tool axes.
+    if run_inputs.states_orientation {
+        header.extend(["w", "x", "y", "z"].map(|part| format!("orientation_{part}")));
+    }
     header.push("residual_rotation_deg".into());
     // Of a machine whose orientation follows: how far the tool is turned from the one that was requested.
     if points.iter().any(|p| p.tool_turn_deg.is_some()) {
@@ -171,6 +175,12 @@ fn lines(
             (&point.moment_n_m, 5),
         ] {
             row.extend(vector.iter().map(|x| decimals(*x, most)));
+        }
+        if run_inputs.states_orientation {
+            let parts = point
+                .tool_orientation
+                .map(|parts| parts.map(|x| decimals(x, 7)));
+            row.extend(parts.unwrap_or_default());
         }
         row.push(decimals(point.residual_rotation_deg, 5));
         row.extend(point.tool_turn_deg.map(|turn| decimals(size(&turn), 5)));

@@ -66,6 +66,22 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     assert!(summary["max_position_error_after_mm"].as_f64().unwrap() < 0.02);
     let tilt = summary["max_residual_rotation_deg"].as_f64();
     assert!(tilt.is_none_or(|tilt| tilt < 1e-3), "{tilt:?}");
+    let table = read(here, "points.csv");
+    let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let w = columns
+        .iter()
+        .position(|name| *name == "orientation_w")
+        .unwrap();
+    for row in table.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let parts: Vec<f64> = cells[w..w + 4]
+            .iter()
+            .map(|cell| cell.parse().unwrap())
+            .collect();
+        let size: f64 = parts.iter().map(|part| part * part).sum();
+        assert!((size - 1.0).abs() < 1e-6, "{row}");
+    }
+    assert!(read(here, "r.html").contains("of the orientation in the program"));
     let quaternion = &out["points"][0]["tool_orientation"];
     assert_eq!(quaternion.as_array().map(Vec::len), Some(4));
     // It can be looked at again, and is not compensated a second time.

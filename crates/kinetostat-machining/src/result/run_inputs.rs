@@ -29,6 +29,12 @@ pub struct RunInputs {
     /// The stiffnesses of the model, one sentence for each spring or link.
     #[serde(default)]
     pub stiffnesses: Vec<String>,
+    /// The program states the orientation of its tool.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub states_orientation: bool,
+    /// It was corrected, too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub orientation_corrected: bool,
     /// Orientation of the tool in the base, in words.
     #[serde(default)]
     pub tool_orientation: String,

@@ -1,7 +1,7 @@
 //! The result of a run: its inputs, figures, warnings and points.
 
 use kinetostat::number::{larger, largest, largest_length, smaller};
-use kinetostat::{Mechanism, MotionKind};
+use kinetostat::{Directions, Mechanism, MotionKind};
 use kinetostat_program::{Corrected, Path};
 
 use crate::checks::refused::{as_warning, of_points, of_task};
@@ -117,6 +117,8 @@ fn run_inputs_of(
         chord_tolerance_mm: task.writing.chord_tolerance_mm,
         decimals: task.writing.decimals.unwrap_or(4),
         compensated,
+        states_orientation: task.path().moves.iter().any(|m| m.tool_turn.is_some()),
+        orientation_corrected: compensated && task.corrected == Directions::ALL,
         load_at_corners: task.load.at_corners,
         tools_at_corners: tools
             .map(|tool| ToolAtCorners {

@@ -41,6 +41,12 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
         ));
     }
     let (name, note) = match run_inputs.compensated {
+        true if run_inputs.orientation_corrected => {
+            ("Tilt that stays", "of the orientation in the program")
+        }
+        true if run_inputs.states_orientation => {
+            ("Tilt that stays", "not corrected; --correct pose does")
+        }
         true => ("Tilt that stays", "not corrected by positions"),
         false => ("Tilt of the tool", "largest along the path"),
     };

@@ -115,10 +115,15 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     }
     if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
         let angle = in_type(result).rotation;
-        meaning.sentence.push_str(&if result.run_inputs.compensated {
-            format!(" The tool stays tilted by up to {angle}, which a program of positions cannot correct.")
-        } else {
-            format!(" It tilts by up to {angle}.")
+        let inputs = &result.run_inputs;
+        let beside = match (inputs.orientation_corrected, inputs.states_orientation) {
+            (true, _) => "",
+            (false, true) => ", which --correct pose corrects, too",
+            (false, false) => ", which a program of positions cannot correct",
+        };
+        meaning.sentence.push_str(&match inputs.compensated {
+            true => format!(" The tool stays tilted by up to {angle}{beside}."),
+            false => format!(" It tilts by up to {angle}."),
         });
     }
     meaning
