@@ -283,7 +283,8 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, 
             before.speed.mm_per_s.unwrap_or(0.0) * piece.map_or(1.0, |piece| piece.speed_factor);
         // A speed that is stated and restored in a loop is not that of every way any more, as far as the reader looks.
         let stated = pieces.iter().any(|piece| piece.speed_factor != 1.0);
-        let open = after.speed.mm_per_s.is_none() && stated;
+        // And one that was known by two ways with different words may be known with the words of the restored one.
+        let open = stated && (after.speed.mm_per_s.is_none() || before.speed.mm_per_s.is_none());
         if !open && (after.speed.mm_per_s.unwrap_or(0.0) - speed).abs() > 1e-4 {
             return Err(format!("motion {index}: another speed"));
         }
