@@ -70,6 +70,8 @@ pub enum WarningCode {
     OddTool,
     /// A place of the part, or an angle of the job, that looks like one in another unit.
     OddPlacement,
+    /// The tool's axis that is stated, or usual, lies along the cut.
+    OddToolAxis,
     /// The program leaves the workspace that the model states.
     OutsideWorkspace,
     /// A place that the machine cannot take exactly: the nearest one is used.

@@ -192,3 +192,42 @@ fn dialects_are_shown_as_the_readers_have_them() {
     assert_eq!(wrong.code, 1);
     assert!(wrong.err.contains("there are: gcode, rapid"), "{wrong:?}");
 }
+
+#[test]
+fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned_of() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let put = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
+    let pose =
+        |x: f64, z: f64| format!("{{X {x:.3},Y 0.000,Z {z:.3},A 0.0,B 0.0,C 180.0,S 2,T 35}}");
+    put(
+        "slot.src",
+        &format!(
+            "DEF slot( )\n$BASE={{X 1800,Y 0,Z 900,A 0,B 0,C 0}}\n$TOOL={{X 0,Y 0,Z 180,A 0,B 0,C 0}}\n$VEL.CP=0.02\nPTP XIN\nLIN XDOWN C_DIS\nLIN {}\nEND\n",
+            pose(60.0, -1.0)
+        ),
+    );
+    put(
+        "slot.dat",
+        &format!(
+            "DEFDAT SLOT\nDECL E6POS XIN={}\nDECL E6POS XDOWN={}\nENDDAT\n",
+            pose(0.0, 20.0),
+            pose(0.0, -1.0)
+        ),
+    );
+    let line = "compensate --model heavy_6r --program slot.src --milling 300 -100 -50";
+    let said = run(here, &words(line)).answered();
+    // KUKA's usual axis is x of the tool, which lies along this cut.
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("the tool goes along its own axis"), "{flat}");
+    let data = read(here, "slot-compensated.dat");
+    assert!(data.starts_with("DEFDAT SLOT\nDECL E6POS XIN={X "));
+    assert!(!data.contains(&pose(0.0, -1.0)), "{data}");
+    put(
+        "job.toml",
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.src\"\n[load]\nmilling = { radial_n = 300, tangential_n = -100, axial_n = -50 }\n[robot]\ntool_axis = \"-z\"\n[output]\nprogram = \"z.src\"\n",
+    );
+    let said = run(here, &["compensate", "job.toml"]).answered();
+    assert!(!said.out.contains("along its own axis"), "{said:?}");
+    assert!(here.join("z.dat").is_file());
+}

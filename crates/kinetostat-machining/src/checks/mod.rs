@@ -11,4 +11,5 @@ pub(crate) mod own_weight;
 pub(crate) mod placement;
 pub(crate) mod refused;
 pub(crate) mod tool;
+pub(crate) mod tool_axis;
 pub(crate) mod unusual;

@@ -11,6 +11,7 @@ use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
+use crate::checks::tool_axis::odd_tool_axis;
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
 use crate::result::summary::Summary;
@@ -70,6 +71,7 @@ pub fn refused_question(task: &Task<'_>) -> Vec<Warning> {
 pub fn unusual_question(task: &Task<'_>) -> Vec<Warning> {
     let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(odd_tools(task));
+    list.extend(odd_tool_axis(task));
     list.extend(odd_tolerances(&task.writing));
     list
 }
@@ -94,6 +96,7 @@ pub(crate) fn unusual(
     let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(never_acts(task, points));
     list.extend(odd_tools(task));
+    list.extend(odd_tool_axis(task));
     list.extend(origin_in_metres(
         task.mechanism,
         &task.placement,
