@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
-use crate::job::output_paths::FLAT_PROGRAM;
+use crate::job::output_paths::{BESIDE, FLAT_PROGRAM};
 use crate::job::program;
 use crate::job::setting::Setting;
 use crate::program::flat_lines::{WithSources, listed_under, of_warnings};
@@ -88,6 +88,8 @@ pub(crate) fn from_map(
         claim("result", &t.json)?,
         claim(FLAT_PROGRAM, &t.flat)?,
     );
+    let further = t.beside.iter().map(|path| outputs.claim(BESIDE, path));
+    let further: Vec<usize> = further.collect::<Answer<_>>()?;
     let mut writing = setting.writing.clone();
     let name = map
         .file_name()
@@ -148,6 +150,9 @@ pub(crate) fn from_map(
     }
     if let Some(index) = out {
         outputs.fill(index, &written.bytes)?;
+    }
+    for (index, (_, bytes)) in further.iter().zip(&written.beside) {
+        outputs.fill(*index, bytes)?;
     }
     let paths = outputs.commit()?;
     let mut text = words(&result);

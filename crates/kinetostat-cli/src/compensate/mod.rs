@@ -131,6 +131,11 @@ fn job_after_json(args: &mut CompensateArgs) {
 
 /// The program as it was read.
 fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
+    if setting.robot.is_some() {
+        return Err(Failure::input(
+            "--no-compensation writes a program in G-code as it was read; a program of a robot would be its own copy: leave it where it is",
+        ));
+    }
     let refuse = |error| setting.within(Failure::input(error));
     let program = Program::read(setting.program.clone()).map_err(refuse)?;
     let mut outputs = Outputs::new(existing, setting.inputs.clone());

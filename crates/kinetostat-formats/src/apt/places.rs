@@ -64,9 +64,17 @@ pub(crate) fn work_object(frames: &Frames, system: Option<&Isometry3<f64>>) -> F
             name: "MSYS".to_owned(),
             frame: Frame::Known(part * system),
         },
-        (Some(_), None) => FrameUse {
-            name: "MSYS".to_owned(),
-            ..part
-        },
+        // Systems are told apart by where they are in the part.
+        (Some(system), None) if *system == Isometry3::identity() => part,
+        (Some(system), None) => {
+            let (at, turn) = (system.translation.vector, system.rotation.scaled_axis());
+            FrameUse {
+                name: format!(
+                    "MSYS at {:.4} {:.4} {:.4} turned by {:.6} {:.6} {:.6} rad",
+                    at.x, at.y, at.z, turn.x, turn.y, turn.z
+                ),
+                ..part
+            }
+        }
     }
 }

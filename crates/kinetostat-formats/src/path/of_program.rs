@@ -112,6 +112,29 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             "programs of five axes that state the axis alone are not corrected yet: give those of three axes, or write the program in the language of the robot",
         ));
     }
+    faults.extend(poses.iter().filter_map(|motion| {
+        let speed = motion
+            .speed
+            .mm_per_s
+            .filter(|speed| !(*speed > 0.0 && speed.is_finite()))?;
+        Some(fault(
+            motion,
+            format!("its speed is {speed} mm/s"),
+            "write a speed above zero",
+        ))
+    }));
+    faults.extend(program.motions.windows(2).filter_map(|pair| {
+        let [from, to] = [&pair[0], &pair[1]].map(|motion| motion.target.pose());
+        let way = to?.position_mm - from?.position_mm;
+        let closed = matches!(pair[1].kind, MotionKind::Circular { .. }) && way.norm() < 1e-6;
+        closed.then(|| {
+            fault(
+                &pair[1],
+                "a circle through a place that ends where it begins is no circle".to_owned(),
+                "write a full turn as two circular motions",
+            )
+        })
+    }));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -165,7 +188,11 @@ impl Maker<'_> {
         let mut warnings = Vec::new();
         let mut last: Option<Isometry3<f64>> = None;
         for (index, motion) in self.program.motions.iter().enumerate() {
-            let follows = index > 0 && motion.follows == Some(index - 1);
+            let before = index.checked_sub(1).map(|i| &self.program.motions[i]);
+            // Behind a change of tools the new tip is somewhere else.
+            let follows = motion.follows.is_some()
+                && motion.follows == index.checked_sub(1)
+                && before.is_some_and(|before| same_frame(&before.tool, &motion.tool));
             let start = last.filter(|_| follows);
             let made = self.made(motion, start, last.unwrap_or_default());
             if motion.runs == Runs::Elsewhere {
@@ -179,6 +206,47 @@ impl Maker<'_> {
             moves.push(made);
         }
         warnings.dedup_by(|b, a| a.text == b.text);
+        let begins =
+            |motion: &&Move| motion.known == Knowledge::End && motion.kind == MoveKind::Feed;
+        if let Some(first) = moves.iter().find(begins) {
+            warnings.push(Warning {
+                line: first.line,
+                text: format!(
+                    "where {} begins is not known, here first: behind another tool, behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
+                    match moves.iter().filter(begins).count() {
+                        1 => "1 motion at feed".to_owned(),
+                        n => format!("{n} motions at feed"),
+                    }
+                ),
+            });
+        }
+        if let Some(first) = moves.iter().find(|motion| motion.turns_in_place()) {
+            warnings.push(Warning {
+                line: first.line,
+                text: "the tool turns at one place, here first: it is corrected where it has turned, not on the way".to_owned(),
+            });
+        }
+        let slow = |motion: &&Motion| {
+            motion.kind != MotionKind::Joint
+                && motion.target.pose().is_some()
+                && motion.speed.mm_per_s.is_none()
+        };
+        let unknown = self.program.motions.iter().find(slow);
+        if let (Some(motion), Some(_)) = (unknown, self.options.rapid_from_mm_per_s) {
+            warnings.push(Warning {
+                line: motion.line,
+                text: format!(
+                    "the speed `{}` is not known, here first: such motions are taken to cut",
+                    motion.speed.text
+                ),
+            });
+        }
+        if self.in_base {
+            warnings.push(Warning {
+                line: 1,
+                text: "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned(),
+            });
+        }
         for finding in &self.program.findings {
             warnings.push(Warning {
                 line: finding.line,
@@ -224,7 +292,15 @@ impl Maker<'_> {
             }
             _ => Curve::Line,
         };
-        let fast = |limit: f64| motion.speed.mm_per_s.is_some_and(|speed| speed >= limit);
+        // From where it comes is not known: it has no direction.
+        let a = match known {
+            Knowledge::Whole => a,
+            _ => b,
+        };
+        let fast = |limit: f64| {
+            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
+            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
+        };
         // APT says it beside the motion.
         let said = self.program.language == Language::Apt
             && motion.speed.text.to_ascii_uppercase().starts_with("RAPID");

@@ -243,18 +243,18 @@ impl WayOut {
     /// let mut way = kinetostat_machining::WayOut::default();
     /// assert!(way.description().starts_with("No turn of the tool"));
     /// way.turn_about_tool_axis_deg = Some(-35.0);
-    /// assert!(way.description().starts_with("With the tool turned by -35 deg about its own z axis"));
+    /// assert!(way.description().starts_with("With the tool turned by -35 deg about its own axis"));
     /// ```
     #[must_use]
     pub fn description(&self) -> String {
         match self.turn_about_tool_axis_deg {
             Some(turn) => format!(
-                "With the tool turned by {turn:.0} deg about its own z axis along the whole program, which a round tool does not \
+                "With the tool turned by {turn:.0} deg about its own axis along the whole program, which a round tool does not \
                  notice, the {} looked at are reached inside the limits in one configuration (turn the orientation of the tool, \
                  tool_orientation)",
                 counted(self.places, "place")
             ),
-            None => "No turn of the tool about its own z axis in steps of 5 deg keeps limits and configuration along the whole \
+            None => "No turn of the tool about its own axis in steps of 5 deg keeps limits and configuration along the whole \
                      program: move the part (part_origin_mm), or divide the program"
                 .to_owned(),
         }

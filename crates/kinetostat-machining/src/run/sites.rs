@@ -149,6 +149,7 @@ pub(crate) fn of_path<'a>(
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => Vec::new(),
             (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
+            _ if motion.turns_in_place() => vec![site((1.0, true))],
             (Knowledge::Whole, MoveKind::Feed) if !motion.has_length() => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let start = jumps(path, load, placement, i).then_some((0.0, false));
@@ -184,7 +185,8 @@ pub(crate) fn of_written<'a>(
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
-        let stays = motion.known == Knowledge::Whole && !motion.has_length();
+        let turns = motion.turns_in_place();
+        let stays = motion.known == Knowledge::Whole && !motion.has_length() && !turns;
         if !piece.corrected || motion.known == Knowledge::Nothing || stays {
             return sites;
         }
@@ -244,7 +246,7 @@ pub(crate) fn of_written<'a>(
         };
         // At the end of a move every program is looked at.
         let mut at_end = piece.share_to >= 1.0;
-        if motion.is_known_feed() {
+        if motion.is_known_feed() && !turns {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
             let mut places: Vec<(f64, f64, bool)> = (0..count)

@@ -2,7 +2,7 @@
 
 use kinetostat::{Error, Pose, Posture};
 use kinetostat_program::WriteError;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use crate::joints::arm::Arm;
@@ -83,7 +83,12 @@ pub(crate) fn way_out(task: &Task<'_>, arm: &Arm, places: &Places) -> WayOut {
 }
 
 fn keeps(task: &Task<'_>, arm: &Arm, places: &Places, turn_deg: f64) -> bool {
-    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn_deg.to_radians());
+    let path = task.path();
+    let axis = match path.moves.iter().any(|motion| motion.tool_turn.is_some()) {
+        true => Unit::new_normalize(path.tool_axis),
+        false => Vector3::z_axis(),
+    };
+    let turn = UnitQuaternion::from_axis_angle(&axis, turn_deg.to_radians());
     let posture = |(line, pose): &(usize, Pose)| -> Option<Posture> {
         let posture = task.mechanism_on(*line).posture(&(pose * turn)).ok()?;
         posture.within_limits().ok().map(|()| posture)

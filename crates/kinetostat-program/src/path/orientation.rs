@@ -19,6 +19,22 @@ impl Move {
     pub fn orientation(&self, share: f64) -> Option<UnitQuaternion<f64>> {
         self.tool_turn.as_ref().map(|turn| turn.at(share))
     }
+
+    /// Whether the tool stands at one place and turns there: the move has no length, and two orientations.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG1 X0 F600\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// assert!(!path.moves[1].turns_in_place()); // it stands
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn turns_in_place(&self) -> bool {
+        let turn = self.tool_turn.as_ref();
+        !self.has_length() && turn.is_some_and(|turn| turn.start.angle_to(&turn.end) > 1e-6)
+    }
 }
 
 impl Path {

@@ -43,8 +43,8 @@ pub(crate) fn is_divided(motion: &Move) -> bool {
 
 /// Whether only the end of a move is corrected: rapids, and moves from an unknown place.
 pub(crate) fn is_corrected_at_end(motion: &Move) -> bool {
-    motion.known == Knowledge::End
-        || motion.known == Knowledge::Whole && motion.kind == MoveKind::Rapid
+    let at_once = motion.kind == MoveKind::Rapid || motion.turns_in_place();
+    motion.known == Knowledge::End || motion.known == Knowledge::Whole && at_once
 }
 
 /// Where the first piece of a move begins: at its own first correction, or at the last one before it

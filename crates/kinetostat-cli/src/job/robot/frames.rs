@@ -2,7 +2,7 @@
 
 use kinetostat::Pose;
 use kinetostat_formats::{FrameUse, tool_number};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::job::robot::read_program::RobotRead;
 
@@ -14,6 +14,8 @@ pub(crate) struct RobotFrames {
     /// Name of the work object in whose axes the path is, and where it is in the robot's base, m; `None`: the path is in axes of
     /// the base.
     pub(crate) work_object: Option<(String, Option<Pose>)>,
+    /// From the tool's tip to its holder, in axes of the tool.
+    pub(crate) tool_axis: Vector3<f64>,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,
 }
@@ -29,6 +31,7 @@ impl RobotFrames {
                 })
                 .collect(),
             work_object: read.path.work_object.as_ref().map(named),
+            tool_axis: read.path.path.tool_axis,
             states_orientation: (read.path.path.moves.iter())
                 .any(|motion| motion.tool_turn.is_some()),
         }

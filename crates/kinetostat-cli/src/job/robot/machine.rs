@@ -2,6 +2,7 @@
 
 use kinetostat::{Mechanism, Pose};
 use kinetostat_machining::{Placement, ProgramLoad, ToolGiven};
+use nalgebra::Vector3;
 
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
@@ -15,6 +16,17 @@ const SAME: f64 = 1e-6;
 fn differ(a: &Pose, b: &Pose) -> bool {
     (a.translation.vector - b.translation.vector).norm() > SAME
         || a.rotation.angle_to(&b.rotation) > SAME
+}
+
+/// The axis of a tool in words, `-z` or its parts.
+fn axis_words(axis: &Vector3<f64>) -> String {
+    let named = [("x", axis.x), ("y", axis.y), ("z", axis.z)];
+    let whole = named.iter().find(|(_, part)| part.abs() > 1.0 - 1e-9);
+    match whole {
+        Some((name, part)) if *part < 0.0 => format!("-{name}"),
+        Some((name, _)) => (*name).to_owned(),
+        None => format!("({}, {}, {})", short(axis.x), short(axis.y), short(axis.z)),
+    }
 }
 
 fn words(name: &str, pose: &Pose) -> String {
@@ -50,7 +62,16 @@ pub(crate) fn tool_of_robot(
                 words(name, pose)
             )))
         }
-        Some((_, name, Some(pose))) => Ok((*pose, words(name, pose))),
+        Some((_, name, Some(pose))) => {
+            let axis = axis_words(&frames.tool_axis);
+            Ok((
+                *pose,
+                format!(
+                    "{}; its axis from tip to holder is {axis} of its frame",
+                    words(name, pose)
+                ),
+            ))
+        }
     }
 }
 
@@ -111,6 +132,9 @@ pub(crate) fn placement_of_robot(
             "the program has several work objects, and says where they are: leave out part_origin_mm and part_orientation",
         )),
         None => Ok(in_base(Pose::identity())),
+        Some((name, None)) if name.starts_with("MSYS") => Err(Failure::input(format!(
+            "the places of the program count from {name} in the part, and where the part is in the base is not stated so that this counts: state it as  frames.PART = {{ position_mm = [...] }}  under [robot] in the job file, and leave part_origin_mm out"
+        ))),
         Some((_, None)) if is_stated || !frames.states_orientation => Ok(stated),
         Some((name, None)) => Err(Failure::input(format!(
             "the program does not say where its work object `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or part_origin_mm under [placement]"
