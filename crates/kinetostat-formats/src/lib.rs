@@ -63,6 +63,7 @@ pub use ls::table::LS_STATEMENTS;
 pub use model::frame::{Frame, FrameUse};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};
+pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
     CutterCompensation, ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions,

@@ -63,8 +63,8 @@ pub struct ReadOptions {
 /// Where a motion that is written as several pieces stops, if it stops at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExactStops {
-    /// At its end alone: the pieces before pass their ends by the controller's smallest zone (RAPID: `z0`, 0.3 mm;
-    /// KRL: `C_DIS`, within the distance in force).
+    /// At its end alone: the pieces before pass their ends (RAPID: the smallest zone `z0`, 0.3 mm; KRL: `C_DIS`, within the
+    /// distance in force; FANUC: `CNT100`, since the arm comes to rest at `CNT0`).
     #[default]
     AtEnd,
     /// At the end of every piece: zones are copied as written.

@@ -30,6 +30,8 @@ pub enum WarningCode {
     NearSingular,
     /// A feed motion in which an arm changes its configuration, or passes beside a singular posture.
     PostureChanges,
+    /// The program states another configuration of the arm than that in which the model reaches the place.
+    OtherConfiguration,
     /// More blocks per second than the controller takes.
     BlocksPerSecond,
     /// A figure beyond a limit, in an analysis that writes no program.

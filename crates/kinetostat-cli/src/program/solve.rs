@@ -12,6 +12,7 @@ use kinetostat_program::{MachineProgram, Path as ToolPath};
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
+use crate::job::robot::configuration::other_configuration;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
@@ -181,6 +182,10 @@ pub(crate) fn solve(
     })?;
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
+    if let ReadProgram::Robot(read) = &read {
+        let other = other_configuration(&read.program, &read.path, &run.points);
+        run.result.warnings.extend(other);
+    }
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second
         && most > limit

@@ -86,7 +86,7 @@ fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
         } else if name.is("CA") {
             return Err((
                 "the angle CA lets the circle end elsewhere than at its end point".to_owned(),
-                "write the circle with the point at which it ends, without CA",
+                "write the circle with the point at which it ends, without CA: a full turn as two of them",
             ));
         } else {
             return Err(inline_form());

@@ -153,7 +153,8 @@ impl Syntax for LsSyntax {
         if let (Some(zone), Zone::Exact, ExactStops::AtEnd) =
             (&site.zone, motion.zone, options.exact_stops)
         {
-            edits.replace(zone.clone(), "CNT0");
+            // With CNT0 the arm would come to rest at every piece; where pieces meet the path hardly turns.
+            edits.replace(zone.clone(), "CNT100");
         }
         edits.applied_to_part(file.bytes(), &motion.span)
     }

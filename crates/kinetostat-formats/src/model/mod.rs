@@ -8,4 +8,5 @@ pub(crate) mod motion;
 pub(crate) mod orientation;
 pub(crate) mod program;
 pub(crate) mod site;
+pub(crate) mod stated_arm;
 pub(crate) mod target;

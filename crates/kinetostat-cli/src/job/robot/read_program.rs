@@ -5,6 +5,7 @@ use kinetostat_formats::{Correctable, RobotPath, RobotProgram, path_of, read};
 
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
+use crate::job::robot::stated_frames::warnings;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 
@@ -39,7 +40,7 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
     let settings = &source.settings;
     let program = read(source.language, source.files.clone(), &settings.reading)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
-    let path = path_of(&program, &settings.making)
+    let mut path = path_of(&program, &settings.making)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
     if path.file != 0 {
         let name = program.files[path.file].name();
@@ -47,6 +48,7 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
             "the motions stand in '{name}': give that file as the program, and this one among files under [robot]"
         )));
     }
+    path.path.warnings.extend(warnings(source, &program));
     Ok(RobotRead {
         program,
         path,

@@ -71,7 +71,7 @@ fn pieces_are_lines_and_positions_and_all_lines_are_numbered_again() {
     let output = written(&program, &pieces);
     assert!(output.contains("LINE_COUNT\t= 11;"));
     assert!(output.contains(
-        "   2:L P[5] 20mm/sec CNT0 PTH    ;\n   3:L P[6] 20mm/sec CNT0 PTH    ;\n   4:L P[2] 20mm/sec FINE PTH    ;\n   5:  ! nothing ;\n"
+        "   2:L P[5] 20mm/sec CNT100 PTH    ;\n   3:L P[6] 20mm/sec CNT100 PTH    ;\n   4:L P[2] 20mm/sec FINE PTH    ;\n   5:  ! nothing ;\n"
     ));
     assert!(output.contains("\n  10:  ! nothing ;\n  11:  ! nothing ;\n/POS\n"));
     let end = format!(

@@ -106,6 +106,12 @@ impl<'l> Cursor<'l> {
         })
     }
 
+    /// What may stand behind the sign of an assignment: Fanuc's controllers take operations without brackets there, and nothing
+    /// else could be meant elsewhere.
+    pub fn assigned(&mut self) -> Read<Expression> {
+        self.deeper(|cursor| cursor.operations(0))
+    }
+
     /// `[ ... ]`.
     pub fn bracketed(&mut self) -> Read<Expression> {
         self.expect(b'[', "before an expression")?;

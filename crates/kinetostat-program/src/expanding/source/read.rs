@@ -180,7 +180,7 @@ fn fanuc(cursor: &mut Cursor<'_>) -> Result<Option<Statement>, Malformed> {
             if !cursor.take("=") {
                 return Err(cursor.malformed("THEN needs an assignment, as in #1 = 2"));
             }
-            let value = cursor.value()?;
+            let value = cursor.assigned()?;
             return Ok(Some(Statement::Then(condition, parameter, value)));
         }
         return Err(cursor.malformed("IF [...] needs GOTO or THEN"));
@@ -222,7 +222,7 @@ fn block(text: &[u8]) -> Result<Option<Statement>, Malformed> {
                 if !cursor.take("=") {
                     return Err(cursor.malformed("a parameter without a letter needs ="));
                 }
-                pieces.push(Piece::Assignment(parameter, cursor.value()?));
+                pieces.push(Piece::Assignment(parameter, cursor.assigned()?));
                 kept = cursor.at();
             }
             b'O' if !pieces.is_empty() => {
