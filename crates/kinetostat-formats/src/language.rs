@@ -5,6 +5,55 @@ use crate::model::program::Language;
 /// Bytes of a file that are looked at for its language.
 const LOOKED_AT: usize = 1 << 16;
 
+/// Endings that no file in G-code has, and what a file of the language holds.
+const OWN_ENDINGS: [(&[&str], &str, &str); 4] = [
+    (&["mod", "modx"], "RAPID", "MODULE"),
+    (&["src"], "KRL", "DEF"),
+    (&["ls"], "FANUC", "/PROG"),
+    (&["apt", "aptsource", "cls", "cldata"], "APT", "GOTO"),
+];
+
+/// Words in which a language differs from G-code, and the ending that its files have.
+const OWN_WORDS: [(&str, &str, &str); 4] = [
+    ("ENDMODULE", "RAPID", "mod"),
+    ("ENDDAT", "KRL", "dat"),
+    ("&ACCESS", "KRL", "src"),
+    ("/PROG", "FANUC", "ls"),
+];
+
+/// Why a file that [`language_of`] does not know is hardly G-code, and what to do; `None` where it may be.
+///
+/// ```
+/// use kinetostat_formats::odd_program;
+///
+/// assert!(odd_program("slot.mod", b"").unwrap().contains("`MODULE`"));
+/// assert!(odd_program("slot.txt", b"MODULE A\nENDMODULE\n").unwrap().contains(".mod"));
+/// assert_eq!(odd_program("part.nc", b"G21 G90\n"), None);
+/// ```
+#[must_use]
+pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
+    let ending = name
+        .rsplit_once('.')
+        .map(|(_, ending)| ending.to_ascii_lowercase());
+    let by_ending = OWN_ENDINGS
+        .iter()
+        .find(|(endings, _, _)| ending.as_deref().is_some_and(|e| endings.contains(&e)));
+    if let Some((_, language, word)) = by_ending {
+        return Some(format!(
+            "its ending is that of {language}, and no `{word}` stands in it: give the program as the controller saves it"
+        ));
+    }
+    let beginning = bytes[..bytes.len().min(LOOKED_AT)].to_ascii_uppercase();
+    let holds = |word: &str| {
+        let mut parts = beginning.windows(word.len());
+        parts.any(|part| part == word.as_bytes())
+    };
+    let (_, language, ending) = OWN_WORDS.iter().find(|(word, _, _)| holds(word))?;
+    Some(format!(
+        "it looks like {language}, and its ending is not .{ending}: give the file that ending"
+    ))
+}
+
 /// The language of a file by the ending of its name and what stands in it; `None` where it is none of these languages.
 ///
 /// ```

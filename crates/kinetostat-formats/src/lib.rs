@@ -57,7 +57,7 @@ pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
 pub use krl::reader::read_krl;
 pub use krl::table::KRL_STATEMENTS;
-pub use language::language_of;
+pub use language::{language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
 pub use model::frame::{Frame, FrameUse};

@@ -6,9 +6,9 @@ use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    FlatProgram, RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning, WarningCode,
-    correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
-    unchanged_text, wide_table,
+    FlatProgram, NoMotion, RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning,
+    WarningCode, correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program,
+    of_table, unchanged_text, wide_table,
 };
 use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
 use serde::Serialize;
@@ -74,6 +74,10 @@ pub(crate) fn from_map(
     let field = read_table(files, map)?;
     let read = program::read_program(setting)?;
     let path = read.path();
+    if path.moves.is_empty() {
+        let none = RunError::NoMotion(NoMotion::NoMoves);
+        return Err(setting.within(Failure::from(none)));
+    }
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());
     let mut outputs = Outputs::new(existing, inputs);

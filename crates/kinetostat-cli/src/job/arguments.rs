@@ -29,7 +29,7 @@ pub(crate) struct RunArgs {
 /// Options of a run along a program, shared by `compensate` and `deflect`.
 #[derive(Debug, Default, Args)]
 pub(crate) struct ProgramArgs {
-    /// Program: G-code, or of a robot (RAPID .mod .prg)
+    /// Program: G-code, or of a robot (`kinetostat dialect list`)
     #[arg(long, short, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Distance of the tool's tip along z of the flange, mm

@@ -28,6 +28,18 @@ pub(crate) struct RobotTable {
     pub external_axes: Option<ExternalAxesWord>,
     /// What becomes of motions to ends that are not known from the text.
     pub unknown_targets: Option<UnknownTargetsWord>,
+    /// What becomes of paths that the controller moves aside by the tool's radius.
+    pub cutter_compensation: Option<CutterCompensationWord>,
+}
+
+/// Paths that the controller moves aside by the tool's radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CutterCompensationWord {
+    /// They are refused by line.
+    Refused,
+    /// Their places are those of the tool's centre.
+    CentrePath,
 }
 
 /// External axes that move.

@@ -69,7 +69,7 @@ impl Setting {
         let Some(source) = &self.robot else {
             return Ok(None);
         };
-        let read = read_robot(source).map_err(|failure| self.within(failure))?;
+        let read = read_robot(source)?;
         Ok(Some(RobotFrames::of(&read)))
     }
 
@@ -118,7 +118,7 @@ pub(crate) fn setting(
     let program = files.bytes("program", &path)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
-    let robot = robot_source(files, job, &flags.robot, named)?;
+    let robot = robot_source(files, job, flags, named)?;
     let robot = robot.map(|(source, read)| {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());

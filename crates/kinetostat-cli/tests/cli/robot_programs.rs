@@ -140,6 +140,14 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
             "the place of the part is stated twice",
         ),
         ("--expand", "are for G-code"),
+        ("--units mm", "--units is for G-code"),
+        ("--work-offset G54=0,0,0", "--work-offset is for G-code"),
+        ("--scale 2", "is for G-code"),
+        (
+            "--tool-orientation a_b_c_kuka_deg=0,0,0",
+            "the program states the orientation of its tool",
+        ),
+        ("--no-compensation", "would be its own copy"),
     ] {
         let said = run(here, &words(&format!("{RUN} {more}")));
         assert_eq!(said.code, 1, "{more}");
@@ -156,6 +164,84 @@ fn contradictions_and_what_belongs_to_g_code_are_refused_with_what_to_do() {
     );
     assert_eq!(said.code, 1);
     assert!(said.err.contains("--correct"), "{said:?}");
+}
+
+#[test]
+fn another_configuration_than_the_model_s_is_warned_of() {
+    // The model's arm mills in front, with the elbow up, throughout.
+    for (stated, expected) in [
+        (
+            SLOT.replace("[0,0,0,0],[9E9", "[0,0,0,4],[9E9"),
+            "line 6: the program states the configuration `[0,0,0,4]`",
+        ),
+        (
+            SLOT.replacen(
+                "[[60,0,-1],[0,0,1,0],[0,0,0,0]",
+                "[[60,0,-1],[0,0,1,0],[0,0,0,2]",
+                1,
+            ),
+            "after `[0,0,0,0]` and front, elbow up, wrist not flipped on line 6",
+        ),
+        // Where all stay to one side of elbow and wrist nothing can be said.
+        (SLOT.replace("[0,0,0,0],[9E9", "[0,0,0,3],[9E9"), ""),
+    ] {
+        let here = place(&stated);
+        let said = run(here.path(), &words(RUN)).answered();
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        match expected {
+            "" => assert!(!flat.contains("states the configuration"), "{flat}"),
+            expected => assert!(flat.contains(expected), "{flat}"),
+        }
+    }
+}
+
+#[test]
+fn frames_of_the_job_that_fit_no_motion_or_contradict_the_program_are_warned_of() {
+    let here = place(SLOT);
+    let here = here.path();
+    let job = "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"slot.mod\"\n[load]\nforce_n = [0, 0, 100]\n[robot.frames]\ntMil = { position_mm = [0, 0, 180] }\nwPart = { position_mm = [1800, 0, 910] }\n";
+    std::fs::write(here.join("job.toml"), job).unwrap();
+    let said = run(here, &["compensate", "job.toml"]).answered();
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for expected in [
+        "frames.\"tMil\" under [robot] is no tool or work object",
+        "`wPart` of the job, under [robot.frames], is not what the program says it is, 10 mm away",
+    ] {
+        assert!(flat.contains(expected), "{flat}");
+    }
+}
+
+#[test]
+fn files_that_are_no_program_say_what_they_are() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    for (name, text, expected) in [
+        ("slot.mod", "", "no `MODULE` stands in it"),
+        ("slot.txt", SLOT, "it looks like RAPID"),
+        ("slot.dat", "DEFDAT SLOT\nENDDAT\n", "give its .src"),
+    ] {
+        std::fs::write(here.join(name), text).unwrap();
+        let line = format!("deflect heavy_6r --program {name} --force 0 0 1");
+        let said = run(here, &words(&line));
+        assert_eq!(said.code, 1);
+        assert!(said.err.replace('\n', " ").contains(expected), "{said:?}");
+    }
+}
+
+#[test]
+fn remedies_name_the_keys_of_the_job_file() {
+    let text = SLOT.replace("    MoveJ pIn,", "    MoveJ pOut,");
+    let here = place(&text.replace(
+        "PROC main()",
+        "VAR robtarget pOut;\n  PROC main()\n    pOut:=CRobT();",
+    ));
+    let said = run(here.path(), &words(RUN));
+    assert_eq!(said.code, 1);
+    assert!(
+        said.err.contains("unknown_targets = \"left_as_written\""),
+        "{said:?}"
+    );
+    assert!(!said.err.contains("slot.mod: slot.mod"), "{said:?}");
 }
 
 #[test]

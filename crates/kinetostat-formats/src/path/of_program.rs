@@ -16,6 +16,12 @@ use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
 use crate::path::tools::{changes, same_frame, tools_of};
 
+/// So many places say whether a program is small, ...
+const SEVERAL: usize = 8;
+
+/// ... as one of 3 m in metres is where its lengths are taken for millimetres.
+const METRES_AS_MM: f64 = 3.0;
+
 /// The path of a robot's program, and in which axes it is.
 ///
 /// Motions with poses are moves; those to joint values are moves of which nothing is known, and so is the start of what
@@ -241,6 +247,12 @@ impl Maker<'_> {
                 ),
             });
         }
+        if let Some(line) = self.tiny() {
+            warnings.push(Warning {
+                line,
+                text: "all places of the program lie within 3 mm of each other: are its lengths in metres? They are taken for millimetres".to_owned(),
+            });
+        }
         if self.in_base {
             warnings.push(Warning {
                 line: 1,
@@ -256,6 +268,23 @@ impl Maker<'_> {
         let mut path = Path::of_moves(moves, self.options.tool_axis);
         path.warnings = warnings;
         path
+    }
+
+    /// Line of the first of many places that lie as near to each other as those of a program in metres.
+    fn tiny(&self) -> Option<usize> {
+        let places = self.program.motions.iter().filter_map(|motion| {
+            let pose = self.pose(motion, &motion.target)?;
+            Some((motion.line, pose.translation.vector))
+        });
+        let (mut count, mut first) = (0, None);
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
+        for (line, place) in places {
+            count += 1;
+            first.get_or_insert(line);
+            (low, high) = (low.inf(&place), high.sup(&place));
+        }
+        let spread = (high - low).amax();
+        first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
     }
 
     fn made(&self, motion: &Motion, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {

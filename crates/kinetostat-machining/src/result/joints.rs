@@ -250,8 +250,8 @@ impl WayOut {
         match self.turn_about_tool_axis_deg {
             Some(turn) => format!(
                 "With the tool turned by {turn:.0} deg about its own axis along the whole program, which a round tool does not \
-                 notice, the {} looked at are reached inside the limits in one configuration (turn the orientation of the tool, \
-                 tool_orientation)",
+                 notice, the {} looked at are reached inside the limits in one configuration (turn tool_orientation; \
+                 where the program states the orientation, turn the frame of its tool)",
                 counted(self.places, "place")
             ),
             None => "No turn of the tool about its own axis in steps of 5 deg keeps limits and configuration along the whole \

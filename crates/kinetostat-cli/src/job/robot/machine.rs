@@ -117,6 +117,13 @@ pub(crate) fn placement_of_robot(
             "the machine turns its tool as it moves (orientation follows), and the program states the orientation of its tool: give a program of positions",
         ));
     }
+    let is_tool_stated = flags.tool_orientation.is_some()
+        || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());
+    if is_tool_stated && frames.states_orientation {
+        return Err(Failure::input(
+            "the program states the orientation of its tool: leave out tool_orientation under [placement] (--tool-orientation); to turn the tool about its axis, turn its frame under [robot.frames]",
+        ));
+    }
     let is_stated = flags.part_origin_mm.is_some()
         || flags.part_orientation.is_some()
         || job.is_some_and(|j| {

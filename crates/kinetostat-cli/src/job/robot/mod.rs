@@ -10,3 +10,4 @@ pub(crate) mod read_program;
 pub(crate) mod settings;
 pub(crate) mod source;
 mod stated_frames;
+mod unfit_options;

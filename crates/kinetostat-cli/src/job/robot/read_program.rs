@@ -56,9 +56,41 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
     })
 }
 
+/// What remedies speak of, and how a job file says it under `[robot]`.
+const KEYS: [(&str, &str); 6] = [
+    (
+        "as written when reading",
+        "unknown_targets = \"left_as_written\"",
+    ),
+    ("external axes carried", "external_axes = \"carried\""),
+    (
+        "those of the tool's centre",
+        "cutter_compensation = \"centre_path\"",
+    ),
+    (
+        "the frame when reading",
+        "frames.\"NAME\" = { position_mm = [0, 0, 0] }",
+    ),
+    (
+        "(`frames`)",
+        "frames.\"NAME\" = { position_mm = [0, 0, 0] }",
+    ),
+    ("give the .dat file", "files = [\"other.dat\"]"),
+];
+
 fn refused<'f, F: std::fmt::Display>(all: &'f [F], reason: impl Fn(&'f F) -> &'f str) -> Failure {
-    Failure::input(match all.first() {
-        Some(first) => fault_list_text("lines", first, all, reason),
-        None => "the program is refused".to_owned(),
-    })
+    let Some(first) = all.first() else {
+        return Failure::input("the program is refused");
+    };
+    let mut text = fault_list_text("lines", first, all, reason);
+    let named = |(words, _): &&(&str, &str)| text.contains(words);
+    let mut keys: Vec<&str> = KEYS.iter().filter(named).map(|(_, key)| *key).collect();
+    keys.dedup();
+    if !keys.is_empty() {
+        text.push_str(&format!(
+            "\nIn a job file, under [robot]:  {}",
+            keys.join("  or  ")
+        ));
+    }
+    Failure::input(text)
 }

@@ -2,7 +2,8 @@
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    ExternalAxes, PathOptions, ReadOptions, UnknownTargets, WriteOptions as TextOptions,
+    CutterCompensation, ExternalAxes, PathOptions, ReadOptions, UnknownTargets,
+    WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
 use nalgebra::Vector3;
@@ -10,7 +11,9 @@ use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
 use crate::job::robot_arguments::{CorrectWord, RobotArgs};
-use crate::job::robot_table::{ExternalAxesWord, RobotTable, UnknownTargetsWord};
+use crate::job::robot_table::{
+    CutterCompensationWord, ExternalAxesWord, RobotTable, UnknownTargetsWord,
+};
 use crate::job::values::{above_zero, chosen};
 use crate::ui::failure::Answer;
 
@@ -51,6 +54,9 @@ pub(crate) fn settings(
         }
         if table.unknown_targets == Some(UnknownTargetsWord::LeftAsWritten) {
             reading.unknown_targets = UnknownTargets::LeftAsWritten;
+        }
+        if table.cutter_compensation == Some(CutterCompensationWord::CentrePath) {
+            reading.cutter_compensation = CutterCompensation::CentrePath;
         }
         correct = table.correct.unwrap_or(correct);
     }

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, SourceFile, language_of};
+use kinetostat_formats::{Language, SourceFile, language_of, odd_program};
 use nalgebra::Vector3;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
+use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::robot::settings::{RobotSettings, settings};
-use crate::job::robot_arguments::RobotArgs;
+use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
 
 /// A program of a robot as it lies on disk, and how it is to be read.
@@ -26,11 +27,15 @@ pub(crate) struct RobotSource {
 pub(crate) fn robot_source(
     files: &InputFiles,
     job: Option<&JobFile>,
-    flags: &RobotArgs,
+    program: &ProgramArgs,
     (path, name, bytes): (&Path, &str, &[u8]),
 ) -> Answer<Option<(RobotSource, Vec<kinetostat_machining::FileRead>)>> {
+    let flags = &program.robot;
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?)));
     let Some(language) = language_of(name, bytes) else {
+        if let Some(odd) = odd_program(name, bytes) {
+            return Err(Failure::input(format!("'{name}': {odd}")));
+        }
         return match (flags.given(), table) {
             (Some(option), _) => Err(Failure::input(format!(
                 "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls): it is read as G-code; leave {option} out"
@@ -43,6 +48,12 @@ pub(crate) fn robot_source(
             (None, None) => Ok(None),
         };
     };
+    refuse_unfit(job, program)?;
+    if language == Language::Krl && is_data(path) {
+        return Err(Failure::input(format!(
+            "'{name}' holds data of a program: give its .src as the program; the .dat of the same name is read with it"
+        )));
+    }
     let settings = settings(job, flags, usual_axis(language))?;
     let mut source = RobotSource {
         language,
@@ -77,6 +88,11 @@ fn usual_axis(language: Language) -> Vector3<f64> {
         Language::Krl => -Vector3::x(),
         _ => -Vector3::z(),
     }
+}
+
+fn is_data(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("dat"))
 }
 
 /// Whether targets are declared in a file of the same name with the ending `.dat`.

@@ -52,7 +52,8 @@ fn vacant_parameters_are_left_out() {
 #[test]
 fn what_is_assigned_needs_no_brackets() {
     // 2 + 3 * 4 - 1, by the usual precedence; then each block with what was assigned before.
-    let text = "#1=2+3*4-1\n#2=-#1\n#3=#1-#2/2\nG0 X#1 Y#2 Z#3\nIF [#1 GT 0] THEN #1=#1+1\nG0 X#1\n";
+    let text =
+        "#1=2+3*4-1\n#2=-#1\n#3=#1-#2/2\nG0 X#1 Y#2 Z#3\nIF [#1 GT 0] THEN #1=#1+1\nG0 X#1\n";
     assert_eq!(fanuc(text), "G0 X13 Y-13 Z19.5\nG0 X14\n");
     assert_eq!(fanuc("#1=1 M8 #2=#1+1\nG0 X#2\n"), "M8\nG0 X2\n");
 }
