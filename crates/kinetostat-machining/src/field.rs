@@ -113,35 +113,42 @@ impl ModelField<'_> {
             false => AlongPath::new(mechanism),
         };
         in_chunks(requests, |memory, requests| {
-            let poses: Vec<Pose> = requests
+            let places: Vec<Placement> = requests
                 .iter()
                 .map(|r| {
-                    let orientation = self.placement.orientation_of(r.orientation);
-                    self.placement.pose(&r.position_mm, orientation)
+                    let motion = &self.load.path().moves[r.move_index];
+                    self.placement.on(motion, r.share)
                 })
+                .collect();
+            let poses: Vec<Pose> = requests
+                .iter()
+                .zip(&places)
+                .map(|(r, place)| place.pose(&r.position_mm, place.orientation_of(r.orientation)))
                 .collect();
             let wrenches: Vec<Wrench> = requests.iter().map(|r| self.wrench(r)).collect();
             let turns = self.corrected == Directions::ALL;
-            let correction = |pose: &Pose, target: &Pose| {
+            let correction = |place: &Placement, pose: &Pose, target: &Pose| {
                 let shift = target.translation.vector - pose.translation.vector;
                 let turn = (target.rotation * pose.rotation.inverse()).scaled_axis();
                 Correction {
-                    shift_mm: self.placement.to_program(&shift),
+                    shift_mm: place.to_program(&shift),
                     turn: match turns {
-                        true => self.placement.to_part_axes(&turn),
+                        true => place.to_part_axes(&turn),
                         false => Vector3::zeros(),
                     },
                 }
             };
             if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
-                let both = poses.iter().zip(&targets);
-                return both.map(|(p, t)| Ok(correction(p, t))).collect();
+                let all = places.iter().zip(&poses).zip(&targets);
+                return all
+                    .map(|((place, pose), target)| Ok(correction(place, pose, target)))
+                    .collect();
             }
-            let both = poses.iter().zip(&wrenches);
-            both.map(|(pose, wrench)| {
+            let all = places.iter().zip(&poses).zip(&wrenches);
+            all.map(|((place, pose), wrench)| {
                 memory[0]
                     .target(mechanism, pose, wrench, (orientation, self.corrected))
-                    .map(|posture| correction(pose, posture.target()))
+                    .map(|posture| correction(place, pose, posture.target()))
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
             .collect()

@@ -2,7 +2,7 @@
 
 use kinetostat::Pose;
 use kinetostat_program::Move;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Places a program of positions (mm, part frame) into the base of the machine (m).
@@ -33,6 +33,25 @@ impl Placement {
         }
     }
 
+    /// Where the program lies at a share of a move: there where it lies, or turned with the table that carries the part.
+    #[must_use]
+    pub fn on(&self, motion: &Move, share: f64) -> Self {
+        self.turned(motion.part_turn(share).as_ref())
+    }
+
+    /// Where it lies when the part has turned from there (in the axes of the part there, mm).
+    #[must_use]
+    pub fn turned(&self, part: Option<&Isometry3<f64>>) -> Self {
+        let Some(part) = part else {
+            return *self;
+        };
+        let way = part.translation.vector * self.metres();
+        Self {
+            base_from_part: self.base_from_part * Pose::from_parts(way.into(), part.rotation),
+            ..*self
+        }
+    }
+
     /// Metres in the machine per millimetre of the program.
     fn metres(&self) -> f64 {
         1e-3 * self.scale
@@ -55,7 +74,8 @@ impl Placement {
     /// [`Self::tool_orientation`].
     #[must_use]
     pub fn orientation_on(&self, motion: &Move, share: f64) -> UnitQuaternion<f64> {
-        self.orientation_of(motion.orientation(share))
+        self.on(motion, share)
+            .orientation_of(motion.orientation(share))
     }
 
     /// The same of an orientation in axes of the part.

@@ -81,6 +81,7 @@ pub mod schema;
 mod text;
 
 pub use assembly::controller::{Controller, ControllerAxis};
+pub use elements::rotary::RotaryAxis;
 pub use exact::{exact, exact_toml};
 pub use model::{Model, json_schema, read_model};
 pub use plausibility::link_matrix::doubts_of_link_matrix;

@@ -9,6 +9,7 @@ use crate::assembly::controller::{Controller, controller};
 use crate::assembly::mechanism::assemble;
 use crate::assembly::repair::others;
 use crate::elements::placement::{three_digits, written, written_pose};
+use crate::elements::rotary::{RotaryAxis, rotary_axes};
 use crate::elements::workspace::corners;
 use crate::findings::Findings;
 use crate::presets::{preset_text, unknown_preset};
@@ -183,6 +184,19 @@ impl Model {
     pub fn workspace(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
         let (a, b) = corners(&self.document).ok()??;
         Some((a.inf(&b), a.sup(&b)))
+    }
+
+    /// Rotary axes by their words in programs, in the order of the file; none on most machines.
+    ///
+    /// ```
+    /// let model = kinetostat_model::Model::preset("heavy_6r")?;
+    /// assert!(model.rotary_axes().is_empty());
+    /// # Ok::<(), kinetostat_model::ModelError>(())
+    /// ```
+    #[must_use]
+    pub fn rotary_axes(&self) -> Vec<RotaryAxis> {
+        let axes = rotary_axes(&self.document).into_iter();
+        axes.filter_map(Result::ok).collect()
     }
 
     /// The same machine with one more error of manufacture or assembly: the actual geometry of

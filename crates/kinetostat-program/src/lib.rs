@@ -76,6 +76,7 @@ pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
 pub use path::pause::{Pause, PauseKind};
+pub use path::rotary::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
 pub use path::tool_turn::ToolTurn;
@@ -83,7 +84,7 @@ pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;
 pub use reading::interpret::interpret;
 pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
-pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, Units};
+pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::Accounting;
 pub use writing::jump::Turn;

@@ -118,6 +118,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
     let inputs = &mut setting.inputs;
     let (machine, model) =
         machine_setup(files, Some(&job), None, flags, (frames.as_ref(), inputs))?;
+    setting.turned_by(machine.rotary.clone());
     let read = program::read_program(&setting)?;
     let motion = read.path();
     let mut warnings = run_warnings::of_run(&model, Some(&job));
@@ -204,8 +205,11 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
                 continue;
             };
             // As a compensation commands it: within the limits of the actuators, too.
-            let posture = mechanism
-                .posture(&placement.pose(&position, placement.orientation_on(motion, 1.0)));
+            let posture = mechanism.posture(
+                &placement
+                    .on(motion, 1.0)
+                    .pose(&position, placement.orientation_on(motion, 1.0)),
+            );
             let posture = posture.and_then(|posture| posture.within_limits());
             found.push(EndFinding {
                 end: format!("{word} {name}"),

@@ -75,6 +75,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         &args.run.program,
         (frames.as_ref(), &mut setting.inputs),
     )?;
+    setting.turned_by(machine.rotary.clone());
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
     let mut outputs =

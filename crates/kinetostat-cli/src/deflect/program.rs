@@ -42,6 +42,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         &args.program,
         (frames.as_ref(), &mut setting.inputs),
     )?;
+    setting.turned_by(machine.rotary.clone());
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = solve::solve(Aim::Analyse, &machine, &setting, args.program.threads)

@@ -118,6 +118,10 @@ pub(crate) struct ReadingArgs {
     /// Rotary and second axes (A B C U V W) stand still: take a program with their words
     #[arg(long, help_heading = "Reading")]
     pub(crate) axes_stand_still: bool,
+    /// X, Y and Z are places of the tool's tip in the part all along, however rotary axes stand (G43.4 says so
+    /// in the program)
+    #[arg(long, help_heading = "Reading")]
+    pub(crate) tool_centre_point: bool,
     /// Where the tool stands before the first block, mm
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) start_position_mm: Option<Vec<f64>>,

@@ -189,6 +189,8 @@ pub(crate) struct ReadingTable {
     pub block_delete: Option<BlockDeleteWord>,
     /// A B C U V W stand still while the tool cuts.
     pub axes_stand_still: Option<bool>,
+    /// X, Y and Z are places of the tool's tip in the part all along, however rotary axes stand.
+    pub tool_centre_point: Option<bool>,
     pub start_position_mm: Option<[f64; 3]>,
     /// Where the tool's point is in the part when the machine stands at its zero.
     pub machine_zero_mm: Option<[f64; 3]>,

@@ -1,11 +1,12 @@
 //! The machine of a run: model, deviations, tool, placement and load, from a job file and options.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{Bounds, FileRead, Placement, ProgramLoad, RunInputs, ToolGiven};
 use kinetostat_model::Model;
-use kinetostat_program::WriteOptions;
+use kinetostat_program::{RotaryAxes, WriteOptions};
 
 use crate::files::hash::{FNV1A, fnv1a};
 use crate::files::input_files::InputFiles;
@@ -17,6 +18,7 @@ use crate::job::load::load;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::machine::{placement_of_robot, tool_of_robot, tools_of_robot};
+use crate::job::rotary::rotary;
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
@@ -35,6 +37,8 @@ pub(crate) struct MachineSetup {
     pub(crate) measured: Option<MeasuredSetup>,
     /// Tools by number, each with its machine and load.
     pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
+    /// Rotary axes of the model, for programs in G-code.
+    pub(crate) rotary: Option<Arc<RotaryAxes>>,
     pub(crate) run_inputs: RunInputs,
     /// Ratings, tool and workspace; limits are those of the run.
     pub(crate) bounds: Bounds,
@@ -133,6 +137,7 @@ pub(crate) fn machine_setup(
     };
     Ok((
         MachineSetup {
+            rotary: rotary(&model, &placement),
             mechanism,
             placement,
             load,

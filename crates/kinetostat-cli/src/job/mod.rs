@@ -23,6 +23,7 @@ pub(crate) mod reading;
 pub(crate) mod robot;
 pub(crate) mod robot_arguments;
 mod robot_table;
+pub(crate) mod rotary;
 pub(crate) mod run_warnings;
 pub(crate) mod setting;
 pub(crate) mod source;

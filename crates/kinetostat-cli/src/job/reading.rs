@@ -1,6 +1,6 @@
 //! How the program is read: units, work offsets, arcs, optional blocks.
 
-use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units};
+use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 use nalgebra::Vector3;
 
 use crate::job::arguments::ReadingArgs;
@@ -37,6 +37,9 @@ pub(crate) fn reading(job: Option<&JobFile>, flags: &ReadingArgs) -> Answer<Read
     }
     if flags.axes_stand_still || table.axes_stand_still.unwrap_or_default() {
         reading.other_axes = OtherAxes::StandStill;
+    }
+    if flags.tool_centre_point || table.tool_centre_point.unwrap_or_default() {
+        reading.tool_centre_point = ToolCentrePoint::Throughout;
     }
     if let Some(j) = job.filter(|j| !j.job.tools.is_empty()) {
         let numbers = j.job.tools.iter().map(|tool| tool.get_ref().number);

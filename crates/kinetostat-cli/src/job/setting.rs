@@ -1,9 +1,10 @@
 //! Everything that decides a run, the machine apart: options go over the job file.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
-use kinetostat_program::{ReadOptions, Warning, WriteOptions};
+use kinetostat_program::{ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
@@ -62,6 +63,11 @@ impl Setting {
         found.map(|w| {
             kinetostat_machining::Warning::at_line(WarningCode::Program, w.line, w.text.clone())
         })
+    }
+
+    /// The rotary axes of the machine, so that their words are read.
+    pub(crate) fn turned_by(&mut self, rotary: Option<Arc<RotaryAxes>>) {
+        self.reading.rotary = rotary;
     }
 
     /// Tool and work object of a robot's program.

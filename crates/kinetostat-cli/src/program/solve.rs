@@ -57,6 +57,13 @@ pub(crate) fn forces_of(
             "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis; of a robot's program state the force under [load]",
         ));
     }
+    let turned = path.moves.iter().find(|motion| motion.tool_turn.is_some());
+    if let Some(motion) = turned.filter(|_| machine.measured.is_some() || machine.cut.is_some()) {
+        return Err(setting.within(Failure::input(format!(
+            "line {}: rotary axes turn the tool in the part: forces that are computed from the cut or measured are for programs whose tool keeps its axis; state the force under [load]",
+            motion.line
+        ))));
+    }
     match &machine.measured {
         Some(setup) => measured(setup, setting, path, watch).map(Some),
         None => forces(machine.cut.as_ref(), setting, path, watch),

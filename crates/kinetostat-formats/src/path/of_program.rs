@@ -347,10 +347,8 @@ impl Maker<'_> {
             start: a,
             end: b,
             tool_turn: states_orientation(motion).then(|| {
-                Box::new(ToolTurn {
-                    start: nearest(from.rotation, &to.rotation),
-                    end: to.rotation,
-                })
+                let start = nearest(from.rotation, &to.rotation);
+                Box::new(ToolTurn::shortest(start, to.rotation))
             }),
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {

@@ -45,7 +45,7 @@ fn shifts(
             let (_, sagged) = own.rest(mechanism, &pose, &none, orientation).ok()?;
             let (_, straight) = without.rest(&bare, &pose, &none, orientation).ok()?;
             let off = sagged.translation.vector - straight.translation.vector;
-            Some(task.placement.to_program(&off))
+            Some(point.placement(&task.placement).to_program(&off))
         };
         points.iter().map(shift).collect()
     })

@@ -37,7 +37,7 @@ pub fn origin_in_metres(
         .moves
         .iter()
         .filter(|m| m.known != Knowledge::Nothing)
-        .map(|m| 1e3 * placement.tool_pose(&m.end).translation.vector);
+        .map(|m| 1e3 * placement.on(m, 1.0).tool_pose(&m.end).translation.vector);
     let (low, high) = places
         .map(|p| (p, p))
         .reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))?;

@@ -215,8 +215,8 @@ impl<'a> LoadAlongPath<'a> {
         if motion.kind == MoveKind::Rapid || part == 0.0 {
             return Wrench::zero();
         }
-        let in_base =
-            |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
+        let place = placement.on(motion, share);
+        let in_base = |w: Wrench| w.rotated(&place.base_from_part.rotation.to_rotation_matrix());
         // Radial, tangential and axial belong to the tool, whichever way the program turns it.
         let of_tool = |w: Wrench| match motion.tool_turn {
             None => w,

@@ -2,7 +2,7 @@
 
 use kinetostat::Pose;
 use kinetostat::chain::FoundBy;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::placement::Placement;
@@ -67,6 +67,9 @@ pub struct PointResult {
     pub path_mm: f64,
     /// Where the tool should be, program coordinates, mm.
     pub position_mm: [f64; 3],
+    /// How far a table has turned the part, in the axes of the part where it lies at zero, mm.
+    #[serde(skip)]
+    pub part_turn: Option<Isometry3<f64>>,
     /// Orientation of the tool in a program that states it, program axes from tool axes: quaternion, scalar first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool_orientation: Option<[f64; 4]>,
@@ -133,7 +136,13 @@ impl PointResult {
         let stated = self
             .tool_orientation
             .map(|[w, i, j, k]| UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k)));
+        let placement = self.placement(placement);
         placement.pose(&self.position_mm.into(), placement.orientation_of(stated))
+    }
+
+    /// Where the program lies there.
+    pub(crate) fn placement(&self, placement: &Placement) -> Placement {
+        placement.turned(self.part_turn.as_ref())
     }
 }
 

@@ -20,7 +20,6 @@ pub(crate) fn errors_under(
 ) -> Result<Vec<Option<f64>>, RunError> {
     watch.stage(stage, loaded.len());
     let machines = Machines::new(task);
-    let place = &task.placement;
     let mut all: Vec<Option<f64>> = Vec::with_capacity(loaded.len());
     for batch in loaded.chunks(BATCH) {
         if watch.cancelled() {
@@ -34,6 +33,7 @@ pub(crate) fn errors_under(
                 let poses: Vec<Pose> = sites
                     .iter()
                     .map(|(site, _)| {
+                        let place = site.placement(task);
                         place.pose(
                             &site.commanded,
                             place.orientation_of(site.commanded_orientation),
@@ -54,6 +54,7 @@ pub(crate) fn errors_under(
                 };
                 (0..sites.len())
                     .map(|i| {
+                        let place = sites[i].0.placement(task);
                         let wanted = place.tool_pose(&sites[i].0.desired);
                         let off = tool(i)?.translation.vector - wanted.translation.vector;
                         Some(place.to_program(&off).norm()).filter(|error| error.is_finite())

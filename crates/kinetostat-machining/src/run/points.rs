@@ -81,10 +81,11 @@ pub(crate) fn chunk(
     sites: &[Site],
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
-    let (place, mechanism) = (&task.placement, machine.mechanism());
+    let mechanism = machine.mechanism();
     let poses = |of: fn(&Site) -> Place<'_>| -> Vec<Pose> {
         let pose = |s: &Site| {
             let (position, orientation) = of(s);
+            let place = s.placement(task);
             place.pose(position, place.orientation_of(orientation))
         };
         sites.iter().map(pose).collect()
@@ -206,7 +207,7 @@ fn point(
     before: Option<(Vec<f64>, Pose)>,
     after: Loaded,
 ) -> PointResult {
-    let place = &task.placement;
+    let place = &site.placement(task);
     let off = |tool: &Pose| -> [f64; 3] {
         let shift = tool.translation.vector - wanted.translation.vector;
         place.to_program(&shift).into()
@@ -234,6 +235,7 @@ fn point(
         start_mm: site.start_mm,
         programmed: site.programmed,
         position_mm: site.desired.into(),
+        part_turn: task.path().moves[site.move_index].part_turn(site.share),
         tool_orientation: site.orientation.map(|o| [o.w, o.i, o.j, o.k]),
         error_before_mm,
         error_after_mm,

@@ -42,6 +42,14 @@ pub(crate) struct Site {
     pub end: bool,
 }
 
+impl Site {
+    /// Where the program lies there.
+    pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
+        let motion = &task.path().moves[self.move_index];
+        task.placement.on(motion, self.share)
+    }
+}
+
 /// Length of the path before every move, mm.
 pub(crate) fn starts(path: &Path) -> Vec<f64> {
     let mut length = 0.0;
@@ -216,7 +224,11 @@ pub(crate) fn of_written<'a>(
                 desired: motion.point(share),
                 commanded: commanded(motion, piece, place),
                 orientation: motion.orientation(share),
-                commanded_orientation: turn.map(|turn: ToolTurn| turn.at(place)),
+                // In G-code the words of rotary axes say it, and they stay.
+                commanded_orientation: match &turn {
+                    Some(turn) => Some(turn.at(place)),
+                    None => motion.orientation(share),
+                },
                 wrench,
                 other_wrench,
                 end,
@@ -305,7 +317,7 @@ fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<Tool
         Some(before) => written.orientations[before],
         None => path.moves[written.pieces[index].move_index].orientation(0.0)?,
     };
-    Some(ToolTurn { start, end })
+    Some(ToolTurn::shortest(start, end))
 }
 
 fn kind(motion: &Move) -> PointKind {

@@ -56,7 +56,7 @@ impl Places {
                 let orientation = task.placement.orientation_on(motion, share);
                 (
                     motion.line,
-                    task.placement.pose(&motion.point(share), orientation),
+                    (task.placement.on(motion, share)).pose(&motion.point(share), orientation),
                 )
             })
         });
@@ -196,5 +196,8 @@ fn nearest_pose(task: &Task<'_>, line: usize, position: &Vector3<f64>) -> Pose {
     let orientation = nearest.map_or(task.placement.tool_orientation, |(motion, share)| {
         task.placement.orientation_on(motion, share)
     });
-    task.placement.pose(position, orientation)
+    let place = nearest.map_or(task.placement, |(motion, share)| {
+        task.placement.on(motion, share)
+    });
+    place.pose(position, orientation)
 }

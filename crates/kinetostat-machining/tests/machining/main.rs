@@ -10,6 +10,7 @@
 
 mod again;
 mod cut_forces;
+mod five_axes;
 mod force_band;
 mod internal;
 mod joints;

@@ -176,20 +176,14 @@ fn missed(language: Language, corrected: Directions, load: ProgramLoad, seed: u6
         let motion = piece.move_index;
         let goal = |share: f64| {
             let [a, b] = [wanted[motion - 1], wanted[motion]];
-            let turn = ToolTurn {
-                start: a.rotation,
-                end: b.rotation,
-            };
+            let turn = ToolTurn::shortest(a.rotation, b.rotation);
             let at = a.translation.vector.lerp(&b.translation.vector, share);
             Pose::from_parts(at.into(), turn.at(share))
         };
         let mut look = |part: f64, [position, orientation]: [usize; 2]| {
             let share = piece.share_from + part * (piece.share_to - piece.share_from);
             let [a, b] = [commanded[index - 1], commanded[index]];
-            let turn = ToolTurn {
-                start: a.rotation,
-                end: b.rotation,
-            };
+            let turn = ToolTurn::shortest(a.rotation, b.rotation);
             let at = a.translation.vector.lerp(&b.translation.vector, part);
             let wrench = law.wrench(&placement, motion, share);
             let is = tool(

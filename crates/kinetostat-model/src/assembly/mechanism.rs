@@ -11,6 +11,7 @@ use crate::assembly::load::platform_loads;
 use crate::assembly::platform::platforms;
 use crate::assembly::template::{Template, template};
 use crate::elements::elastic::Elastic;
+use crate::elements::rotary::rotary_axes;
 use crate::elements::workspace::corners;
 use crate::findings::{Findings, name};
 use crate::plausibility::home::check_plausibility;
@@ -40,6 +41,9 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
         findings,
     );
     workspace(document, findings);
+    for axis in rotary_axes(document) {
+        findings.keep(axis);
+    }
     let [least, most] = REPEATABILITY_MM;
     let repeats = document.mechanism.repeatability_mm;
     if let Some(mm) = repeats.filter(|mm| !(least..=most).contains(mm)) {

@@ -13,6 +13,7 @@ pub(crate) mod link;
 pub(crate) mod part;
 pub(crate) mod placement;
 pub(crate) mod quantity;
+pub(crate) mod rotary;
 pub(crate) mod section;
 pub(crate) mod shape;
 pub(crate) mod workspace;

@@ -10,6 +10,8 @@ use crate::schema::elastic::{Section, Stiffness};
 use crate::schema::element::Element;
 use crate::schema::load::{LoadTable, PlatformLoadTable};
 use crate::schema::placement::{Axis, Placement};
+use crate::schema::rotary::RotaryAxisTable;
+
 /// The version of the format that this crate reads and writes.
 pub const SCHEMA_VERSION: u32 = 1;
 
@@ -49,6 +51,10 @@ pub struct Document {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 2000))]
     pub deviation: Vec<Deviation>,
+    /// Rotary axes of a machine of five axes, by their words in programs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 3))]
+    pub rotary_axis: Vec<RotaryAxisTable>,
     /// What the controller shows instead of the model's joint values.
     pub controller: Option<ControllerTable>,
 }

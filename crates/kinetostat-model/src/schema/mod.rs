@@ -12,6 +12,7 @@ mod joint;
 mod knee;
 pub(crate) mod load;
 mod placement;
+mod rotary;
 
 pub use controller::{ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit};
 pub use document::{
@@ -33,3 +34,4 @@ pub use load::{
     PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 pub use placement::{Axis, AxisName, Placement};
+pub use rotary::{CarriesWord, RotaryAxisTable, RotaryWord};

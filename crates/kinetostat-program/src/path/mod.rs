@@ -10,6 +10,7 @@ pub(crate) mod orientation;
 pub(crate) mod pause;
 pub(crate) mod pauses;
 pub(crate) mod position_offset;
+pub(crate) mod rotary;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
 pub(crate) mod tool_turn;

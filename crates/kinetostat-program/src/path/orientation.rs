@@ -1,6 +1,6 @@
 //! What moves and paths say of the orientation of the tool.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::path::moves::{Move, Path};
 
@@ -20,6 +20,22 @@ impl Move {
         self.tool_turn.as_ref().map(|turn| turn.at(share))
     }
 
+    /// How far a table has turned the part at a share of the move from where it lies where all rotary axes stand at zero, in the axes of
+    /// the part there, mm; `None` where no table turns it.
+    ///
+    /// ```
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG1 X9 F600\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// assert!(path.moves[1].part_turn(0.5).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn part_turn(&self, share: f64) -> Option<Isometry3<f64>> {
+        self.tool_turn.as_ref()?.part(share)
+    }
+
     /// Whether the tool stands at one place and turns there: the move has no length, and two orientations.
     ///
     /// ```
@@ -33,7 +49,11 @@ impl Move {
     #[must_use]
     pub fn turns_in_place(&self) -> bool {
         let turn = self.tool_turn.as_ref();
-        !self.has_length() && turn.is_some_and(|turn| turn.start.angle_to(&turn.end) > 1e-6)
+        let turns = turn.is_some_and(|turn| match &turn.rotary {
+            Some(rotary) => rotary.start_deg != rotary.end_deg,
+            None => turn.start.angle_to(&turn.end) > 1e-6,
+        });
+        !self.has_length() && turns
     }
 }
 

@@ -108,6 +108,13 @@ pub(crate) fn refuse_other_axes(
         return Ok(());
     }
     for letter in *OTHER_AXES {
+        let rotary = options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        if rotary
+            .map(|axis| axis.letter)
+            .any(|known| known == char::from(letter))
+        {
+            continue;
+        }
         if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
             return Err(block.refuse(
                 ProgramErrorKind::Ambiguous, Some(word),
@@ -115,7 +122,7 @@ pub(crate) fn refuse_other_axes(
                     "axis {} changes where the tool is in the part and in the machine, and there is no model of it",
                     char::from(letter)
                 ),
-                "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
+                "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]; rotary axes of five-axis machines are described in the model ([[rotary_axis]])",
             ));
         }
     }

@@ -17,6 +17,8 @@ pub(crate) struct Codes {
     pub feed_mode: Option<u32>,
     pub work_offset: Option<u32>,
     pub tool_length: Option<u32>,
+    /// G43.4: a G43 with tool centre point control.
+    pub tool_centre_point: bool,
     /// Axes that G43.1 and G43.2 name: their words are lengths.
     pub length_axes: [bool; 3],
     pub position_offset: Option<u32>,
@@ -191,6 +193,10 @@ impl<'p> Block<'p> {
             ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
             ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
             ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
+            ('G', 434) => {
+                codes.tool_centre_point = true;
+                codes.tool_length.replace(430).is_some()
+            }
             ('G', 430..=432 | 490) => codes.tool_length.replace(tenths).is_some(),
             ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
             ('G', 280 | 300 | 530) => codes.machine.replace(tenths).is_some(),

@@ -150,7 +150,12 @@ pub const CODES: &[Code] = &[
     g(&[430], "tool length offset on", Understood),
     g(&[431, 432], "tool length offset by words", Understood),
     g(
-        &[433, 434, 435, 437, 440],
+        &[434],
+        "tool length offset with tool centre point control: with rotary axes in the model",
+        Understood,
+    ),
+    g(
+        &[433, 435, 437, 440],
         "tool length offset with tool point control",
         refused(
             "it changes where the tool point goes",

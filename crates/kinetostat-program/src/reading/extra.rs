@@ -32,6 +32,14 @@ impl ExtraAxes {
         }
     }
 
+    /// Where an axis stands, in program coordinates.
+    pub fn place(&self, letter: char) -> Option<f64> {
+        let index = Self::LETTERS
+            .iter()
+            .position(|own| char::from(*own) == letter)?;
+        self.places[index]
+    }
+
     /// Angles keep their numbers, lengths do not.
     pub fn change_units(&mut self, factor: f64) {
         for place in self.places[Self::EXTRUDER..].iter_mut().flatten() {

@@ -18,7 +18,7 @@ use crate::reading::block::Block;
 use crate::reading::extra::ExtraAxes;
 use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
-use crate::reading::options::{BlockDelete, ReadOptions, Units};
+use crate::reading::options::{BlockDelete, ReadOptions, ToolCentrePoint, Units};
 use crate::reading::pause::pause;
 use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
@@ -82,7 +82,11 @@ impl<'o> Interpreter<'o> {
     pub(crate) fn new(options: &'o ReadOptions) -> Self {
         Self {
             options,
-            modes: Modes::new(options.units),
+            modes: {
+                let mut modes = Modes::new(options.units);
+                modes.tool_centre_point = options.tool_centre_point == ToolCentrePoint::Throughout;
+                modes
+            },
             offset: PositionOffset::default(),
             shifts: Shifts::default(),
             origins_mm: options.work_offsets_mm,
@@ -194,6 +198,7 @@ impl<'o> Interpreter<'o> {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
         self.modes.set(block)?;
+        self.set_tool_centre_point(block)?;
         self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
@@ -434,14 +439,21 @@ impl<'o> Interpreter<'o> {
             _ => Curve::Line,
         };
         self.places.position = end;
+        let angles = self.angles();
         let extra = self.modes.extra.read(block, self.modes.incremental);
+        let tool_turn = self.turn_of_move(block, kind, &angles)?;
         let lost = self.places.first_lost();
         if let Some((axis, ..)) = lost {
             self.repeated.note(block.line_number, &format!(
-                "where the tool is along {} is not known here (a tool length, G28, G30 or G53 changed it): the block is carried without a correction, as all are until the program states the axis again",
+                "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
                 char::from(COORDINATES[axis])
             ));
         }
+        // Where the slides go while a rotary axis turns is no way of the tip.
+        let known_before = match lost {
+            Some((_, Cause::Rotary, _)) => [false; 3],
+            _ => known_before,
+        };
         self.knowledge
             .push((known_before, self.places.known, lost.is_some()));
         self.moves.push(Move {
@@ -450,7 +462,7 @@ impl<'o> Interpreter<'o> {
             curve,
             start,
             end,
-            tool_turn: None,
+            tool_turn,
             extra,
             feed: self.modes.feed,
             known: Knowledge::Whole,
@@ -526,10 +538,13 @@ impl<'o> Interpreter<'o> {
         let Some((axis, cause, _)) = self.places.first_lost() else {
             return Ok(());
         };
+        if cause == Cause::Rotary {
+            self.refuse_cut_at_angles(block, &self.angles())?;
+        }
         let letter = char::from(COORDINATES[axis]);
         let why = self.places.why_lost(axis).unwrap_or_default();
         let also = match cause {
-            Cause::ToolLength => "",
+            Cause::ToolLength | Cause::Rotary => "",
             Cause::Machine => {
                 ", or give the machine's zero and its reference points (--machine-zero-mm, --g28-mm, --g30-mm, or machine_zero_mm, g28_mm, g30_mm under [reading] in the job file)"
             }
@@ -590,7 +605,15 @@ impl<'o> Interpreter<'o> {
 
     /// The user said that these axes stand still; the program may say otherwise.
     fn warn_of_moved_axes(&mut self) {
-        for letter in OTHER_AXES.map(char::from) {
+        let rotary = self.options.rotary.as_deref();
+        let is_rotary = |letter: &char| {
+            rotary.is_some_and(|rotary| rotary.axes.iter().any(|axis| axis.letter == *letter))
+        };
+        for letter in OTHER_AXES
+            .map(char::from)
+            .into_iter()
+            .filter(|l| !is_rotary(l))
+        {
             let words = || {
                 self.moves.iter().flat_map(|motion| {
                     let own = motion.extra.iter().filter(|extra| extra.letter == letter);
@@ -654,9 +677,17 @@ impl<'o> Interpreter<'o> {
             self.warn(first, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
         }
         self.warn_of_moved_axes();
+        let in_place = |motion: &&Move| motion.kind == MoveKind::Feed && motion.turns_in_place();
+        if let Some(line) = self.moves.iter().find(in_place).map(|motion| motion.line) {
+            self.warn(line, "the tool turns at one place, here first: it is corrected where it has turned, not on the way");
+        }
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
-            tool_axis: Vector3::z(),
+            // Where all rotary axes stand at zero the spindle is along z of the part.
+            tool_axis: match &self.options.rotary {
+                Some(rotary) => rotary.tool_at_zero.inverse() * Vector3::z(),
+                None => Vector3::z(),
+            },
             moves: self.moves,
             stated,
             warnings: self.warnings,

@@ -17,6 +17,7 @@ pub(crate) mod options;
 pub(crate) mod pause;
 pub(crate) mod places;
 pub(crate) mod repeated;
+pub(crate) mod rotary;
 pub(crate) mod settings;
 pub(crate) mod shifts;
 pub(crate) mod spindle;

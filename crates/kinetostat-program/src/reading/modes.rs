@@ -29,6 +29,8 @@ pub(crate) struct Modes {
     feed_is_stale: bool,
     /// Axes along which a tool offset is in force.
     tool_length_on: [bool; 3],
+    /// Places are those of the tool's tip in the part, however the rotary axes stand.
+    pub tool_centre_point: bool,
     /// H of the G43 in force, where it names one.
     length_number: Option<f64>,
 }
@@ -49,6 +51,7 @@ impl Modes {
             feed_mode: FeedMode::PerMinute,
             feed_is_stale: false,
             tool_length_on: [false; 3],
+            tool_centre_point: false,
             length_number: None,
         }
     }

@@ -1,6 +1,10 @@
 //! What a program does not say about itself.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
+
+use crate::path::rotary::RotaryAxes;
 
 /// Unit of length of the coordinate words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -49,6 +53,16 @@ pub enum OtherAxes {
     StandStill,
 }
 
+/// Whose places X, Y and Z are while rotary axes stand at an angle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ToolCentrePoint {
+    /// Those of the tool's tip in the part between G43.4 and G49, and of the machine's slides elsewhere.
+    #[default]
+    ByCode,
+    /// Those of the tool's tip in the part all along.
+    Throughout,
+}
+
 /// Settings of the reading that the program cannot supply.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -81,6 +95,10 @@ pub struct ReadOptions {
     pub block_delete: BlockDelete,
     /// Whether words of the axes A B C U V W are taken.
     pub other_axes: OtherAxes,
+    /// The rotary axes of the machine. Their words turn tool and part; words of others are read as [`OtherAxes`] says.
+    pub rotary: Option<Arc<RotaryAxes>>,
+    /// Whose places X, Y and Z are while they stand at an angle.
+    pub tool_centre_point: ToolCentrePoint,
     /// Numbers of the tools that the field of corrections knows, each with its length. `None` (the
     /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
     /// outside it is refused, and so is a tool change beside a motion.
@@ -101,6 +119,8 @@ impl Default for ReadOptions {
             arc_tolerance_mm: 0.005,
             block_delete: BlockDelete::Run,
             other_axes: OtherAxes::Refused,
+            rotary: None,
+            tool_centre_point: ToolCentrePoint::ByCode,
             tools: None,
             tool_before_first: true,
         }

@@ -14,6 +14,8 @@ pub(crate) enum Cause {
     ToolLength,
     /// G28, G30, G53.
     Machine,
+    /// Rotary axes at an angle, without tool centre point control.
+    Rotary,
 }
 
 /// Place and knowledge of the three axes.
@@ -68,6 +70,7 @@ impl Places {
         Some(match cause {
             Cause::ToolLength => format!("line {line} changed the tool length"),
             Cause::Machine => format!("line {line} sent the tool to a place of the machine"),
+            Cause::Rotary => format!("line {line} turned a rotary axis"),
         })
     }
 

@@ -22,6 +22,7 @@ mod properties;
 mod real_programs;
 mod refusal_kinds;
 mod refusals;
+mod rotary;
 mod sampled;
 mod sampled_maps;
 mod spindle;

@@ -1,0 +1,85 @@
+//! What the configuration of a target says of the arm's shoulder, elbow and wrist.
+
+use crate::model::program::Language;
+use crate::model::target::Configuration;
+
+/// Shoulder, elbow and wrist of an arm as a target states them; `None` where it says nothing of one.
+///
+/// Which side of the elbow and of the wrist a flag means depends on the zeros and directions of the maker's axes, which a program does
+/// not say: two targets with the same flag bend to the same side, and two with different flags to different ones.
+///
+/// ```
+/// use kinetostat_formats::{Configuration, Language, StatedArm};
+///
+/// let stated = |text: &str, numbers: &[f64]| Configuration {
+///     text: text.to_owned(),
+///     numbers: numbers.to_vec(),
+/// };
+/// let abb = StatedArm::of(Language::Rapid, &stated("[0,-1,-1,6]", &[0.0, -1.0, -1.0, 6.0]));
+/// assert_eq!(abb, StatedArm { is_back: Some(true), elbow: Some(true), wrist: Some(false) });
+/// let kuka = StatedArm::of(Language::Krl, &stated("S 2,T 35", &[2.0, 35.0]));
+/// assert_eq!(kuka, StatedArm { is_back: Some(false), elbow: Some(true), wrist: Some(false) });
+/// let fanuc = StatedArm::of(Language::FanucLs, &stated("F U B, 0, 0, 0", &[0.0; 3]));
+/// assert_eq!(fanuc, StatedArm { is_back: Some(true), elbow: Some(false), wrist: Some(true) });
+/// assert_eq!(StatedArm::of(Language::Apt, &stated("", &[])), StatedArm::default());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[allow(
+    clippy::exhaustive_structs,
+    reason = "an arm of six axes has these three"
+)]
+pub struct StatedArm {
+    /// The centre of the wrist is behind axis 1 (KUKA: bit 0 of S; ABB: cfx of 4 and above; FANUC: B).
+    pub is_back: Option<bool>,
+    /// To which side the elbow bends (KUKA: bit 1 of S; ABB: bit 1 of cfx; FANUC: D).
+    pub elbow: Option<bool>,
+    /// To which side the wrist bends (KUKA: bit 2 of S; ABB: bit 0 of cfx; FANUC: F).
+    pub wrist: Option<bool>,
+}
+
+impl StatedArm {
+    /// What a configuration says.
+    #[must_use]
+    pub fn of(language: Language, configuration: &Configuration) -> Self {
+        let bits = |value: Option<&f64>| {
+            let whole =
+                value.filter(|value| (0.0..8.0).contains(*value) && value.fract() == 0.0)?;
+            Some([1, 2, 4].map(|bit| (*whole as u8) & bit != 0))
+        };
+        let numbers = &configuration.numbers;
+        match language {
+            Language::Krl => {
+                let says_s = configuration.text.trim_start().starts_with(['S', 's']);
+                let flags = bits(numbers.first().filter(|_| says_s));
+                flags.map_or_else(Self::default, |[back, elbow, wrist]| Self {
+                    is_back: Some(back),
+                    elbow: Some(elbow),
+                    wrist: Some(wrist),
+                })
+            }
+            Language::Rapid => {
+                bits(numbers.get(3)).map_or_else(Self::default, |[wrist, elbow, back]| Self {
+                    is_back: Some(back),
+                    elbow: Some(elbow),
+                    wrist: Some(wrist),
+                })
+            }
+            Language::FanucLs => {
+                let letters = configuration.text.split(',').next().unwrap_or_default();
+                let one_of = |yes: &str, no: &str| {
+                    letters.split_whitespace().find_map(|word| match word {
+                        word if word == yes => Some(true),
+                        word if word == no => Some(false),
+                        _ => None,
+                    })
+                };
+                Self {
+                    is_back: one_of("B", "T"),
+                    elbow: one_of("D", "U"),
+                    wrist: one_of("F", "N"),
+                }
+            }
+            Language::Apt => Self::default(),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Rotary axes: from what is written to SI.
+
+use nalgebra::{Unit, Vector3};
+
+use crate::elements::placement::direction;
+use crate::elements::quantity::{MM, ReadResult, choice, pick};
+use crate::problem::{Finding, KeyPath};
+use crate::schema::{CarriesWord, Document, RotaryAxisTable};
+
+/// A rotary axis of a machine, base axes, where all of them stand at zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotaryAxis {
+    /// Its word in programs: A, B or C.
+    pub letter: char,
+    /// What it turns.
+    pub carries: CarriesWord,
+    /// About which a positive word turns that, right-handed.
+    pub direction: Unit<Vector3<f64>>,
+    /// A point on it, m; zero where it does not matter.
+    pub point: Vector3<f64>,
+}
+
+/// The axes, each with its place in the file or what is wrong with it.
+pub(crate) fn rotary_axes(document: &Document) -> Vec<ReadResult<RotaryAxis>> {
+    let tables = document.rotary_axis.iter().enumerate();
+    tables
+        .map(|(index, table)| {
+            let place = KeyPath::root().key("rotary_axis").index(index);
+            let before = &document.rotary_axis[..index];
+            if before.iter().any(|other| other.word == table.word) {
+                return Err(Finding::new(
+                    &place.key("word"),
+                    format!(
+                        "the word {} is that of another rotary axis",
+                        table.word.letter()
+                    ),
+                    "give each axis a word of its own",
+                ));
+            }
+            axis(&place, table)
+        })
+        .collect()
+}
+
+fn axis(place: &KeyPath, table: &RotaryAxisTable) -> ReadResult<RotaryAxis> {
+    let given = [
+        choice("point_mm", table.point_mm, MM),
+        choice("point_m", table.point_m, 1.0),
+    ];
+    let point = pick(place, "point", &given)?;
+    if point.is_none() && table.carries == CarriesWord::Part {
+        return Err(Finding::new(
+            place,
+            "where this axis lies is not stated: a table turns the part about it",
+            "write a point on it, as in  point_mm = [0, 0, 0]",
+        ));
+    }
+    Ok(RotaryAxis {
+        letter: table.word.letter(),
+        carries: table.carries,
+        direction: direction(&place.key("axis"), &table.axis)?,
+        point: point.map_or_else(Vector3::zeros, |given| given.value.into()),
+    })
+}

@@ -1,0 +1,149 @@
+//! Rotary axes of a machine, and how they turn tool and part while a program runs.
+//!
+//! A head turns the tool, a table the part. A program whose places are those of the tool's tip in the part (tool centre point control:
+//! G43.4, TRAORI, M128) says where the tip goes in the part as it stands on the table; heads and tables turn by their words.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
+
+/// What a rotary axis turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carries {
+    /// A head.
+    Tool,
+    /// A table.
+    Part,
+}
+
+/// A rotary axis of a machine, where all of them stand at zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryAxis {
+    /// Its word: A, B or C.
+    pub letter: char,
+    /// What it turns.
+    pub carries: Carries,
+    /// About which its word counts, right-handed: axes of the part as it lies where all axes stand at zero. A table that turns
+    /// the part clockwise for positive words, seen against z, has -z here.
+    pub direction: UnitVector3<f64>,
+    /// A point on it, mm, part frame there. That of a head does not matter: the tip goes where the program says.
+    pub point_mm: Vector3<f64>,
+}
+
+/// All rotary axes of a machine.
+///
+/// ```
+/// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis};
+/// use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+///
+/// // A table that turns about z of the part, 100 mm beside the part's origin.
+/// let table = RotaryAxis {
+///     letter: 'C',
+///     carries: Carries::Part,
+///     direction: Vector3::z_axis(),
+///     point_mm: Vector3::new(100.0, 0.0, 0.0),
+/// };
+/// let axes = RotaryAxes { axes: vec![table], tool_at_zero: UnitQuaternion::identity() };
+/// let turned = axes.part(&[90.0]) * Point3::origin();
+/// assert!((turned - Point3::new(100.0, -100.0, 0.0)).norm() < 1e-9);
+/// // In the part, the tool turns the other way.
+/// let tool = axes.tool(&[90.0]) * Vector3::x();
+/// assert!((tool + Vector3::y()).norm() < 1e-12);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryAxes {
+    /// From the base outwards: of two heads the one that carries the other first, and of two tables too.
+    pub axes: Vec<RotaryAxis>,
+    /// Orientation of the tool where all axes stand at zero, part axes from tool axes.
+    pub tool_at_zero: UnitQuaternion<f64>,
+}
+
+impl RotaryAxes {
+    fn turns(
+        &self,
+        carries: Carries,
+        angles_deg: &[f64],
+    ) -> impl Iterator<Item = (&RotaryAxis, f64)> {
+        let both = self.axes.iter().zip(angles_deg);
+        both.filter(move |(axis, _)| axis.carries == carries)
+            .map(|(axis, angle)| (axis, angle.to_radians()))
+    }
+
+    /// How far the part has turned from where it lies at zero, in the axes of the part there, mm.
+    #[must_use]
+    pub fn part(&self, angles_deg: &[f64]) -> Isometry3<f64> {
+        let turns = self.turns(Carries::Part, angles_deg);
+        turns.fold(Isometry3::identity(), |all, (axis, angle)| {
+            let turn = UnitQuaternion::from_axis_angle(&axis.direction, angle);
+            let off = axis.point_mm - turn * axis.point_mm;
+            all * Isometry3::from_parts(Translation3::from(off), turn)
+        })
+    }
+
+    /// Orientation of the tool, axes of the part as it stands then from tool axes.
+    #[must_use]
+    pub fn tool(&self, angles_deg: &[f64]) -> UnitQuaternion<f64> {
+        let turns = self.turns(Carries::Tool, angles_deg);
+        let head = turns.fold(UnitQuaternion::identity(), |all, (axis, angle)| {
+            all * UnitQuaternion::from_axis_angle(&axis.direction, angle)
+        });
+        self.part(angles_deg).rotation.inverse() * head * self.tool_at_zero
+    }
+
+    /// Whether there are tables.
+    fn turns_part(&self) -> bool {
+        self.axes.iter().any(|axis| axis.carries == Carries::Part)
+    }
+}
+
+/// What the rotary axes do in a move: each turns evenly with the share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryTurn {
+    /// The axes.
+    pub axes: Arc<RotaryAxes>,
+    /// Where they stand at the start of the move, in their order, deg.
+    pub start_deg: Vec<f64>,
+    /// Where they stand at its end.
+    pub end_deg: Vec<f64>,
+}
+
+impl RotaryTurn {
+    /// Where the axes stand at a share of the move, deg.
+    #[must_use]
+    pub fn angles_deg(&self, share: f64) -> Vec<f64> {
+        let both = self.start_deg.iter().zip(&self.end_deg);
+        both.map(|(start, end)| start + (end - start) * share.clamp(0.0, 1.0))
+            .collect()
+    }
+
+    /// Orientation of the tool at a share of the move, part axes from tool axes.
+    #[must_use]
+    pub fn tool(&self, share: f64) -> UnitQuaternion<f64> {
+        self.axes.tool(&self.angles_deg(share))
+    }
+
+    /// How far the part has turned at a share of the move from where it lies at zero; `None` on a machine without tables.
+    ///
+    /// ```
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let head = RotaryAxis {
+    ///     letter: 'A',
+    ///     carries: Carries::Tool,
+    ///     direction: Vector3::x_axis(),
+    ///     point_mm: Vector3::zeros(),
+    /// };
+    /// let axes = RotaryAxes { axes: vec![head], tool_at_zero: UnitQuaternion::identity() };
+    /// let turn = RotaryTurn { axes: axes.into(), start_deg: vec![0.0], end_deg: vec![30.0] };
+    /// assert!(turn.part(0.5).is_none());
+    /// assert_eq!(turn.angles_deg(0.5), [15.0]);
+    /// assert!((turn.tool(1.0).angle().to_degrees() - 30.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn part(&self, share: f64) -> Option<Isometry3<f64>> {
+        self.axes
+            .turns_part()
+            .then(|| self.axes.part(&self.angles_deg(share)))
+    }
+}

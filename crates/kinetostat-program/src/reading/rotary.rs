@@ -1,0 +1,128 @@
+//! Words of rotary axes that the machine's model knows: how they turn tool and part, and whether places are those of the tool's tip.
+
+use crate::error::{ProgramError, ProgramErrorKind};
+use crate::path::moves::MoveKind;
+use crate::path::rotary::RotaryTurn;
+use crate::path::tool_turn::ToolTurn;
+use crate::reading::block::Block;
+use crate::reading::interpret::Interpreter;
+use crate::reading::options::ToolCentrePoint;
+use crate::reading::places::Cause;
+
+/// Angles below this are zero, deg.
+const ZERO_DEG: f64 = 1e-9;
+
+impl Interpreter<'_> {
+    /// Where the rotary axes stand, deg, as far as the program says it.
+    pub(super) fn angles(&self) -> Vec<Option<f64>> {
+        let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        axes.map(|axis| self.modes.extra.place(axis.letter))
+            .collect()
+    }
+
+    /// G43.4 and G49.
+    pub(super) fn set_tool_centre_point(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        if block.codes.tool_centre_point {
+            if self.options.rotary.is_none() {
+                return Err(block.refuse(
+                    ProgramErrorKind::UnknownCode,
+                    None,
+                    "G43.4 (tool length offset with tool point control): it changes where the tool point goes with rotary axes, and the machine's model has none",
+                    "use G43 H with a Z word, or describe the rotary axes in the model ([[rotary_axis]])",
+                ));
+            }
+            self.modes.tool_centre_point = true;
+        } else if block.codes.tool_length == Some(490) {
+            self.modes.tool_centre_point =
+                self.options.tool_centre_point == ToolCentrePoint::Throughout;
+        }
+        if block.codes.position_offset.is_some()
+            && let Some(word) = self.rotary_word(block)
+        {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                block.word(word),
+                "G92 gives a rotary axis another angle than the machine's",
+                "state the angles that the axes have, and set their zeros at the machine",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The first rotary axis of which the block has a word.
+    fn rotary_word(&self, block: &Block<'_>) -> Option<u8> {
+        let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        let mut letters = axes.map(|axis| axis.letter as u8);
+        letters.find(|letter| block.value(*letter).is_some())
+    }
+
+    /// How the tool turns in a move, after its words were read; `before` are the angles before them. Where the places of a move are not
+    /// those of the tip in the part, they are lost.
+    pub(super) fn turn_of_move(
+        &mut self,
+        block: &Block<'_>,
+        kind: MoveKind,
+        before: &[Option<f64>],
+    ) -> Result<Option<Box<ToolTurn>>, ProgramError> {
+        let Some(axes) = self.options.rotary.clone() else {
+            return Ok(None);
+        };
+        let after = self.angles();
+        let turned = self.turned(&after).is_some();
+        if kind == MoveKind::Feed {
+            self.refuse_cut_at_angles(block, &after)?;
+        }
+        let tip = self.modes.tool_centre_point;
+        let unknown = after.contains(&None);
+        if (tip && unknown) || (!tip && turned) {
+            for axis in 0..3 {
+                self.places.lose(axis, Cause::Rotary, block.line_number);
+            }
+        }
+        if !tip || unknown {
+            return Ok(None);
+        }
+        let end_deg: Vec<f64> = after.iter().flatten().copied().collect();
+        let start = before.iter().zip(&end_deg);
+        let turn = RotaryTurn {
+            axes,
+            start_deg: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
+            end_deg,
+        };
+        Ok(Some(Box::new(ToolTurn::rotary(turn))))
+    }
+
+    /// The first axis that stands at an angle.
+    fn turned(&self, angles: &[Option<f64>]) -> Option<(char, f64)> {
+        let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        let mut both = axes.zip(angles);
+        both.find_map(|(axis, angle)| Some((axis.letter, angle.filter(|a| a.abs() > ZERO_DEG)?)))
+    }
+
+    /// A cut is where the program says only with axes of known angles and places of the tip, or with all axes at zero.
+    pub(super) fn refuse_cut_at_angles(
+        &self,
+        block: &Block<'_>,
+        angles: &[Option<f64>],
+    ) -> Result<(), ProgramError> {
+        let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        let unknown = axes.zip(angles).find(|(_, angle)| angle.is_none());
+        match (self.modes.tool_centre_point, unknown, self.turned(angles)) {
+            (true, Some((axis, _)), _) => Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                &format!("where axis {} stands is not stated before this block cuts", axis.letter),
+                &format!("state it with a rapid and an absolute word (G0 {}0) before it", axis.letter),
+            )),
+            (false, _, Some((letter, angle))) => Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                &format!(
+                    "axis {letter} stands at {angle} deg, and tool centre point control is off: X, Y and Z are places of the machine's slides"
+                ),
+                "let the CAM system write places of the tool's tip in the part (G43.4), or where the controller has that on all along, say so: --tool-centre-point, or tool_centre_point = true under [reading] in the job file",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
