@@ -78,6 +78,9 @@ pub(crate) struct RowContext<'c> {
     pub indivisible: Option<&'static str>,
 }
 
+/// Largest angle: of larger ones the digits behind the point are lost.
+const MOST_DEG: f64 = 36_000.0;
+
 const NUMBER: &str = "write a finite number with a decimal point";
 
 /// Reads the cells of a row; none where one is refused.
@@ -180,6 +183,13 @@ fn pose(
     let orientation: Vec<NumberText> = orientation.into_iter().collect::<Option<_>>()?;
     let convention = layout.convention.unwrap_or(OrientationText::Unstated);
     let values: Vec<f64> = orientation.iter().map(|number| number.value).collect();
+    let angles = matches!(convention, OrientationText::Wpr | OrientationText::Abc);
+    let far = |number: &&NumberText| number.value.abs() > MOST_DEG;
+    if let Some(angle) = orientation.iter().find(far).filter(|_| angles) {
+        let reason = "the angle is more than a hundred turns";
+        rows.fault(file, &angle.span, reason, "write it within half a turn");
+        return None;
+    }
     if convention.rotation_of(&values).is_none() {
         let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
         let (first, last) = (orientation.first()?, orientation.last()?);

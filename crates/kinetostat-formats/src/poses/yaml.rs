@@ -31,15 +31,24 @@ pub(crate) fn read_yaml(file: &SourceFile) -> YamlRows {
             if found.rows.rows.is_empty() && found.rows.faults.is_empty() {
                 found.rows.fault(
                     file,
-                    &(0..0),
+                    &line_from(file, 0),
                     "no list of poses stands in the file",
                     "write items with `position: {x: 0.1, y: 0.2, z: 0.3}` and, where it is stated, `orientation: {w: 1, x: 0, y: 0, z: 0}`",
                 );
             }
         }
-        Err((at, reason, remedy)) => found.rows.fault(file, &(at..at), reason, remedy),
+        Err((at, reason, remedy)) => {
+            found.rows.fault(file, &line_from(file, at), reason, remedy);
+        }
     }
     found
+}
+
+/// From a place to the end of its line.
+fn line_from(file: &SourceFile, at: usize) -> Range<usize> {
+    let rest = &file.bytes()[at..];
+    let end = rest.iter().position(|byte| *byte == b'\n');
+    at..at + end.unwrap_or(rest.len())
 }
 
 /// The value of a key.

@@ -122,6 +122,16 @@ fn rows_that_are_wrong_are_refused_by_line_all_at_once() {
     {
         assert!(found[index].1.contains(part), "{part}: {}", found[index].1);
     }
+    let found = errors(
+        "a.csv",
+        "x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg\n1,2,3,0,4e4,0\n",
+    );
+    assert!(
+        found[0]
+            .1
+            .contains("`4e4`: the angle is more than a hundred turns"),
+        "{found:?}"
+    );
     // German tables: commas of decimals.
     let found = errors("a.csv", "x_mm;y_mm;z_mm\n1,5;2;3\n");
     assert!(found[0].1.contains("`1,5`: it is no number"), "{found:?}");
@@ -146,7 +156,7 @@ fn yaml_that_says_no_pose_or_a_doubtful_one_is_refused_by_line() {
         ("x: 0.1\n", "x: .inf\n", 9, "it is no number"),
         ("x: 0.1\n", "x: 0x10\n", 9, "it is no number"),
         ("x: 0.1\n", "x:\n", 8, "it is no number"),
-        ("x: 0.1\n", "", 8, "not stated: x"),
+        ("x: 0.1\n            ", "", 8, "not stated: x"),
         (
             "x: 0.1\n",
             "x: 0.1\n            x: 0.1\n",
@@ -174,37 +184,37 @@ fn yaml_that_says_no_pose_or_a_doubtful_one_is_refused_by_line() {
         (
             "dwell: 0",
             "time_from_start: 1",
-            21,
+            19,
             "a time at which the pose is reached",
         ),
-        ("dwell: 0", "rx_deg: 1", 21, "a second orientation"),
+        ("dwell: 0", "rx_deg: 1", 19, "a second orientation"),
         (
             "orientation: {w: 0, x: 0, y: 1, z: 0}",
             "orientation: [0, 0, 1, 0]",
-            19,
+            17,
             "whether w is the first or the last",
         ),
         (
             "position: {z: -0.02, y: 0.30, x: 0.1}",
             "position: here",
-            20,
+            18,
             "the place is not x, y, z",
         ),
         (
             "- orientation: {w: 0, x: 0, y: 1, z: 0}\n          position: {z: -0.02, y: 0.30, x: 0.1}",
             "- name: gap",
-            19,
+            17,
             "it has no `position`",
         ),
         (
             "      z: 0\n",
             "      z: 0.1\n",
-            34,
+            31,
             "`tool_offset` moves the tool",
         ),
-        ("  tool_offset:", "\ttool_offset:", 33, "it is no YAML"),
-        ("  paths:", "  paths: {", 8, "it is no YAML"),
-        ("{z: -0.02, y: 0.30, x: 0.1}", "*there", 20, "it is no YAML"),
+        ("  tool_offset:", "\ttool_offset:", 30, "it is no YAML"),
+        ("  paths:", "  paths: {", 5, "it is no YAML"),
+        ("{z: -0.02, y: 0.30, x: 0.1}", "*there", 18, "it is no YAML"),
     ] {
         assert!(RASTERS.contains(from), "{from}");
         let at = match from.starts_with("      z: 0") {

@@ -47,7 +47,7 @@ fn a_pose_that_becomes_several_is_written_with_its_own_layout() {
     );
     let said = refused.unwrap_err().to_string();
     assert!(
-        said.contains("line 23: a joint motion cannot be divided"),
+        said.contains("line 21: a joint motion cannot be divided"),
         "{said}"
     );
     let table = program("a.csv", &TABLE.replace('\n', "\r\n"));

@@ -3,7 +3,7 @@
 use kinetostat_formats::*;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken};
+use crate::harness::{Chance, Kind, PLACE_MM, broken, read_bytes};
 
 pub fn kind() -> Kind {
     let mut options = ReadOptions::default();
@@ -182,8 +182,19 @@ pub fn program(chance: &mut Chance) -> String {
 /// One case of the fuzz.
 pub fn check(seed: u64) -> Result<bool, String> {
     let mut chance = Chance::new(seed);
-    let kind = kind();
+    let mut kind = kind();
     let whole = program(&mut chance);
     let bytes = broken(&mut chance, &whole, &kind);
+    // Where a pose lost its orientation, none can be turned.
+    kind.turns = read_bytes(&kind, &bytes).is_ok_and(|program| {
+        (program.motions.iter().enumerate()).all(|(index, motion)| {
+            motion.target.pose().is_none_or(|pose| {
+                let mut piece = Piece::to(index, Vector3::zeros());
+                piece.orientation =
+                    Some(pose.orientation * UnitQuaternion::from_euler_angles(0.1, 0.1, 0.1));
+                write(&program, &[piece], &WriteOptions::default()).is_ok()
+            })
+        })
+    });
     crate::harness::check(seed, &mut chance, &bytes, &kind)
 }

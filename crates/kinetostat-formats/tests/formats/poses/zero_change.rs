@@ -105,7 +105,7 @@ fn rasters_begin_in_air() {
         .map(|motion| motion.kind == MotionKind::Joint)
         .collect();
     assert_eq!(kinds, [true, false, true]);
-    assert_eq!(program.motions[1].line, 19);
+    assert_eq!(program.motions[1].line, 17);
     for (motion, wanted) in [
         [100.0, 250.0, -20.0],
         [100.0, 300.0, -20.0],
