@@ -30,9 +30,8 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
         }
         "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
         "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
-        // Neither is ever anything else that is read.
-        "csv" | "tsv" => Some(Language::Poses),
-        "yaml" | "yml" => Some(Language::Poses),
+        // None of them is ever anything else that is read.
+        "csv" | "tsv" | "yaml" | "yml" | "parquet" => Some(Language::Poses),
         _ => None,
     }
 }

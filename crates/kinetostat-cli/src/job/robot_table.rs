@@ -28,6 +28,18 @@ pub(crate) struct RobotTable {
     pub external_axes: Option<ExternalAxesWord>,
     /// What becomes of motions to ends that are not known from the text.
     pub unknown_targets: Option<UnknownTargetsWord>,
+    /// What lengths are in a list of poses that does not state it.
+    pub length_unit: Option<Spanned<LengthUnitWord>>,
+}
+
+/// What lengths are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum LengthUnitWord {
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
 }
 
 /// External axes that move.

@@ -19,6 +19,13 @@ use nalgebra::Vector3;
 /// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
 
+/// With these bytes a file in Parquet begins.
+const PARQUET: &[u8] = b"PAR1";
+
+const PARQUET_REASON: &str = "the table is in Parquet, which is not read here";
+const PARQUET_REMEDY: &str =
+    "write it as CSV: in Python  pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)";
+
 /// Reads lists of poses: tables (`.csv`, `.tsv`) and YAML (`.yaml`, `.yml`).
 ///
 /// A table has a line of names with units in front (`x_mm,y_mm,z_mm`, `qw,qx,qy,qz`, `speed_mm_per_s`, ...; all of them:
@@ -63,6 +70,12 @@ pub fn read_poses(
             reader
                 .faults
                 .push(ProgramError::at(file, 0..0, reason, "divide it"));
+            continue;
+        }
+        if file.bytes().starts_with(PARQUET) {
+            reader
+                .faults
+                .push(ProgramError::at(file, 0..4, PARQUET_REASON, PARQUET_REMEDY));
             continue;
         }
         reader.file(index, file);

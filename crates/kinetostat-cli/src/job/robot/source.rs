@@ -33,17 +33,17 @@ pub(crate) fn robot_source(
     let Some(language) = language_of(name, bytes) else {
         return match (flags.given(), table) {
             (Some(option), _) => Err(Failure::input(format!(
-                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls): it is read as G-code; leave {option} out"
+                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls; lists of poses: .csv, .yaml): it is read as G-code; leave {option} out"
             ))),
             (None, Some((j, table))) => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
-                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt)",
+                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt, .csv, .yaml)",
             )),
             (None, None) => Ok(None),
         };
     };
-    let settings = settings(job, flags, usual_axis(language))?;
+    let settings = settings(job, flags, (language, usual_axis(language)))?;
     let mut source = RobotSource {
         language,
         files: vec![SourceFile::new(name, bytes)],

@@ -254,6 +254,13 @@ fn yaml_that_says_no_pose_or_a_doubtful_one_is_refused_by_line() {
 }
 
 #[test]
+fn parquet_is_refused_with_the_way_out() {
+    assert_eq!(language_of("a.parquet", b"PAR1"), Some(Language::Poses));
+    let found = errors("a.parquet", "PAR1\u{15}\u{4}\n\u{15}PAR1");
+    assert!(found[0].1.contains("write it as CSV"), "{found:?}");
+}
+
+#[test]
 fn large_and_deep_files_end() {
     let deep = "[".repeat(100_000);
     for text in [
