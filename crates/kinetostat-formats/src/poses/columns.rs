@@ -113,13 +113,10 @@ fn by_beginning(name: &str) -> Result<Column, Refusal> {
         return Ok(Column::External);
     }
     if begins(&["joint_"]) {
-        return joint_of(name).map_or(
-            Err((
-                "a joint without its unit, or with another than deg, rad, mm and m",
-                "name it with its unit: joint_1_deg",
-            )),
-            Ok,
-        );
+        return joint_of(name).ok_or((
+            "a joint without its unit, or with another than deg, rad, mm and m",
+            "name it with its unit: joint_1_deg",
+        ));
     }
     if begins(&["x_", "y_", "z_"]) && name.len() <= 7 {
         return Err(NO_UNIT);

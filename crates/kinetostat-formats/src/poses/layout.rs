@@ -95,8 +95,7 @@ pub(crate) fn layout_of(names: &[Named], whole: &Range<usize>) -> Result<Layout,
                     turned.entry(place).or_insert(cell);
                 }
             },
-            Column::Speed(factor) if layout.speed.is_some() => {
-                let _ = factor;
+            Column::Speed(_) if layout.speed.is_some() => {
                 faults.push(fault(named, ("a second speed", "leave one of the two out")));
             }
             Column::Speed(factor) => layout.speed = Some((cell, factor)),

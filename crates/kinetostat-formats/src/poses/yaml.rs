@@ -159,10 +159,8 @@ impl YamlRows {
     fn raster(&mut self, file: &SourceFile, items: &[Node], frame: &str) {
         let mut first = true;
         for item in items {
-            let before = self.rows.rows.len();
             self.item(file, item, frame, first);
-            // A pose that is refused is one, too.
-            first = first && self.rows.rows.len() == before && self.rows.faults.is_empty();
+            first = false;
         }
     }
 

@@ -230,3 +230,18 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_first_motion_turns_by_nothing() {
+    let text = "x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg\n0,0,0,180,0,0\n9,0,0,180,0,0\n";
+    let file = SourceFile::new("a.csv", text);
+    let program = read_poses(vec![file], &ReadOptions::default()).unwrap();
+    let path = path_of(&program, &PathOptions::default()).unwrap().path;
+    assert!(!path.moves[0].turns_in_place());
+    let says_so = |text: &str| text.contains("turns at one place");
+    assert!(
+        !path.warnings.iter().any(|warning| says_so(&warning.text)),
+        "{:?}",
+        path.warnings
+    );
+}
