@@ -9,6 +9,8 @@ use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ReadOptions, WriteOptions};
+use crate::poses::reader::read_poses;
+use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
 use crate::text::source::SourceFile;
@@ -39,6 +41,7 @@ pub fn read(
         Language::FanucLs => read_ls(files, options),
         Language::Apt => read_apt(files, options),
         Language::Krl => read_krl(files, options),
+        Language::Poses => read_poses(files, options),
     }
 }
 
@@ -78,5 +81,6 @@ pub fn write(
         Language::FanucLs => write_ls(program, pieces, options),
         Language::Apt => write_apt(program, pieces, options),
         Language::Krl => write_with(program, pieces, options, &KrlSyntax),
+        Language::Poses => write_poses(program, pieces, options),
     }
 }

@@ -60,6 +60,7 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
 /// use kinetostat_formats::{Language, language_of};
 ///
 /// assert_eq!(language_of("Path_10.mod", b"MODULE Path_10\n"), Some(Language::Rapid));
+/// assert_eq!(language_of("poses.csv", b"x_mm,y_mm,z_mm\n"), Some(Language::Poses));
 /// assert_eq!(language_of("part.prg", b"%\nG21 G90\n"), None); // G-code has this ending, too
 /// ```
 #[must_use]
@@ -78,6 +79,8 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
         }
         "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
         "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
+        // None of them is ever anything else that is read.
+        "csv" | "tsv" | "yaml" | "yml" | "parquet" => Some(Language::Poses),
         _ => None,
     }
 }

@@ -46,6 +46,7 @@ mod ls;
 mod model;
 mod options;
 mod path;
+mod poses;
 mod rapid;
 mod table;
 mod text;
@@ -66,13 +67,16 @@ pub use model::program::{Finding, Language, RobotProgram};
 pub use model::stated_arm::StatedArm;
 pub use model::target::{Configuration, PoseTarget, Target};
 pub use options::{
-    CutterCompensation, ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions,
+    CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
+    WriteOptions,
 };
 pub use path::correctable::Correctable;
 pub use path::fault::PathError;
 pub use path::of_program::{RobotPath, path_of};
 pub use path::options::PathOptions;
 pub use path::tools::tool_number;
+pub use poses::reader::read_poses;
+pub use poses::table::POSES_STATEMENTS;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};

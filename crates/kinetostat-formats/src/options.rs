@@ -34,6 +34,15 @@ pub enum CutterCompensation {
     CentrePath,
 }
 
+/// What lengths of a list of poses are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// mm.
+    Millimetre,
+    /// m.
+    Metre,
+}
+
 /// How a program is read.
 ///
 /// ```
@@ -58,6 +67,8 @@ pub struct ReadOptions {
     pub external_axes: ExternalAxes,
     /// Paths that the controller moves aside.
     pub cutter_compensation: CutterCompensation,
+    /// Unit of the lengths of a list of poses that does not state it; none where it must.
+    pub length_unit: Option<LengthUnit>,
 }
 
 /// Where a motion that is written as several pieces stops, if it stops at its end.

@@ -1,7 +1,7 @@
 //! The languages that are read, and what their writers keep.
 
 use kinetostat_formats::{
-    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, RAPID_STATEMENTS, StatementRow,
+    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS, RAPID_STATEMENTS, StatementRow,
 };
 
 /// Where the table of a language is.
@@ -25,7 +25,7 @@ pub(crate) struct Language {
 }
 
 /// All of them.
-pub(crate) const LANGUAGES: [Language; 5] = [
+pub(crate) const LANGUAGES: [Language; 6] = [
     Language {
         name: "gcode",
         title: "G-code as LinuxCNC and most controllers read it",
@@ -60,5 +60,12 @@ pub(crate) const LANGUAGES: [Language; 5] = [
         endings: &["apt", "cls", "cl", "aptsource", "cldata"],
         written: "Written: numbers of GOTO in place, further places as GOTO before it; circles that are corrected become straight motions.",
         words: Words::Statements(APT_STATEMENTS),
+    },
+    Language {
+        name: "poses",
+        title: "lists of poses: tables (CSV) and YAML",
+        endings: &["csv", "tsv", "yaml", "yml"],
+        written: "Written: numbers in place, in their unit; further poses as copies of the row (CSV) or of the item (YAML) before it, with all its other cells and keys. The first pose of a raster stays a motion in air, which is not divided.",
+        words: Words::Statements(POSES_STATEMENTS),
     },
 ];

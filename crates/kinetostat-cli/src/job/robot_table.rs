@@ -30,6 +30,8 @@ pub(crate) struct RobotTable {
     pub unknown_targets: Option<UnknownTargetsWord>,
     /// What becomes of paths that the controller moves aside by the tool's radius.
     pub cutter_compensation: Option<CutterCompensationWord>,
+    /// What lengths are in a list of poses that does not state it.
+    pub length_unit: Option<Spanned<LengthUnitWord>>,
 }
 
 /// Paths that the controller moves aside by the tool's radius.
@@ -40,6 +42,16 @@ pub(crate) enum CutterCompensationWord {
     Refused,
     /// Their places are those of the tool's centre.
     CentrePath,
+}
+
+/// What lengths are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum LengthUnitWord {
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
 }
 
 /// External axes that move.

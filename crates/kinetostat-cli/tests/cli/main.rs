@@ -41,6 +41,7 @@ mod map;
 mod measured;
 mod places_by_position;
 mod plausibility_checks;
+mod poses;
 mod programs;
 mod refusals;
 mod reproduce;

@@ -18,6 +18,8 @@ pub enum Language {
     Apt,
     /// KUKA KRL.
     Krl,
+    /// Lists of poses: tables (CSV) and YAML.
+    Poses,
 }
 
 /// Something that a person should know of a program that was taken.

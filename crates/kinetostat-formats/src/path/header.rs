@@ -4,6 +4,7 @@ use kinetostat_program::COMPENSATED_MARK;
 
 use crate::ls::write::numbered_again;
 use crate::model::program::Language;
+use crate::poses::carrier::beginning;
 use crate::text::source::SourceFile;
 
 /// Prefix of every header line.
@@ -37,6 +38,10 @@ fn comments(language: Language) -> Comments {
             opens: "; ",
             below: Some("DEF"),
         },
+        Language::Poses => Comments {
+            opens: "# ",
+            below: None,
+        },
     }
 }
 
@@ -67,6 +72,10 @@ pub(crate) fn with_header(
             found = Some((at, line.ends_with(b"\r\n")));
             break;
         }
+    }
+    if language == Language::Poses {
+        // Above the names of the columns; inside of YAML a comment could become a part of a text.
+        found = found.map(|(_, carriage_return)| (beginning(bytes), carriage_return));
     }
     let Some((at, carriage_return)) = found else {
         return (bytes.to_vec(), 0);

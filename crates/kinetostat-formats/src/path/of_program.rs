@@ -321,10 +321,10 @@ impl Maker<'_> {
             }
             _ => Curve::Line,
         };
-        // From where it comes is not known: it has no direction.
-        let a = match known {
-            Knowledge::Whole => a,
-            _ => b,
+        // From where it comes is not known: it has no direction, and turns by nothing.
+        let (a, from) = match known {
+            Knowledge::Whole => (a, from),
+            _ => (b, to),
         };
         let fast = |limit: f64| {
             let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");

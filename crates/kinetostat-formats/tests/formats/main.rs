@@ -16,5 +16,6 @@ mod ls;
 mod numbers;
 mod orientations;
 mod paths;
+mod poses;
 mod rapid;
 mod real_files;

@@ -125,6 +125,22 @@ fn real_apt_programs_are_corrected_along_their_paths() {
     real(Language::Apt, "apt", 8);
 }
 
+#[test]
+fn rasters_of_poses_are_corrected_along_their_paths() {
+    for (name, bytes, poses, _) in crate::poses::real::files() {
+        let moves = corrected(Language::Poses, &name, &bytes, &ReadOptions::default());
+        assert_eq!(moves, Ok(poses), "{name}");
+    }
+    let text = "x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg,speed_mm_per_s,rapid\n0,0,20,180,0,0,,1\n0,0,0,180,0,0,20,0\n90,5,0,178,1,20,20,0\n90,50,3,178,-1,40,20,0\n";
+    let moves = corrected(
+        Language::Poses,
+        "a.csv",
+        text.as_bytes(),
+        &ReadOptions::default(),
+    );
+    assert_eq!(moves, Ok(4));
+}
+
 /// A number with so many decimals.
 fn rounded(value: f64, decimals: i32) -> f64 {
     let size = 10_f64.powi(decimals);
@@ -213,4 +229,19 @@ proptest! {
             prop_assert!(orientation.angle_to(&wanted.turned(&programmed)) < 1e-5);
         }
     }
+}
+
+#[test]
+fn a_first_motion_turns_by_nothing() {
+    let text = "x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg\n0,0,0,180,0,0\n9,0,0,180,0,0\n";
+    let file = SourceFile::new("a.csv", text);
+    let program = read_poses(vec![file], &ReadOptions::default()).unwrap();
+    let path = path_of(&program, &PathOptions::default()).unwrap().path;
+    assert!(!path.moves[0].turns_in_place());
+    let says_so = |text: &str| text.contains("turns at one place");
+    assert!(
+        !path.warnings.iter().any(|warning| says_so(&warning.text)),
+        "{:?}",
+        path.warnings
+    );
 }

@@ -1,7 +1,9 @@
 //! A robot's program read, with its path.
 
 use kinetostat::Directions;
-use kinetostat_formats::{Correctable, RobotPath, RobotProgram, path_of, read};
+use kinetostat_formats::{
+    Correctable, Language, Motion, RobotPath, RobotProgram, Target, path_of, read,
+};
 
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
@@ -40,6 +42,14 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
     let settings = &source.settings;
     let program = read(source.language, source.files.clone(), &settings.reading)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
+    if let (Language::Poses, Some(motion)) = (source.language, program.motions.iter().find(joints))
+    {
+        return Err(Failure::input(format!(
+            "line {}: the table states joint values; poses of the tool are corrected, joint values are not: let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
+            motion.line
+        )));
+    }
     let mut path = path_of(&program, &settings.making)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
     if path.file != 0 {

@@ -2,8 +2,8 @@
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    CutterCompensation, ExternalAxes, PathOptions, ReadOptions, UnknownTargets,
-    WriteOptions as TextOptions,
+    CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
+    UnknownTargets, WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
 use nalgebra::Vector3;
@@ -12,7 +12,7 @@ use serde_spanned::Spanned;
 use crate::job::job_file::JobFile;
 use crate::job::robot_arguments::{CorrectWord, RobotArgs};
 use crate::job::robot_table::{
-    CutterCompensationWord, ExternalAxesWord, RobotTable, UnknownTargetsWord,
+    CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
 use crate::job::values::{above_zero, chosen};
 use crate::ui::failure::Answer;
@@ -26,11 +26,11 @@ pub(crate) struct RobotSettings {
     pub(crate) corrected: Directions,
 }
 
-/// What options and job file say; `usual_axis` is that of the language, from the tool's tip to its holder.
+/// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
 pub(crate) fn settings(
     job: Option<&JobFile>,
     flags: &RobotArgs,
-    usual_axis: Vector3<f64>,
+    (language, usual_axis): (Language, Vector3<f64>),
 ) -> Answer<RobotSettings> {
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref())));
     let mut reading = ReadOptions::default();
@@ -57,6 +57,19 @@ pub(crate) fn settings(
         }
         if table.cutter_compensation == Some(CutterCompensationWord::CentrePath) {
             reading.cutter_compensation = CutterCompensation::CentrePath;
+        }
+        if let Some(unit) = &table.length_unit {
+            if language != Language::Poses {
+                return Err(j.error(
+                    unit,
+                    "this unit is for lists of poses: the program is in a language that has its own",
+                    "leave it out",
+                ));
+            }
+            reading.length_unit = Some(match unit.get_ref() {
+                LengthUnitWord::Mm => LengthUnit::Millimetre,
+                LengthUnitWord::M => LengthUnit::Metre,
+            });
         }
         correct = table.correct.unwrap_or(correct);
     }

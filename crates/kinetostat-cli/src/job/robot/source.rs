@@ -38,12 +38,12 @@ pub(crate) fn robot_source(
         }
         return match (flags.given(), table) {
             (Some(option), _) => Err(Failure::input(format!(
-                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls): it is read as G-code; leave {option} out"
+                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls; lists of poses: .csv, .yaml): it is read as G-code; leave {option} out"
             ))),
             (None, Some((j, table))) => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
-                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt)",
+                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt, .csv, .yaml)",
             )),
             (None, None) => Ok(None),
         };
@@ -54,7 +54,7 @@ pub(crate) fn robot_source(
             "'{name}' holds data of a program: give its .src as the program; the .dat of the same name is read with it"
         )));
     }
-    let settings = settings(job, flags, usual_axis(language))?;
+    let settings = settings(job, flags, (language, usual_axis(language)))?;
     let mut source = RobotSource {
         language,
         files: vec![SourceFile::new(name, bytes)],

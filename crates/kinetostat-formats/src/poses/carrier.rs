@@ -1,0 +1,54 @@
+//! Whether a list of poses is a table or YAML.
+
+use crate::text::source::SourceFile;
+
+/// How a list of poses is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Carrier {
+    /// Lines of cells below a line of names.
+    Table,
+    /// YAML.
+    Yaml,
+}
+
+/// Bytes that some editors write before the first character of a file in UTF-8.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Where the text of a file begins.
+pub(crate) fn beginning(bytes: &[u8]) -> usize {
+    match bytes.starts_with(BYTE_ORDER_MARK) {
+        true => BYTE_ORDER_MARK.len(),
+        false => 0,
+    }
+}
+
+impl Carrier {
+    /// By the ending of the name; where that says nothing, by the first line that is neither empty nor a comment.
+    pub(crate) fn of(file: &SourceFile) -> Self {
+        let ending = file.name().rsplit_once('.').map(|(_, ending)| ending);
+        match ending.map(str::to_ascii_lowercase).as_deref() {
+            Some("csv" | "tsv") => return Self::Table,
+            Some("yaml" | "yml") => return Self::Yaml,
+            _ => {}
+        }
+        let text = &file.bytes()[beginning(file.bytes())..];
+        let line = text
+            .split(|byte| *byte == b'\n')
+            .map(<[u8]>::trim_ascii)
+            .find(|line| !line.is_empty() && !line.starts_with(b"#"));
+        let is_yaml = |line: &[u8]| {
+            line.starts_with(b"- ")
+                || line == b"-"
+                || line.starts_with(b"---")
+                || line.starts_with(b"%YAML")
+                || line.starts_with(b"{")
+                || line.starts_with(b"[")
+                || line.ends_with(b":")
+                || line.windows(2).any(|pair| pair == b": ")
+        };
+        match line.is_some_and(is_yaml) {
+            true => Self::Yaml,
+            false => Self::Table,
+        }
+    }
+}

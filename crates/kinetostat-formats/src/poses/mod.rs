@@ -1,0 +1,20 @@
+//! Lists of poses and of joint values as tables (CSV) and as YAML.
+//!
+//! Which of the two a file is, [`carrier`] says; [`cells`] finds the cells of a line, [`tree`] the nodes of YAML. What a name means,
+//! [`columns`] says, and [`layout`] what all names of a row mean together; [`row`] reads the row. [`units`] decides what a length
+//! is: a wrong factor of 1000 is the worst fault of such a list. What each name is taken for stands in [`table`].
+//!
+//! Source: RFC 4180 (CSV), YAML 1.2.2, ROS `geometry_msgs/Pose` with REP 103 (metres, quaternions).
+
+pub(crate) mod carrier;
+pub(crate) mod cells;
+pub(crate) mod columns;
+pub(crate) mod csv;
+pub(crate) mod layout;
+pub(crate) mod reader;
+pub(crate) mod row;
+pub(crate) mod table;
+pub(crate) mod tree;
+pub(crate) mod units;
+pub(crate) mod write;
+pub(crate) mod yaml;

@@ -1,0 +1,256 @@
+//! A pose of a list, before its unit is known.
+
+use std::ops::Range;
+
+use crate::error::{ProgramError, note};
+use crate::model::orientation::OrientationText;
+use crate::poses::cells::number_of;
+use crate::poses::layout::Layout;
+use crate::text::number::NumberText;
+use crate::text::source::SourceFile;
+
+/// Where a row leads.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum RowTarget {
+    Pose {
+        /// In the unit of the text.
+        position: [NumberText; 3],
+        orientation: Vec<NumberText>,
+        convention: OrientationText,
+    },
+    /// Degrees or mm.
+    Joints(Vec<f64>),
+}
+
+/// A pose of a list.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Row {
+    /// All of it, as it is written a second time for a pose before it.
+    pub span: Range<usize>,
+    pub target: RowTarget,
+    /// It is reached in air, by a joint motion.
+    pub rapid: bool,
+    /// Where the speed stands, what it says in mm/s, and whether another one can be written there.
+    pub speed: Option<(Range<usize>, f64, bool)>,
+    pub tool: String,
+    pub frame: String,
+    pub external: Vec<Option<f64>>,
+    /// Why none can be written before it.
+    pub indivisible: Option<&'static str>,
+}
+
+/// What a file says beside its rows.
+#[derive(Debug, Default)]
+pub(crate) struct Rows {
+    pub rows: Vec<Row>,
+    pub faults: Vec<ProgramError>,
+    /// Place and words.
+    pub findings: Vec<(usize, String)>,
+}
+
+impl Rows {
+    pub(crate) fn fault(
+        &mut self,
+        file: &SourceFile,
+        span: &Range<usize>,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        note(&mut self.faults, || {
+            ProgramError::at(file, span.clone(), reason, remedy)
+        });
+    }
+}
+
+/// Names of frames where none is stated.
+pub(crate) const TOOL: &str = "tool";
+pub(crate) const PART: &str = "part";
+
+/// What a row is read with besides its cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RowContext<'c> {
+    pub layout: &'c Layout,
+    pub span: Range<usize>,
+    /// The first one of its raster.
+    pub first: bool,
+    /// Its frame where it states none itself.
+    pub frame: &'c str,
+    pub indivisible: Option<&'static str>,
+}
+
+/// Largest angle: of larger ones the digits behind the point are lost.
+const MOST_DEG: f64 = 36_000.0;
+
+const NUMBER: &str = "write a finite number with a decimal point";
+
+/// Reads the cells of a row; none where one is refused.
+pub(crate) fn row_of(
+    file: &SourceFile,
+    context: RowContext<'_>,
+    cells: &[Range<usize>],
+    rows: &mut Rows,
+) -> Option<Row> {
+    let layout = context.layout;
+    let before = rows.faults.len();
+    let mut number = |cell: usize| {
+        let span = cells.get(cell)?;
+        let found = number_of(file.bytes(), span);
+        if found.is_none() {
+            let shown = shown(file, span, &context.span);
+            rows.fault(file, &shown, "it is no number", NUMBER);
+        }
+        found
+    };
+    let target = match layout.position {
+        Some(position) => {
+            let position = position.map(&mut number);
+            let turned = layout.orientation.iter().map(|cell| number(*cell));
+            let orientation: Vec<Option<NumberText>> = turned.collect();
+            pose(file, layout, position, orientation, rows)
+        }
+        None => {
+            let values: Vec<Option<f64>> = (layout.joints.iter())
+                .map(|(cell, factor)| Some(number(*cell)?.value * factor))
+                .collect();
+            values
+                .into_iter()
+                .collect::<Option<Vec<f64>>>()
+                .map(RowTarget::Joints)
+        }
+    };
+    let external = layout.external.iter().map(|cell| {
+        let span = cells.get(*cell)?;
+        match file.part(span) {
+            b"" | b"9E9" | b"9e9" | b"9E+09" => None,
+            _ => {
+                let found = number_of(file.bytes(), span);
+                if found.is_none() {
+                    rows.fault(file, span, "it is no number", NUMBER);
+                }
+                Some(found?.value)
+            }
+        }
+    });
+    let external = external.collect();
+    let text = |cell: Option<usize>, or: &str| match cell.and_then(|cell| cells.get(cell)) {
+        Some(span) if !span.is_empty() => name_of(file.part(span)),
+        _ => or.to_owned(),
+    };
+    let (tool, frame) = (text(layout.tool, TOOL), text(layout.frame, context.frame));
+    let rapid = rapid(file, layout, cells, rows).unwrap_or(context.first);
+    let speed = speed(file, layout, cells, rows);
+    let whole = rows.faults.len() == before;
+    target.filter(|_| whole).map(|target| Row {
+        span: context.span,
+        target,
+        rapid,
+        speed,
+        tool,
+        frame,
+        external,
+        indivisible: context.indivisible,
+    })
+}
+
+/// What is shown of a cell: an empty one shows its row.
+fn shown(file: &SourceFile, cell: &Range<usize>, row: &Range<usize>) -> Range<usize> {
+    match file.part(cell).is_empty() {
+        true => row.clone(),
+        false => cell.clone(),
+    }
+}
+
+/// A name without the quotes of YAML.
+fn name_of(text: &[u8]) -> String {
+    let bare = |quote: u8| {
+        let text = text.strip_prefix(&[quote])?;
+        text.strip_suffix(&[quote])
+    };
+    let text = bare(b'"').or_else(|| bare(b'\'')).unwrap_or(text);
+    String::from_utf8_lossy(text).into_owned()
+}
+
+fn pose(
+    file: &SourceFile,
+    layout: &Layout,
+    position: [Option<NumberText>; 3],
+    orientation: Vec<Option<NumberText>>,
+    rows: &mut Rows,
+) -> Option<RowTarget> {
+    let [Some(x), Some(y), Some(z)] = position else {
+        return None;
+    };
+    let orientation: Vec<NumberText> = orientation.into_iter().collect::<Option<_>>()?;
+    let convention = layout.convention.unwrap_or(OrientationText::Unstated);
+    let values: Vec<f64> = orientation.iter().map(|number| number.value).collect();
+    let angles = matches!(convention, OrientationText::Wpr | OrientationText::Abc);
+    let far = |number: &&NumberText| number.value.abs() > MOST_DEG;
+    if let Some(angle) = orientation.iter().find(far).filter(|_| angles) {
+        let reason = "the angle is more than a hundred turns";
+        rows.fault(file, &angle.span, reason, "write it within half a turn");
+        return None;
+    }
+    if convention.rotation_of(&values).is_none() {
+        let length = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let (first, last) = (orientation.first()?, orientation.last()?);
+        let start = first.span.start.min(last.span.start);
+        let what = match convention {
+            OrientationText::Quaternion => "the quaternion",
+            _ => "the tool's axis",
+        };
+        let reason = format!("{what} has the length {length:.6} instead of 1 (within 0.001)");
+        rows.fault(
+            file,
+            &(start..first.span.end.max(last.span.end)),
+            reason,
+            "write it with length 1, and with more digits",
+        );
+        return None;
+    }
+    Some(RowTarget::Pose {
+        position: [x, y, z],
+        orientation,
+        convention,
+    })
+}
+
+fn rapid(
+    file: &SourceFile,
+    layout: &Layout,
+    cells: &[Range<usize>],
+    rows: &mut Rows,
+) -> Option<bool> {
+    let span = cells.get(layout.rapid?)?;
+    match file.part(span).to_ascii_lowercase().as_slice() {
+        b"1" | b"true" => Some(true),
+        b"0" | b"false" => Some(false),
+        _ => {
+            let reason = "whether the pose is reached in air is neither 0 nor 1";
+            rows.fault(
+                file,
+                span,
+                reason,
+                "write 1 for a motion in air, 0 for one at feed",
+            );
+            None
+        }
+    }
+}
+
+fn speed(
+    file: &SourceFile,
+    layout: &Layout,
+    cells: &[Range<usize>],
+    rows: &mut Rows,
+) -> Option<(Range<usize>, f64, bool)> {
+    let (cell, factor) = layout.speed?;
+    let span = cells.get(cell)?;
+    if span.is_empty() {
+        return None;
+    }
+    let Some(number) = number_of(file.bytes(), span) else {
+        rows.fault(file, span, "it is no number", NUMBER);
+        return None;
+    };
+    Some((span.clone(), number.value * factor, factor == 1.0))
+}

@@ -1,0 +1,130 @@
+//! What the writer must know of lists of poses.
+//!
+//! A pose before another one is a copy of its row with other numbers. Lengths go back into the unit of the text.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::error::WriteError;
+use crate::model::motion::Motion;
+use crate::model::program::RobotProgram;
+use crate::model::site::{PoseText, TargetSite};
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+use crate::writing::motions::write_with;
+use crate::writing::piece::Piece;
+use crate::writing::syntax::Syntax;
+
+/// The files of a program with pieces in place of its motions.
+pub(crate) fn write_poses(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    let units: Vec<f64> = (0..program.files.len())
+        .map(|file| unit_mm(program, file))
+        .collect();
+    let mut all = pieces.to_vec();
+    for piece in &mut all {
+        if let Some(motion) = program.motions.get(piece.motion) {
+            piece.position_mm /= units[motion.file];
+        }
+    }
+    let mut options = options.clone();
+    if units.contains(&1000.0) {
+        // As fine in metres.
+        options.position_decimals += 3;
+    }
+    write_with(program, &all, &options, &PosesSyntax)
+}
+
+/// How many mm one of the text is: what was read against what is written, at a place that is not zero.
+fn unit_mm(program: &RobotProgram, file: usize) -> f64 {
+    let ratios = program
+        .motions
+        .iter()
+        .filter(|motion| motion.file == file)
+        .filter_map(|motion| {
+            let (TargetSite::Literal(text), Some(pose)) =
+                (&motion.site.target, motion.target.pose())
+            else {
+                return None;
+            };
+            let mut both = text.position.iter().zip(pose.position_mm.iter());
+            let (number, mm) = both.find(|(number, _)| number.value.abs() > 1e-200)?;
+            Some(mm / number.value)
+        });
+    match ratios.into_iter().next() {
+        Some(ratio) if ratio > 30.0 => 1000.0,
+        _ => 1.0,
+    }
+}
+
+/// Tables and YAML.
+struct PosesSyntax;
+
+impl Syntax for PosesSyntax {
+    fn names(&self, _program: &RobotProgram) -> BTreeSet<Vec<u8>> {
+        BTreeSet::new()
+    }
+
+    fn free_name(
+        &self,
+        _near: &[u8],
+        _number: &mut usize,
+        _taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literal: &[u8],
+        speed: Option<&[u8]>,
+        _options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let (Some(speed), Some(site)) = (speed, &motion.site.speed) else {
+            return Some(literal.to_vec());
+        };
+        let TargetSite::Literal(text) = &motion.site.target else {
+            return None;
+        };
+        let row = program.files.get(motion.file)?.part(&motion.span);
+        let at = moved(row, literal, motion.span.start, text, &site.span)?;
+        let mut edits = Edits::default();
+        edits.replace(at, speed);
+        edits.applied_to(literal)
+    }
+
+    fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
+}
+
+/// Where a span of a row stands in a copy of the row whose numbers are others.
+fn moved(
+    row: &[u8],
+    copy: &[u8],
+    start: usize,
+    text: &PoseText,
+    span: &Range<usize>,
+) -> Option<Range<usize>> {
+    let mut numbers: Vec<&Range<usize>> = (text.position.iter())
+        .chain(&text.orientation)
+        .map(|number| &number.span)
+        .filter(|number| number.start < span.start)
+        .collect();
+    numbers.sort_by_key(|number| number.start);
+    let is_part = |byte: &&u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
+    let (mut from, mut to) = (start, 0);
+    for number in numbers {
+        // Between numbers both are the same.
+        to += number.start.checked_sub(from)?;
+        to += copy.get(to..)?.iter().take_while(is_part).count();
+        from = number.end;
+    }
+    to += span.start.checked_sub(from)?;
+    let found = to..to + span.len();
+    let same = copy.get(found.clone())? == row.get(span.start - start..span.end - start)?;
+    same.then_some(found)
+}
