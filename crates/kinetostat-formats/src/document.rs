@@ -11,6 +11,8 @@ use crate::model::program::{Language, RobotProgram};
 use crate::options::{ReadOptions, WriteOptions};
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
+use crate::siemens::reader::read_siemens;
+use crate::siemens::write::write_siemens;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
@@ -39,6 +41,7 @@ pub fn read(
         Language::FanucLs => read_ls(files, options),
         Language::Apt => read_apt(files, options),
         Language::Krl => read_krl(files, options),
+        Language::Siemens => read_siemens(files, options),
     }
 }
 
@@ -78,5 +81,6 @@ pub fn write(
         Language::FanucLs => write_ls(program, pieces, options),
         Language::Apt => write_apt(program, pieces, options),
         Language::Krl => write_with(program, pieces, options, &KrlSyntax),
+        Language::Siemens => write_siemens(program, pieces, options),
     }
 }

@@ -18,6 +18,8 @@ pub enum Language {
     Apt,
     /// KUKA KRL.
     Krl,
+    /// SINUMERIK 840D.
+    Siemens,
 }
 
 /// Something that a person should know of a program that was taken.

@@ -18,3 +18,4 @@ mod orientations;
 mod paths;
 mod rapid;
 mod real_files;
+mod siemens;

@@ -1,0 +1,1 @@
+//! Corrected places, further blocks, modes that are stated again.

@@ -1,0 +1,1 @@
+//! Frames against transformations by hand.
