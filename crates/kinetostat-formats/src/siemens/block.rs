@@ -78,10 +78,11 @@ pub(crate) struct Argument {
 }
 
 /// Words whose block is read elsewhere as a whole.
-pub(crate) const STATEMENTS: [&str; 25] = [
+pub(crate) const STATEMENTS: [&str; 33] = [
     "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE", "FOR", "ENDFOR", "REPEAT", "REPEATB", "UNTIL",
     "LOOP", "ENDLOOP", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "CASE", "DEF", "PROC", "EXTERN",
-    "DEFINE", "ENDLABEL", "SET", "REDEF",
+    "DEFINE", "ENDLABEL", "SET", "REDEF", "CALL", "WHEN", "WHENEVER", "EVERY", "DO", "ID", "IDS",
+    "SETINT",
 ];
 
 /// Longest line whose words are read, bytes: a block of the control has 512.

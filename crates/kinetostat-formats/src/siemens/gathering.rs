@@ -16,6 +16,12 @@ use crate::table::Treatment;
 /// Letters of axes beside X, Y and Z.
 const OTHER_AXES: &[u8] = b"ABCUVWQE";
 
+/// Words that are understood and have no value.
+const ALONE: [&str; 13] = [
+    "SUPA", "CIP", "TRANS", "ATRANS", "ROT", "AROT", "RET", "TRAORI", "TRAFOOF", "ORIWKS",
+    "ORIMKS", "ORIEULER", "ORIRPY",
+];
+
 impl Reader<'_> {
     /// The words of a block; what is refused among them is noted.
     pub(crate) fn words(&mut self, block: &Block) -> Words {
@@ -141,6 +147,11 @@ impl Reader<'_> {
         let span = &item.span;
         match row(name).map(|row| row.treatment) {
             Some(Treatment::Refused { reason, remedy }) => self.fault(span, reason, remedy),
+            Some(Treatment::Understood) if !ALONE.contains(&name) => self.fault(
+                span,
+                "its value is missing, or it takes none",
+                "write it as the manual of the control states it",
+            ),
             Some(_) => {}
             None if name.starts_with('$') => self.fault(
                 span,

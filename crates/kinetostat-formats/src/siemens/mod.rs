@@ -10,6 +10,7 @@ pub(crate) mod arcs;
 pub(crate) mod block;
 pub(crate) mod declarations;
 pub(crate) mod expression;
+pub(crate) mod flat;
 pub(crate) mod frames;
 mod gathering;
 mod motion;

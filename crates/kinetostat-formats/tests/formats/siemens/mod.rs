@@ -2,9 +2,11 @@
 
 mod broken;
 mod corrections;
+mod flat;
 mod frames;
 mod properties;
 mod random;
+mod real;
 mod zero_change;
 
 use kinetostat_formats::*;

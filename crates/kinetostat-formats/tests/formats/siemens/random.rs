@@ -20,7 +20,13 @@ pub fn kind() -> Kind {
             "ROT Z30\n",
             "R1=5\n",
             "X=R1*2+SIN(30)",
-            "IF R1==1 GOTOF END\n",
+            "IF R1==1 GOTOF OUT\n",
+            "LOOP\n",
+            "ENDLOOP\n",
+            "ENDIF\n",
+            "REPEAT LAST P=3\n",
+            "CYCLE83(5,0,1,-20,,,10,3,0,0,1,0)\n",
+            "R1=R1+1\n",
             "SUPA ",
             "TRAORI\n",
             "A3=0 B3=1 C3=1",
@@ -228,10 +234,61 @@ pub fn program(chance: &mut Chance) -> String {
     }
 }
 
+/// A program with loops, branches and calls, and how often its line with `X` of a counter runs.
+pub fn looping(chance: &mut Chance) -> (String, usize) {
+    let (outer, inner) = (1 + chance.below(4), 1 + chance.below(4));
+    let begin = match chance.below(2) {
+        0 => format!("FOR R1=1 TO {outer}"),
+        _ => "R1=0\nREPEAT\nR1=R1+1 ; counts".to_owned(),
+    };
+    let end = match begin.starts_with('F') {
+        true => "ENDFOR".to_owned(),
+        false => format!("UNTIL R1>={outer}"),
+    };
+    let jump = chance.of(&["GOTOB AGAIN", "GOTO AGAIN"]);
+    let text = format!(
+        "G17 G90 G94 F600\nG0 X0 Y0 Z5\n{begin}\nR2=0\nAGAIN: R2=R2+1\nG1 X=R1*10+R2 Y=SIN(R2*30) Z=-R1\nIF R2<{inner} {jump}\n{end}\nLAST: G0 Z5\nENDLABEL: Z6\nREPEAT LAST P=2\nM30\n"
+    );
+    (text, outer * inner + 7)
+}
+
+/// One case of a program that is run flat, whole or broken: it is refused by line, or what it gives is read.
+fn check_flat(seed: u64, chance: &mut Chance, kind: &Kind) -> Result<bool, String> {
+    let (whole, count) = looping(chance);
+    let bytes = broken(chance, &whole, kind);
+    let same = bytes == whole.as_bytes();
+    let files = [SourceFile::new("a.mpf", bytes.clone())];
+    let flat = match kinetostat_formats::internal::expand_within(&files, 100_000) {
+        Ok(flat) => flat,
+        Err(errors) => {
+            let lines = files[0].line_count();
+            let fits = |error: &ProgramError| (1..=lines).contains(&error.line);
+            return match same || !errors.iter().all(fits) || errors.is_empty() {
+                true => Err(format!("case {seed}: {errors:?}")),
+                false => Ok(false),
+            };
+        }
+    };
+    if !flat.changed && flat.file.bytes() != bytes {
+        return Err(format!(
+            "case {seed}: bytes changed where nothing was to do"
+        ));
+    }
+    let read = read_siemens(vec![flat.file], &kind.options);
+    match (same, read) {
+        (true, Ok(program)) if program.motions.len() == count => Ok(true),
+        (true, found) => Err(format!("case {seed}: {:?}", found.map(|p| p.motions.len()))),
+        (false, found) => Ok(found.is_ok()),
+    }
+}
+
 /// One case of the fuzz.
 pub fn check(seed: u64) -> Result<bool, String> {
     let mut chance = Chance::new(seed);
     let kind = kind();
+    if chance.below(3) == 0 {
+        return check_flat(seed, &mut chance, &kind);
+    }
     let whole = program(&mut chance);
     let bytes = broken(&mut chance, &whole, &kind);
     crate::harness::check(seed, &mut chance, &bytes, &kind)
