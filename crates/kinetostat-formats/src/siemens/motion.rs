@@ -301,7 +301,16 @@ impl Reader<'_> {
         let (kind, target, site) = match known {
             Some(Known { kind, end }) => {
                 let site = TargetSite::Literal(self.text(words, anchor, end));
-                (kind, Target::Pose(self.pose(end)), site)
+                let mut pose = self.pose(end);
+                // A turned frame leaves rounding where the tool stays: it is no way.
+                let before = state.last.filter(|_| start_known);
+                let before = before.and_then(|last| self.out.motions[last].target.pose());
+                if let Some(before) = before
+                    && (before.position_mm - pose.position_mm).norm() < SAME_MM
+                {
+                    pose.position_mm = before.position_mm;
+                }
+                (kind, Target::Pose(pose), site)
             }
             None => {
                 let target = Target::Unknown {
@@ -420,6 +429,9 @@ impl Reader<'_> {
         }
     }
 }
+
+/// Places nearer than this are one, mm.
+const SAME_MM: f64 = 1e-9;
 
 /// Where words of places go that are not there: behind those that are, or behind the code.
 pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {

@@ -165,8 +165,14 @@ impl Reader<'_> {
         let faults = self.out.faults.len();
         let words = self.words(block);
         if self.out.faults.len() > faults {
-            // What the rest would do is not known: the places are taken as stated.
+            // What the block does is not known: its places are taken as stated.
             self.state.lost = true;
+            for (axis, word) in words.axes.iter().enumerate() {
+                if let Some(word) = word.as_ref().filter(|word| !word.step) {
+                    self.state.place[axis] = Some(word.mm);
+                }
+            }
+            return;
         }
         self.act(block, words, (code, feed));
     }

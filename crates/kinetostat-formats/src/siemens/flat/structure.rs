@@ -7,8 +7,10 @@ use crate::error::{ProgramError, note};
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::type_of;
 use crate::siemens::expression::{Cursor, Expression};
+use crate::siemens::table::row;
 use crate::siemens::tokens::{Broken, Kind, Token};
 use crate::siemens::values::Type;
+use crate::table::Treatment;
 use crate::text::source::SourceFile;
 
 /// A program.
@@ -287,8 +289,14 @@ impl Unit {
                     "call it by its name",
                 ));
             }
-            _ => {
-                return Err(broken("it is not followed", "write the program without it"));
+            word => {
+                let word = String::from_utf8_lossy(word).into_owned();
+                return Err(match row(&word).map(|row| row.treatment) {
+                    Some(Treatment::Refused { reason, remedy }) if word != "GOTOS" => {
+                        broken(reason, remedy)
+                    }
+                    _ => broken("it is not followed", "write the program without it"),
+                });
             }
         };
         match cursor.peek() {

