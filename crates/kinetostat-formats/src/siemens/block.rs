@@ -139,7 +139,7 @@ impl Block {
     /// Number and label.
     fn head(&mut self, cursor: &mut Cursor<'_>) {
         let number = |token: Option<&Token>| match token.map(|token| token.kind) {
-            Some(Kind::Number(value)) if value >= 0.0 && value < 1e9 => Some(value as u64),
+            Some(Kind::Number(value)) if (0.0..1e9).contains(&value) => Some(value as u64),
             _ => None,
         };
         let main = cursor.peek().is_some_and(|token| token.is(b':'));

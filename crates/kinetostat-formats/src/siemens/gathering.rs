@@ -6,10 +6,10 @@ use crate::options::CutterCompensation;
 use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::frames::Change;
-use crate::siemens::scan::Reader;
 use crate::siemens::state::{Angles, Code, FeedMode};
 use crate::siemens::table::row;
 use crate::siemens::values::{Value, whole};
+use crate::siemens::walker::Reader;
 use crate::siemens::words::{Group, Purpose, Words, coordinate, coordinate_of};
 use crate::table::Treatment;
 

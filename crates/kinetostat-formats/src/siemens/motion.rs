@@ -13,8 +13,8 @@ use crate::options::UnknownTargets;
 use crate::siemens::arcs::arc;
 use crate::siemens::block::Block;
 use crate::siemens::frames::Change;
-use crate::siemens::scan::{Reader, Written};
 use crate::siemens::state::{Code, FeedMode};
+use crate::siemens::walker::{Reader, Written};
 use crate::siemens::words::{Purpose, Words};
 use crate::text::number::{NumberText, Width};
 

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::options::WriteOptions;
-use crate::siemens::scan::Written;
 use crate::siemens::state::Coordinate;
+use crate::siemens::walker::Written;
 use crate::text::edits::Edits;
 use crate::text::number::{Width, printed};
 use crate::text::source::SourceFile;

@@ -159,9 +159,9 @@ impl Variables {
             return Ok(Value::Number(*value));
         }
         match name.to_ascii_uppercase().as_slice() {
-            b"TRUE" => return Ok(truth(true)),
-            b"FALSE" => return Ok(truth(false)),
-            b"$PI" => return Ok(Value::Number(std::f64::consts::PI)),
+            b"TRUE" => Ok(truth(true)),
+            b"FALSE" => Ok(truth(false)),
+            b"$PI" => Ok(Value::Number(std::f64::consts::PI)),
             capitals => {
                 if capitals.starts_with(b"$") {
                     return Err(format!(

@@ -2,9 +2,9 @@
 
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::expand::program_name;
 use crate::siemens::flat::modes::Modes;
-use crate::siemens::flat::run::{Fault, Level, Runner};
+use crate::siemens::flat::names::program_name;
+use crate::siemens::flat::runner::{Fault, Level, Runner};
 use crate::siemens::values::{Value, Variable};
 
 /// A subprogram that a block calls.

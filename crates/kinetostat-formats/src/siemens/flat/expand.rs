@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
 use crate::siemens::block::{Block, What};
-use crate::siemens::flat::run::{MOST_STEPS, Runner};
+use crate::siemens::files::whole_file;
+use crate::siemens::flat::names::program_name;
+use crate::siemens::flat::run::MOST_STEPS;
+use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
-use crate::siemens::reader::whole_file;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
@@ -83,19 +85,6 @@ pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, 
         }),
         Err(fault) => Err(vec![*fault]),
     }
-}
-
-/// The name by which a program is called, in capitals: that of its file without ending and marks of the control.
-pub(super) fn program_name(file: &str) -> Vec<u8> {
-    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
-    let name = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let name = name.to_ascii_uppercase();
-    let name = name.strip_prefix("_N_").unwrap_or(&name);
-    let name = name
-        .strip_suffix("_SPF")
-        .or(name.strip_suffix("_MPF"))
-        .unwrap_or(name);
-    name.as_bytes().to_vec()
 }
 
 /// Whether the control flow of a program is not straight on.

@@ -2,21 +2,12 @@
 
 use crate::siemens::block::{Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::drilling::Drilling;
-use crate::siemens::flat::run::{Fault, Runner};
+use crate::siemens::flat::holes::drilling_of;
+use crate::siemens::flat::numbers::number;
+use crate::siemens::flat::runner::{Fault, Runner};
 use crate::siemens::flat::structure::Line;
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
-
-/// A number with up to six decimals: a nanometre.
-pub(super) fn number(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    match text {
-        "-0" => "0".to_owned(),
-        text => text.to_owned(),
-    }
-}
 
 /// Ends of programs.
 enum End {
@@ -187,12 +178,12 @@ impl Runner<'_> {
                 Ok(true)
             }
             [_, cycle] if first == b"MCALL" && is_cycle(&name(cycle)) => {
-                let drilling = Drilling::of(self, cycle)?;
+                let drilling = drilling_of(self, cycle)?;
                 self.drilling = Some(drilling);
                 Ok(true)
             }
             [cycle] if is_cycle(&first) => {
-                let drilling = Drilling::of(self, cycle)?;
+                let drilling = drilling_of(self, cycle)?;
                 self.drill_here(&drilling)?;
                 Ok(true)
             }
@@ -208,16 +199,6 @@ impl Runner<'_> {
             )),
             _ => Ok(false),
         }
-    }
-
-    /// Writes a line, and where it is from.
-    pub(super) fn write_line(&mut self, text: &[u8]) {
-        self.output.extend_from_slice(text.trim_ascii_end());
-        self.output.extend_from_slice(self.ending);
-        let origin = self.levels.last().map_or((0, 0), |level| {
-            (self.units[level.unit].file, level.line + 1)
-        });
-        self.origins.push(origin);
     }
 }
 
