@@ -6,6 +6,7 @@
 //!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
 //!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`]).
+//!    SINUMERIK programs with jumps, loops and calls are run once and written flat before ([`expand_siemens`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
 //! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
