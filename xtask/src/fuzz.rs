@@ -47,6 +47,7 @@ fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
         ("fuzz of APT files", "fuzz_apt"),
         ("fuzz of KRL programs", "fuzz_krl"),
         ("fuzz of lists of poses", "fuzz_poses"),
+        ("fuzz of SINUMERIK programs", "fuzz_siemens"),
     ] {
         example(what, "kinetostat-formats", name, &[&minutes, seed])?;
     }

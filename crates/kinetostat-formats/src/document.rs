@@ -13,6 +13,8 @@ use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
+use crate::siemens::reader::read_siemens;
+use crate::siemens::write::write_siemens;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
@@ -42,6 +44,7 @@ pub fn read(
         Language::Apt => read_apt(files, options),
         Language::Krl => read_krl(files, options),
         Language::Poses => read_poses(files, options),
+        Language::Siemens => read_siemens(files, options),
     }
 }
 
@@ -82,5 +85,6 @@ pub fn write(
         Language::Apt => write_apt(program, pieces, options),
         Language::Krl => write_with(program, pieces, options, &KrlSyntax),
         Language::Poses => write_poses(program, pieces, options),
+        Language::Siemens => write_siemens(program, pieces, options),
     }
 }

@@ -81,6 +81,34 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
         "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
         // None of them is ever anything else that is read.
         "csv" | "tsv" | "yaml" | "yml" | "parquet" => Some(Language::Poses),
+        "mpf" | "spf" => Some(Language::Siemens),
+        "nc" | "cnc" | "tap" | "ngc" | "iso" | "txt" if is_siemens(&beginning) => {
+            Some(Language::Siemens)
+        }
         _ => None,
     }
+}
+
+/// Whether a program that may as well be G-code has lines that only a SINUMERIK reads; in capitals.
+fn is_siemens(beginning: &[u8]) -> bool {
+    beginning.split(|byte| *byte == b'\n').any(|line| {
+        let line = line.trim_ascii();
+        let numbered = line
+            .strip_prefix(b"N")
+            .filter(|rest| rest.first().is_some_and(u8::is_ascii_digit));
+        let digits = numbered.map_or(0, |rest| {
+            1 + rest.iter().take_while(|byte| byte.is_ascii_digit()).count()
+        });
+        let words = line[digits..].trim_ascii_start();
+        let cycle = words.strip_prefix(b"CYCLE8").is_some_and(|rest| {
+            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            digits > 0 && rest.get(digits) == Some(&b'(')
+        });
+        cycle
+            || words.starts_with(b"%_N_")
+            || words.starts_with(b"DEF REAL ")
+            || words == b"TRAORI"
+            || words.starts_with(b"TRAORI(")
+            || words.starts_with(b"TRAORI ")
+    })
 }

@@ -6,6 +6,7 @@
 //!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
 //!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`]).
+//!    SINUMERIK programs with jumps, loops and calls are run once and written flat before ([`expand_siemens`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
 //! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
@@ -48,6 +49,7 @@ mod options;
 mod path;
 mod poses;
 mod rapid;
+mod siemens;
 mod table;
 mod text;
 mod writing;
@@ -79,6 +81,10 @@ pub use poses::reader::read_poses;
 pub use poses::table::POSES_STATEMENTS;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
+pub use siemens::flat::expand_siemens;
+pub use siemens::reader::read_siemens;
+pub use siemens::table::SIEMENS_STATEMENTS;
 pub use table::{StatementRow, Treatment};
+pub use text::flat::FlatText;
 pub use text::source::SourceFile;
 pub use writing::piece::Piece;

@@ -1,7 +1,8 @@
 //! The languages that are read, and what their writers keep.
 
 use kinetostat_formats::{
-    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS, RAPID_STATEMENTS, StatementRow,
+    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS, RAPID_STATEMENTS,
+    SIEMENS_STATEMENTS, StatementRow,
 };
 
 /// Where the table of a language is.
@@ -25,7 +26,7 @@ pub(crate) struct Language {
 }
 
 /// All of them.
-pub(crate) const LANGUAGES: [Language; 6] = [
+pub(crate) const LANGUAGES: [Language; 7] = [
     Language {
         name: "gcode",
         title: "G-code as LinuxCNC and most controllers read it",
@@ -67,5 +68,12 @@ pub(crate) const LANGUAGES: [Language; 6] = [
         endings: &["csv", "tsv", "yaml", "yml"],
         written: "Written: numbers in place, in their unit; further poses as copies of the row (CSV) or of the item (YAML) before it, with all its other cells and keys. The first pose of a raster stays a motion in air, which is not divided.",
         words: Words::Statements(POSES_STATEMENTS),
+    },
+    Language {
+        name: "siemens",
+        title: "Siemens SINUMERIK 840D",
+        endings: &["mpf", "spf"],
+        written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
+        words: Words::Statements(SIEMENS_STATEMENTS),
     },
 ];

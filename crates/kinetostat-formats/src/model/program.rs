@@ -20,6 +20,8 @@ pub enum Language {
     Krl,
     /// Lists of poses: tables (CSV) and YAML.
     Poses,
+    /// SINUMERIK 840D.
+    Siemens,
 }
 
 /// Something that a person should know of a program that was taken.

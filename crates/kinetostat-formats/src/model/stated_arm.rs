@@ -79,7 +79,7 @@ impl StatedArm {
                     wrist: one_of("F", "N"),
                 }
             }
-            Language::Apt | Language::Poses => Self::default(),
+            Language::Apt | Language::Poses | Language::Siemens => Self::default(),
         }
     }
 }

@@ -42,6 +42,10 @@ fn comments(language: Language) -> Comments {
             opens: "# ",
             below: None,
         },
+        Language::Siemens => Comments {
+            opens: "; ",
+            below: None,
+        },
     }
 }
 
@@ -77,9 +81,17 @@ pub(crate) fn with_header(
         // Above the names of the columns; inside of YAML a comment could become a part of a text.
         found = found.map(|(_, carriage_return)| (beginning(bytes), carriage_return));
     }
-    let Some((at, carriage_return)) = found else {
+    let Some((mut at, carriage_return)) = found else {
         return (bytes.to_vec(), 0);
     };
+    // The control reads a path only right below the name of the program.
+    let next = bytes[at..].split_inclusive(|byte| *byte == b'\n').next();
+    let is_path = |line: &&[u8]| line.to_ascii_uppercase().starts_with(b";$PATH");
+    if let (Language::Siemens, Some(path)) = (language, next.filter(is_path))
+        && path.ends_with(b"\n")
+    {
+        at += path.len();
+    }
     let ending: &[u8] = match carriage_return {
         true => b"\r\n",
         false => b"\n",

@@ -68,6 +68,18 @@ impl SourceFile {
         Some(text.strip_suffix(b"\r").unwrap_or(text))
     }
 
+    /// Where a line, counted from 1, begins; the end of the file behind the last one.
+    pub(crate) fn start_of(&self, line: usize) -> usize {
+        let start = self.line_starts.get(line.saturating_sub(1));
+        start.map_or(self.bytes.len(), |start| *start)
+    }
+
+    /// The bytes of a line, counted from 1, without its line ending.
+    pub(crate) fn range_of(&self, line: usize) -> Range<usize> {
+        let start = self.start_of(line);
+        start..start + self.line(line).map_or(0, <[u8]>::len)
+    }
+
     /// The bytes of a range; none where it is outside.
     pub(crate) fn part(&self, span: &Range<usize>) -> &[u8] {
         self.bytes.get(span.clone()).unwrap_or_default()

@@ -82,7 +82,7 @@ pub(crate) fn write_with(
 }
 
 /// No line that changed is longer than allowed.
-fn check_lines(
+pub(crate) fn check_lines(
     file: &SourceFile,
     written: &[u8],
     options: &WriteOptions,
@@ -107,7 +107,7 @@ fn check_lines(
 }
 
 /// Why a motion cannot be written, and what to do.
-type Reason = (&'static str, &'static str);
+pub(crate) type Reason = (&'static str, &'static str);
 
 const NO_END: Reason = (
     "the motion has no pose that could be corrected",
@@ -139,7 +139,7 @@ impl Writer<'_> {
             };
         };
         let end = motion.target.pose().ok_or(NO_END)?;
-        check(pieces)?;
+        check_pieces(pieces)?;
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
         let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
         // Places of APT may have an axis from before: its own writer knows.
@@ -319,7 +319,7 @@ fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s Po
 }
 
 /// Whether pieces are numbers.
-fn check(pieces: &[&Piece]) -> Result<(), Reason> {
+pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
     let finite = |piece: &&Piece| {
         let via = piece.via_mm.unwrap_or_default();
         let far = |value: &f64| value.abs() < FARTHEST_MM;

@@ -19,3 +19,4 @@ mod paths;
 mod poses;
 mod rapid;
 mod real_files;
+mod siemens;

@@ -40,7 +40,7 @@ fn writing() -> PathWriteOptions {
 }
 
 /// Whether a program is corrected and keeps all promises; why not, where its own words say so.
-fn corrected(
+pub fn corrected(
     language: Language,
     name: &str,
     bytes: &[u8],
@@ -82,6 +82,11 @@ fn corrected(
 fn fixtures_with_everything_are_corrected_along_their_paths() {
     let text = include_bytes!("fixtures/nx.cls");
     let moves = corrected(Language::Apt, "nx.cls", text, &stated());
+    assert!(moves.is_ok(), "{moves:?}");
+    // Up to where the tool leans: programs of three axes.
+    let text = include_str!("fixtures/everything.mpf");
+    let text = format!("{}M30\n", text.split("N310").next().unwrap());
+    let moves = corrected(Language::Siemens, "a.mpf", text.as_bytes(), &stated());
     assert!(moves.is_ok(), "{moves:?}");
 }
 

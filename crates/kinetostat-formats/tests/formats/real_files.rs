@@ -39,6 +39,26 @@ pub fn programs(folder: &str) -> Vec<(String, Vec<u8>)> {
     found
 }
 
+/// Those with certain endings; nothing (said plainly) where the folder is absent, too.
+pub fn programs_with(folder: &str, endings: &[&str]) -> Vec<(String, Vec<u8>)> {
+    let root = std::env::var_os(VARIABLE);
+    if root.is_some_and(|root| !Path::new(&root).join(folder).is_dir()) {
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: {VARIABLE} has no folder {folder}, no real program was read"
+        );
+        return Vec::new();
+    }
+    let ends = |name: &str| {
+        let ending = name.rsplit('.').next().unwrap_or_default();
+        endings
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known))
+    };
+    let all = programs(folder).into_iter();
+    all.filter(|(name, _)| ends(name)).collect()
+}
+
 /// Ends of names, and motions of what is read with the options as they are.
 const READ: [(&str, usize); 7] = [
     ("voorbeeld_main.prg", 0),

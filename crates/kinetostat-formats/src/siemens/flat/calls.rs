@@ -1,0 +1,223 @@
+//! Calls of subprograms, and the way back.
+
+use crate::siemens::block::{Argument, Item, What};
+use crate::siemens::expression::Expression;
+use crate::siemens::flat::modes::Modes;
+use crate::siemens::flat::names::program_name;
+use crate::siemens::flat::runner::{Fault, Level, Runner};
+use crate::siemens::values::{Value, Variable};
+
+/// A subprogram that a block calls.
+pub(super) struct Call<'b> {
+    pub unit: usize,
+    pub arguments: &'b [Argument],
+    pub times: u32,
+}
+
+impl<'r> Runner<'r> {
+    /// The subprogram that the words of a block call, if they do.
+    pub(super) fn call<'b>(&self, items: &'b [Item]) -> Result<Option<Call<'b>>, Fault> {
+        let name = |item: &Item| self.file().part(&item.name).to_ascii_uppercase();
+        let Some(first) = items.first() else {
+            return Ok(None);
+        };
+        let word = name(first);
+        let mut arguments: &[Argument] = match &first.what {
+            What::Call(arguments) => arguments,
+            _ => &[],
+        };
+        let mut rest = &items[1..];
+        let numbered =
+            word.len() > 1 && word[0] == b'L' && word[1..].iter().all(|byte| byte.is_ascii_digit());
+        let called = match word.as_slice() {
+            b"PCALL" => match (&first.what, rest.first()) {
+                (What::Name, Some(item)) => {
+                    rest = &rest[1..];
+                    if let What::Call(found) = &item.what {
+                        arguments = found;
+                    }
+                    name(item)
+                }
+                _ => {
+                    return Err(self.fault(
+                        &first.span,
+                        "what it calls is not stated",
+                        "call it by its name",
+                    ));
+                }
+            },
+            _ => word,
+        };
+        let called = program_name(&format!("{}.SPF", String::from_utf8_lossy(&called)));
+        let is_value = matches!(first.what, What::Value { .. });
+        let Some(unit) = self.names.get(&called).copied().filter(|_| !is_value) else {
+            return match numbered && !is_value {
+                true => Err(self.fault(
+                    &first.span,
+                    "the subprogram is not among the files",
+                    "give its file with the program, or take the call out",
+                )),
+                false => Ok(None),
+            };
+        };
+        let times = match rest {
+            [] => 1,
+            [item] => match (&item.what, name(item).as_slice()) {
+                (What::Value { value, .. }, b"P") => {
+                    let times = self.number(value)?.round();
+                    (0.0..1e6)
+                        .contains(&times)
+                        .then_some(times as u32)
+                        .ok_or_else(|| {
+                            self.fault(
+                                &item.span,
+                                "the count of runs is none",
+                                "write P from 1 to 9999",
+                            )
+                        })?
+                }
+                _ => return Err(self.not_alone(item)),
+            },
+            [item, ..] => return Err(self.not_alone(item)),
+        };
+        Ok(Some(Call {
+            unit,
+            arguments,
+            times,
+        }))
+    }
+
+    fn not_alone(&self, item: &Item) -> Fault {
+        self.fault(
+            &item.span,
+            "more stands in the block of a call",
+            "write the call as a block of its own",
+        )
+    }
+
+    /// Begins a subprogram.
+    pub(super) fn enter(&mut self, call: &Call<'_>) -> Result<(), Fault> {
+        self.may_call()?;
+        let units = self.units;
+        let unit = &units[call.unit];
+        let bytes = self.file().bytes();
+        if let Some(argument) = call.arguments.get(unit.parameters.len()) {
+            return Err(self.fault(
+                &argument.span,
+                "the subprogram has fewer parameters",
+                "mend the call",
+            ));
+        }
+        let mut level = Level::of(call.unit);
+        let mut own = std::collections::BTreeMap::new();
+        for (index, parameter) in unit.parameters.iter().enumerate() {
+            let argument = call
+                .arguments
+                .get(index)
+                .and_then(|given| given.value.as_ref());
+            let whole = match argument {
+                Some(Expression::Variable { name, indices }) if indices.is_empty() => {
+                    let name = self.file().part(name).to_ascii_uppercase();
+                    self.variables
+                        .own
+                        .get(&name)
+                        .map(|found| (name, found.clone()))
+                }
+                _ => None,
+            };
+            let empty = Variable::new(parameter.kind, Vec::new());
+            let mut variable =
+                empty.ok_or_else(|| self.fault(&self.span(), "it is too large", "mend it"))?;
+            match (whole, argument) {
+                // Arrays are given as they are.
+                (Some((name, found)), _) if parameter.by_reference || !found.sizes.is_empty() => {
+                    variable = found;
+                    if parameter.by_reference {
+                        level.back.push((parameter.name.clone(), name, Vec::new()));
+                    }
+                }
+                (_, Some(Expression::Variable { name, indices })) if parameter.by_reference => {
+                    let places: Result<Vec<f64>, Fault> =
+                        indices.iter().map(|index| self.number(index)).collect();
+                    let name = self.file().part(name).to_ascii_uppercase();
+                    level.back.push((parameter.name.clone(), name, places?));
+                    variable.values = vec![self.value_of(bytes, argument)?];
+                }
+                (_, Some(_)) => variable.values = vec![self.value_of(bytes, argument)?],
+                (_, None) => {
+                    if let Some(default) = &parameter.default {
+                        let bytes = self.files[unit.file].bytes();
+                        variable.values = vec![self.value_of(bytes, Some(default))?];
+                    }
+                }
+            }
+            own.insert(parameter.name.clone(), variable);
+        }
+        level.caller = std::mem::replace(&mut self.variables.own, own);
+        level.again = call.times.saturating_sub(1);
+        level.modes = self.modes;
+        self.levels.push(level);
+        Ok(())
+    }
+
+    fn value_of(&self, bytes: &[u8], value: Option<&Expression>) -> Result<Value, Fault> {
+        let value = value.map_or(Ok(Value::Number(0.0)), |value| {
+            self.variables.value(bytes, value)
+        });
+        value.map_err(|why| self.fault(&self.span(), why, "give the argument a value"))
+    }
+
+    /// The way back from a program at its end.
+    pub(super) fn leave(&mut self) -> Result<(), Fault> {
+        let units = self.units;
+        let Some(level) = self.levels.pop() else {
+            return Ok(());
+        };
+        if self.levels.is_empty() {
+            return Ok(());
+        }
+        if units[level.unit].saves {
+            let codes = level.modes.restored_from(&self.modes);
+            let now: Modes = level.modes;
+            self.modes = now;
+            if !codes.is_empty() {
+                self.write_line(codes.as_bytes());
+            }
+        }
+        let inner = std::mem::replace(&mut self.variables.own, level.caller);
+        for (parameter, name, places) in &level.back {
+            let Some(found) = inner.get(parameter) else {
+                continue;
+            };
+            match (self.variables.own.get_mut(name), places.is_empty()) {
+                (Some(held), true) => *held = found.clone(),
+                _ => {
+                    let value = found.values.first().cloned();
+                    let value = value.unwrap_or(Value::Number(0.0));
+                    let done = self.variables.set(name, places, value);
+                    done.map_err(|why| self.fault(&self.span(), why, "declare it by DEF"))?;
+                }
+            }
+        }
+        if level.again > 0 {
+            return self.enter_again(level.again);
+        }
+        let line = self.levels.last().map_or(0, |level| level.line);
+        self.arrive(line + 1, false);
+        Ok(())
+    }
+
+    /// Runs the subprogram of the block in force once more.
+    fn enter_again(&mut self, times: u32) -> Result<(), Fault> {
+        let units = self.units;
+        let Some(level) = self.levels.last() else {
+            return Ok(());
+        };
+        let items = &units[level.unit].lines[level.line].block.items;
+        if let Some(mut call) = self.call(items)? {
+            call.times = times;
+            self.enter(&call)?;
+        }
+        Ok(())
+    }
+}

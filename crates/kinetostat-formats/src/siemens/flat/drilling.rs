@@ -1,0 +1,95 @@
+//! Drilling cycles as blocks: CYCLE81 (centering), CYCLE82 (with dwell), CYCLE83 (deep holes).
+//!
+//! Depths and retracts as Siemens, Programming Manual Cycles, states them. A depth by DPR goes before one by DP, as on the
+//! control.
+
+/// A cycle with its numbers, along the axis across the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Drilling {
+    /// Where it withdraws to.
+    pub retract: f64,
+    /// Where feed begins: above the surface by the safety distance.
+    pub begin: f64,
+    pub surface: f64,
+    pub depth: f64,
+    /// At the depth: seconds, or turns where negative.
+    pub dwell: f64,
+    /// G9 at the depth.
+    pub exact: bool,
+    pub deep: Option<Deep>,
+}
+
+/// Of CYCLE83.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Deep {
+    pub first: f64,
+    /// DAM: by how much steps become shorter, or their factor where negative.
+    pub shorter: f64,
+    pub least: f64,
+    /// Between steps, and at the start after each withdrawal.
+    pub dwell: f64,
+    pub dwell_above: f64,
+    /// Of the feed of the first step.
+    pub feed_share: f64,
+    /// VARI: 1 withdraws out of the hole.
+    pub withdraws: bool,
+    /// By how much it withdraws within the hole.
+    pub back: f64,
+    /// Before the last depth, where stated.
+    pub ahead: f64,
+}
+
+/// Most steps of a hole.
+const MOST_STEPS: usize = 1000;
+
+impl Drilling {
+    /// Depths one after the other.
+    pub(super) fn depths(&self, deep: &Deep) -> Option<Vec<f64>> {
+        let way = (self.surface - self.depth).signum();
+        let step = (self.surface - deep.first).abs();
+        let (shorter, least) = match deep.shorter == 0.0 {
+            true => (-1.0, step),
+            false => (deep.shorter, deep.least),
+        };
+        let (mut length, mut now) = (step, deep.first);
+        let mut found = vec![now];
+        while now != self.depth {
+            if found.len() >= MOST_STEPS {
+                return None;
+            }
+            let left = (now - self.depth).abs();
+            let half = now - way * 0.5 * left;
+            now = if shorter < 0.0 {
+                length *= -shorter;
+                length = match length < least {
+                    true => least,
+                    false => length,
+                };
+                let next = now - way * length;
+                let behind = (next - self.depth) * way;
+                match behind {
+                    _ if behind < 0.0 => self.depth,
+                    _ if behind >= least => next,
+                    _ => half,
+                }
+            } else {
+                length = match length - shorter < shorter {
+                    true => shorter,
+                    false => length - shorter,
+                };
+                match left - length >= shorter {
+                    true if left > 2.0 * shorter => now - way * length,
+                    true if left > shorter => half,
+                    false if left > length && left > 2.0 * shorter => self.depth + way * shorter,
+                    false if left > length => half,
+                    _ => self.depth,
+                }
+            };
+            if (now - self.depth).abs() < 1e-9 {
+                now = self.depth;
+            }
+            found.push(now);
+        }
+        Some(found)
+    }
+}

@@ -1,0 +1,105 @@
+//! Whether a program needs to be run, and its run.
+
+use std::collections::BTreeMap;
+
+use crate::error::ProgramError;
+use crate::siemens::block::{Block, What};
+use crate::siemens::files::whole_file;
+use crate::siemens::flat::names::program_name;
+use crate::siemens::flat::run::MOST_STEPS;
+use crate::siemens::flat::runner::Runner;
+use crate::siemens::flat::structure::Unit;
+use crate::text::flat::FlatText;
+use crate::text::source::SourceFile;
+
+/// Words that say what runs.
+const FLOW: [&str; 26] = [
+    "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE", "FOR", "ENDFOR", "REPEAT", "REPEATB", "UNTIL",
+    "LOOP", "ENDLOOP", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "CASE", "CALL", "PCALL",
+    "MCALL", "CYCLE81", "CYCLE82", "CYCLE83", "L", "P",
+];
+
+/// Runs a SINUMERIK program once and writes it flat: without jumps, loops, subprograms, variables and the drilling cycles CYCLE81,
+/// CYCLE82 and CYCLE83. The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
+/// names. What needs none of that comes back byte for byte.
+///
+/// Expressions become numbers with up to six decimals; frames (TRANS, ROT) and all else stay as they are. At most 5 million
+/// blocks and 20 million steps are run.
+///
+/// ```
+/// use kinetostat_formats::{SourceFile, expand_siemens};
+///
+/// let main = "G0 X0 Y0 Z10\nF100\nMCALL CYCLE81(10,0,2,-5)\nX20\nMCALL\nPART(3)\nM30\n";
+/// let part = "PROC PART(REAL DEPTH)\nG1 Z=-DEPTH\nG0 Z10\nRET\n";
+/// let files = [SourceFile::new("MAIN.MPF", main), SourceFile::new("PART.SPF", part)];
+/// let flat = expand_siemens(&files).unwrap();
+/// let text = String::from_utf8(flat.file.bytes().to_vec()).unwrap();
+/// assert_eq!(text, "G0 X0 Y0 Z10\nF100\nX20\nG0 Z=AC(2)\nG1 G9 Z=AC(-5)\nG0 Z=AC(10)\nG1 Z=-3\nG0 Z10\nM30\n");
+/// assert_eq!(flat.origins[6], (1, 2));
+/// ```
+///
+/// # Errors
+/// What cannot be run, in the order of files and lines, or the first fault of the run.
+pub fn expand_siemens(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
+    expand_within(files, MOST_STEPS)
+}
+
+/// The same by so many lines at most.
+pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Vec<ProgramError>> {
+    let is_main = |file: &&SourceFile| file.name().to_ascii_lowercase().ends_with(".mpf");
+    let main = files.iter().position(|file| is_main(&file)).unwrap_or(0);
+    let Some(file) = files.get(main) else {
+        return Ok(FlatText {
+            file: SourceFile::new("", ""),
+            origins: Vec::new(),
+            changed: false,
+        });
+    };
+    let names: BTreeMap<Vec<u8>, usize> = (files.iter().enumerate())
+        .filter(|(index, _)| *index != main)
+        .map(|(index, file)| (program_name(file.name()), index))
+        .collect();
+    let mut faults = Vec::new();
+    if !files.iter().all(|file| whole_file(file, &mut faults)) {
+        return Err(faults);
+    }
+    if !needs(file, &names) {
+        return Ok(FlatText {
+            file: file.clone(),
+            origins: (1..=file.line_count()).map(|line| (main, line)).collect(),
+            changed: false,
+        });
+    }
+    let units: Vec<Unit> = (files.iter().enumerate())
+        .map(|(index, file)| Unit::of(file, index, &mut faults))
+        .collect();
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let runner = Runner::new(files, &units, names, main);
+    match runner.run(most_steps) {
+        Ok((bytes, origins)) => Ok(FlatText {
+            file: SourceFile::new(file.name(), bytes),
+            origins,
+            changed: true,
+        }),
+        Err(fault) => Err(vec![*fault]),
+    }
+}
+
+/// Whether the control flow of a program is not straight on.
+fn needs(file: &SourceFile, names: &BTreeMap<Vec<u8>, usize>) -> bool {
+    (1..=file.line_count()).any(|line| {
+        let Ok((block, _)) = Block::of(file.bytes(), file.range_of(line)) else {
+            return false;
+        };
+        block.items.iter().any(|item| {
+            let name = String::from_utf8_lossy(file.part(&item.name)).to_ascii_uppercase();
+            let digits = name.strip_prefix('L').unwrap_or("-");
+            let numbered = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+            let calls = !matches!(item.what, What::Value { .. })
+                && (names.contains_key(name.as_bytes()) || numbered);
+            calls || FLOW.contains(&name.as_str())
+        })
+    })
+}

@@ -1,0 +1,200 @@
+//! From the call of a drilling cycle to its blocks.
+
+use crate::siemens::block::{Argument, Item, What};
+use crate::siemens::flat::drilling::{Deep, Drilling};
+use crate::siemens::flat::numbers::number;
+use crate::siemens::flat::runner::{Fault, Runner};
+
+/// The cycle of a call.
+pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, Fault> {
+    let What::Call(arguments) = &item.what else {
+        return Err(runner.fault(&item.span, "the cycle has no arguments", "state them"));
+    };
+    let name = runner.file().part(&item.name).to_ascii_uppercase();
+    let fault = |reason: &str| runner.fault(&item.span, reason, "mend the call of the cycle");
+    let value = |index: usize| -> Result<Option<f64>, Fault> {
+        match arguments.get(index) {
+            Some(Argument { span, value }) if !span.is_empty() => match value {
+                Some(value) => runner.number(value).map(Some),
+                None => Err(fault("an argument is no number")),
+            },
+            _ => Ok(None),
+        }
+    };
+    let or_zero = |index: usize| Ok::<f64, Fault>(value(index)?.unwrap_or(0.0));
+    let need = |index: usize, what: &str| value(index)?.ok_or_else(|| fault(what));
+    let retract = need(0, "where it withdraws to (RTP) is not stated")?;
+    let surface = need(1, "the reference plane (RFP) is not stated")?;
+    let safety = or_zero(2)?.abs();
+    let relative = or_zero(4)?.abs();
+    let depth = match (relative > 0.0, value(3)?) {
+        (true, _) if retract == surface => {
+            return Err(fault(
+                "in which direction DPR counts is not known: RTP is RFP",
+            ));
+        }
+        (true, _) => surface - (retract - surface).signum() * relative,
+        (false, Some(depth)) => depth,
+        (false, None) => return Err(fault("no depth is stated (DP or DPR)")),
+    };
+    let way = (surface - depth).signum();
+    if surface == depth || retract != surface && (retract - surface).signum() != way {
+        return Err(fault(
+            "the hole does not go from the reference plane away from where it withdraws to",
+        ));
+    }
+    let known = match name.as_slice() {
+        b"CYCLE81" => 5,
+        b"CYCLE82" => 6,
+        _ => 17,
+    };
+    for index in known..arguments.len() {
+        if or_zero(index)? != 0.0 {
+            return Err(fault(
+                "an argument behind those that are followed is not zero",
+            ));
+        }
+    }
+    let mut drilling = Drilling {
+        retract,
+        begin: surface + way * safety,
+        surface,
+        depth,
+        dwell: match known {
+            6 => or_zero(5)?,
+            _ => 0.0,
+        },
+        exact: known == 5,
+        deep: None,
+    };
+    if known == 17 {
+        let by = or_zero(6)?.abs();
+        let first = match (by > 0.0, value(5)?) {
+            (true, _) => surface - way * by,
+            (false, Some(first)) => first,
+            (false, None) => return Err(fault("no first depth is stated (FDEP or FDPR)")),
+        };
+        if (surface - first) * way <= 0.0 {
+            return Err(fault("the first depth is not below the reference plane"));
+        }
+        let first = match (first - depth) * way < 0.0 {
+            true => depth,
+            false => first,
+        };
+        let feed_share = value(10)?.unwrap_or(1.0);
+        if !(0.001..=1.0).contains(&feed_share) {
+            return Err(fault(
+                "the share of the first feed (FRF) is not from 0.001 to 1",
+            ));
+        }
+        let (between, last) = (or_zero(8)?, or_zero(15)?);
+        let back = or_zero(14)?;
+        drilling.dwell = match last == 0.0 {
+            true => between,
+            false => last,
+        };
+        if or_zero(12)? != 0.0 && or_zero(12)? != 3.0 {
+            return Err(fault(
+                "the axis of the tool (_AXN) is another one than across the plane",
+            ));
+        }
+        drilling.deep = Some(Deep {
+            first,
+            shorter: or_zero(7)?,
+            least: or_zero(13)?,
+            dwell: between,
+            dwell_above: or_zero(9)?,
+            feed_share,
+            withdraws: or_zero(11)? != 0.0,
+            back: match back > 0.0 {
+                true => back,
+                false => 1.0,
+            },
+            ahead: or_zero(16)?,
+        });
+    }
+    Ok(drilling)
+}
+
+fn dwell(time: f64) -> Option<String> {
+    match time {
+        _ if time > 0.0 => Some(format!("G4 F{}", number(time))),
+        _ if time < 0.0 => Some(format!("G4 S{}", number(-time))),
+        _ => None,
+    }
+}
+
+impl Runner<'_> {
+    /// Writes the blocks of a cycle where the tool is.
+    pub(super) fn drill_here(&mut self, drilling: &Drilling) -> Result<(), Fault> {
+        let axis = self.modes.normal();
+        let to = |at: f64| format!("{axis}=AC({})", number(at));
+        let mut blocks = vec![format!("G0 {}", to(drilling.begin))];
+        match &drilling.deep {
+            None => {
+                let exact = if drilling.exact { "G9 " } else { "" };
+                blocks.push(format!("G1 {exact}{}", to(drilling.depth)));
+                blocks.extend(dwell(drilling.dwell));
+            }
+            Some(deep) => {
+                let depths = drilling.depths(deep).ok_or_else(|| {
+                    self.fault(
+                        &self.span(),
+                        "the hole would have more than 1000 steps",
+                        "state a least step (_MDEP)",
+                    )
+                })?;
+                let changes = deep.feed_share != 1.0;
+                let feed = match (changes, self.feed) {
+                    (false, _) => None,
+                    (true, Some(feed)) => Some(feed),
+                    (true, None) => {
+                        return Err(self.fault(
+                            &self.span(),
+                            "the feed of which FRF is a share is not known",
+                            "state F before",
+                        ));
+                    }
+                };
+                let way = (drilling.surface - drilling.depth).signum();
+                for (index, depth) in depths.iter().enumerate() {
+                    let feed = match (index, feed) {
+                        (0, Some(feed)) => format!(" F{}", number(feed * deep.feed_share)),
+                        (1, Some(feed)) => format!(" F{}", number(feed)),
+                        _ => String::new(),
+                    };
+                    blocks.push(format!("G1 {}{feed}", to(*depth)));
+                    if index + 1 == depths.len() {
+                        blocks.extend(dwell(drilling.dwell));
+                        break;
+                    }
+                    blocks.extend(dwell(deep.dwell));
+                    if deep.withdraws {
+                        blocks.push(format!("G0 {}", to(drilling.begin)));
+                        blocks.extend(dwell(deep.dwell_above));
+                        let drilled = (drilling.surface - depth).abs();
+                        let ahead = match drilled <= 30.0 {
+                            _ if deep.ahead > 0.0 => deep.ahead,
+                            true => 0.6,
+                            false => (drilled / 50.0).min(7.0),
+                        };
+                        blocks.push(format!("G0 {}", to(depth + way * ahead)));
+                    } else {
+                        blocks.push(format!("G0 {}", to(depth + way * deep.back)));
+                    }
+                }
+                if let (1, Some(feed)) = (depths.len(), feed) {
+                    blocks.push(format!("F{}", number(feed)));
+                }
+            }
+        }
+        blocks.push(format!("G0 {}", to(drilling.retract)));
+        if let Some(code) = self.modes.motion().filter(|code| *code != "G0") {
+            blocks.push(code.to_owned());
+        }
+        for block in blocks {
+            self.write_line(block.as_bytes());
+        }
+        Ok(())
+    }
+}

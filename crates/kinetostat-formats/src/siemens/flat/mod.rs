@@ -1,0 +1,18 @@
+//! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
+//!
+//! [`structure`] reads the control flow of a file, [`run`] follows it, [`print`] writes the blocks with numbers in place of
+//! expressions, [`holes`] the blocks of drilling cycles.
+
+mod calls;
+mod drilling;
+mod expand;
+mod holes;
+mod modes;
+mod names;
+mod numbers;
+mod print;
+mod run;
+mod runner;
+mod structure;
+
+pub use expand::{expand_siemens, expand_within};

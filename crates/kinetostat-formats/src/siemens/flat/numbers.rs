@@ -1,0 +1,11 @@
+//! Numbers as they are written.
+
+/// A number with up to six decimals: a nanometre.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}

@@ -1,0 +1,226 @@
+//! A program that is run: where it is, what its variables hold, what is written.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::error::ProgramError;
+use crate::siemens::block::What;
+use crate::siemens::expression::Expression;
+use crate::siemens::flat::drilling::Drilling;
+use crate::siemens::flat::modes::Modes;
+use crate::siemens::flat::structure::Unit;
+use crate::siemens::values::{Value, Variable, Variables};
+use crate::text::source::SourceFile;
+
+/// Most programs that call one another (840D sl: 18 levels).
+const MOST_LEVELS: usize = 18;
+/// Why the run ends.
+pub(super) type Fault = Box<ProgramError>;
+
+/// Bytes, and of each line the file and the line there.
+pub(super) type Written = (Vec<u8>, Vec<(usize, usize)>);
+
+/// A section that is run again.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub from: usize,
+    /// Behind its last line.
+    pub end: usize,
+    pub left: u32,
+    /// Where the program goes on.
+    pub behind: usize,
+}
+
+/// A program that runs.
+#[derive(Debug)]
+pub(super) struct Level {
+    pub unit: usize,
+    pub line: usize,
+    /// Last values of FOR by lines.
+    pub limits: BTreeMap<usize, f64>,
+    pub sections: Vec<Section>,
+    /// Variables of the program that called it, and what is given back to them.
+    pub caller: BTreeMap<Vec<u8>, Variable>,
+    pub back: Vec<(Vec<u8>, Vec<u8>, Vec<f64>)>,
+    /// Further runs of it, and how.
+    pub again: u32,
+    pub modes: Modes,
+}
+
+impl Level {
+    pub(super) fn of(unit: usize) -> Self {
+        Self {
+            unit,
+            line: 0,
+            limits: BTreeMap::new(),
+            sections: Vec::new(),
+            caller: BTreeMap::new(),
+            back: Vec::new(),
+            again: 0,
+            modes: Modes::default(),
+        }
+    }
+}
+
+/// A program that is run.
+pub(super) struct Runner<'r> {
+    pub files: &'r [SourceFile],
+    pub units: &'r [Unit],
+    pub names: BTreeMap<Vec<u8>, usize>,
+    pub levels: Vec<Level>,
+    pub variables: Variables,
+    pub output: Vec<u8>,
+    pub origins: Vec<(usize, usize)>,
+    pub ending: &'static [u8],
+    pub modes: Modes,
+    pub feed: Option<f64>,
+    /// MCALL in force.
+    pub drilling: Option<Drilling>,
+}
+
+impl<'r> Runner<'r> {
+    pub(super) fn new(
+        files: &'r [SourceFile],
+        units: &'r [Unit],
+        names: BTreeMap<Vec<u8>, usize>,
+        main: usize,
+    ) -> Self {
+        Self {
+            ending: files.get(main).map_or(b"\n", SourceFile::line_ending),
+            files,
+            units,
+            names,
+            levels: vec![Level::of(main)],
+            variables: Variables::default(),
+            output: Vec::new(),
+            origins: Vec::new(),
+            modes: Modes::default(),
+            feed: None,
+            drilling: None,
+        }
+    }
+
+    pub(super) fn file(&self) -> &'r SourceFile {
+        let unit = self.levels.last().map_or(0, |level| level.unit);
+        &self.files[self.units[unit].file]
+    }
+
+    /// The words of the line that runs.
+    pub(super) fn span(&self) -> Range<usize> {
+        let line = self
+            .levels
+            .last()
+            .and_then(|level| self.units[level.unit].lines.get(level.line));
+        line.map_or(0..0, |line| line.block.span.clone())
+    }
+
+    pub(super) fn fault(
+        &self,
+        span: &Range<usize>,
+        reason: impl Into<String>,
+        remedy: &str,
+    ) -> Fault {
+        Box::new(ProgramError::at(self.file(), span.clone(), reason, remedy))
+    }
+
+    pub(super) fn number(&self, value: &Expression) -> Result<f64, Fault> {
+        let found = self.variables.number(self.file().bytes(), value);
+        found.map_err(|why| {
+            self.fault(
+                &self.span(),
+                why,
+                "give it a value in the program, or write the number",
+            )
+        })
+    }
+
+    /// Goes to a line, or back where a section ends before it.
+    pub(super) fn arrive(&mut self, mut next: usize, jumped: bool) {
+        let Some(level) = self.levels.last_mut() else {
+            return;
+        };
+        while let Some(section) = level.sections.last_mut() {
+            let inside = (section.from..section.end).contains(&next);
+            if inside {
+                break;
+            }
+            if next != section.end && jumped {
+                // A jump out of it: it is not run again.
+                level.sections.pop();
+                continue;
+            }
+            if section.left > 0 {
+                section.left -= 1;
+                next = section.from;
+                break;
+            }
+            next = section.behind;
+            level.sections.pop();
+        }
+        level.line = next;
+    }
+
+    /// Gives a variable a value.
+    pub(super) fn set(
+        &mut self,
+        name: &Range<usize>,
+        indices: &[Expression],
+        value: Value,
+    ) -> Result<(), Fault> {
+        let places: Result<Vec<f64>, Fault> =
+            indices.iter().map(|index| self.number(index)).collect();
+        let places = places?;
+        let name = self.file().part(name);
+        let done = self.variables.set(name, &places, value);
+        done.map_err(|why| self.fault(&self.span(), why, "declare it by DEF"))
+    }
+
+    /// Assigns a value.
+    pub(super) fn assign(
+        &mut self,
+        name: &Range<usize>,
+        indices: &[Expression],
+        value: &Expression,
+    ) -> Result<(), Fault> {
+        let value = self.variables.value(self.file().bytes(), value);
+        let value = value.map_err(|why| {
+            self.fault(
+                &self.span(),
+                why,
+                "give it a value in the program, or write the number",
+            )
+        })?;
+        self.set(name, indices, value)
+    }
+
+    /// Whether programs may call another one.
+    pub(super) fn may_call(&self) -> Result<(), Fault> {
+        match self.levels.len() >= MOST_LEVELS {
+            true => Err(self.fault(
+                &self.span(),
+                "more than 18 programs call one another",
+                "a control has no more levels: check what calls itself",
+            )),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether a value is given to a variable by a word.
+    pub(super) fn is_assignment(&self, name: &Range<usize>, what: &What) -> bool {
+        let text = self.file().part(name);
+        let indexed = matches!(what, What::Value { indices, .. } if !indices.is_empty());
+        matches!(what, What::Value { .. })
+            && self.variables.knows(text)
+            && (!text.eq_ignore_ascii_case(b"R") || indexed)
+    }
+
+    /// Writes a line, and where it is from.
+    pub(super) fn write_line(&mut self, text: &[u8]) {
+        self.output.extend_from_slice(text.trim_ascii_end());
+        self.output.extend_from_slice(self.ending);
+        let origin = self.levels.last().map_or((0, 0), |level| {
+            (self.units[level.unit].file, level.line + 1)
+        });
+        self.origins.push(origin);
+    }
+}

@@ -1,0 +1,467 @@
+//! The control flow of one program.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::error::{ProgramError, note};
+use crate::siemens::block::{Block, What};
+use crate::siemens::declarations::type_of;
+use crate::siemens::expression::{Cursor, Expression};
+use crate::siemens::table::row;
+use crate::siemens::tokens::{Broken, Kind, Token};
+use crate::siemens::values::Type;
+use crate::table::Treatment;
+use crate::text::source::SourceFile;
+
+/// A program.
+#[derive(Debug, Default)]
+pub(super) struct Unit {
+    /// An index of the files.
+    pub file: usize,
+    pub lines: Vec<Line>,
+    /// Lines by label in capitals, ascending.
+    pub labels: BTreeMap<Vec<u8>, Vec<usize>>,
+    /// Lines by block number.
+    pub numbers: BTreeMap<u64, Vec<usize>>,
+    pub parameters: Vec<Parameter>,
+    /// PROC ... SAVE.
+    pub saves: bool,
+}
+
+/// A line, counted from 0.
+#[derive(Debug)]
+pub(super) struct Line {
+    pub block: Block,
+    pub control: Control,
+    /// Tokens of a DEF.
+    pub tokens: Vec<Token>,
+}
+
+/// A parameter of PROC.
+#[derive(Debug, Clone)]
+pub(super) struct Parameter {
+    pub name: Vec<u8>,
+    pub kind: Type,
+    pub by_reference: bool,
+    pub default: Option<Expression>,
+}
+
+/// A jump.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Jump {
+    pub way: Way,
+    /// Label or number.
+    pub to: Range<usize>,
+    pub number: Option<u64>,
+}
+
+/// Where the destination of a jump is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    Forward,
+    Back,
+    Both,
+    /// As both, and no fault where there is none.
+    IfThere,
+}
+
+/// What a line does besides its words. Lines of others are indices of the unit.
+#[derive(Debug, Clone)]
+pub(super) enum Control {
+    None,
+    Define,
+    /// PROC, EXTERN.
+    Skip,
+    If {
+        condition: Expression,
+        otherwise: usize,
+    },
+    /// ELSE: behind it.
+    Else(usize),
+    /// ENDIF, and others that only mark a place.
+    Mark,
+    JumpIf(Vec<(Expression, Jump)>),
+    Jump(Jump),
+    Case {
+        of: Expression,
+        cases: Vec<(Option<Expression>, Jump)>,
+    },
+    While {
+        condition: Expression,
+        end: usize,
+    },
+    /// ENDWHILE, ENDLOOP: back there.
+    Back(usize),
+    For {
+        variable: Range<usize>,
+        indices: Vec<Expression>,
+        from: Expression,
+        to: Expression,
+        end: usize,
+    },
+    EndFor(usize),
+    Until {
+        condition: Expression,
+        start: usize,
+    },
+    /// REPEAT and REPEATB of a section.
+    Repeat {
+        from: Range<usize>,
+        to: Option<Range<usize>>,
+        one_block: bool,
+        count: Option<Expression>,
+    },
+}
+
+impl Unit {
+    /// Of a file; what is wrong with it is noted.
+    pub(super) fn of(file: &SourceFile, index: usize, faults: &mut Vec<ProgramError>) -> Self {
+        let mut unit = Self {
+            file: index,
+            ..Self::default()
+        };
+        let mut open: Vec<usize> = Vec::new();
+        for number in 1..=file.line_count() {
+            let range = file.range_of(number);
+            if number == file.line_count() && range.is_empty() {
+                break;
+            }
+            let line = unit.lines.len();
+            let made = Block::of(file.bytes(), range).and_then(|(block, tokens)| {
+                let control = unit.control(file.bytes(), &block, &tokens)?;
+                Ok((block, tokens, control))
+            });
+            let (block, tokens, control) = match made {
+                Ok(made) => made,
+                Err(broken) => {
+                    note(faults, || {
+                        ProgramError::at(file, broken.span, broken.reason, broken.remedy)
+                    });
+                    continue;
+                }
+            };
+            if let Some(label) = &block.label {
+                let name = file.part(label).to_ascii_uppercase();
+                unit.labels.entry(name).or_default().push(line);
+            }
+            if let Some(number) = block.number {
+                unit.numbers.entry(number).or_default().push(line);
+            }
+            let span = block.span.clone();
+            unit.lines.push(Line {
+                tokens: match control {
+                    Control::Define => tokens,
+                    _ => Vec::new(),
+                },
+                block,
+                control,
+            });
+            if let Err(reason) = unit.pair(line, file, &mut open) {
+                let remedy =
+                    "close each IF, WHILE, FOR, LOOP and REPEAT once, the inner ones first";
+                note(faults, || ProgramError::at(file, span, reason, remedy));
+            }
+        }
+        for line in open {
+            let span = unit.lines[line].block.span.clone();
+            note(faults, || {
+                ProgramError::at(file, span, "it is not closed", "write what closes it")
+            });
+        }
+        unit
+    }
+
+    /// The first word of a line in capitals.
+    fn word(&self, line: usize, file: &SourceFile) -> Vec<u8> {
+        let item = self.lines[line].block.items.first();
+        item.map_or(Vec::new(), |item| {
+            file.part(&item.name).to_ascii_uppercase()
+        })
+    }
+
+    /// Joins what opens with what closes.
+    fn pair(
+        &mut self,
+        line: usize,
+        file: &SourceFile,
+        open: &mut Vec<usize>,
+    ) -> Result<(), &'static str> {
+        let word = self.word(line, file);
+        let opener = open.last().copied();
+        let opens = opener.map_or(Vec::new(), |at| self.word(at, file));
+        let closes: &[&[u8]] = match (&self.lines[line].control, word.as_slice()) {
+            (Control::If { .. } | Control::While { .. } | Control::For { .. }, _) => {
+                open.push(line);
+                return Ok(());
+            }
+            (Control::Mark, b"LOOP" | b"REPEAT") => {
+                open.push(line);
+                return Ok(());
+            }
+            (_, b"ELSE") => &[b"IF"],
+            (_, b"ENDIF") => &[b"IF", b"ELSE"],
+            (_, b"ENDWHILE") => &[b"WHILE"],
+            (_, b"ENDFOR") => &[b"FOR"],
+            (_, b"UNTIL") => &[b"REPEAT"],
+            (_, b"ENDLOOP") => &[b"LOOP"],
+            _ => return Ok(()),
+        };
+        let (Some(opener), true) = (opener, closes.contains(&opens.as_slice())) else {
+            return Err("nothing that it closes is open");
+        };
+        open.pop();
+        if word == b"ELSE" {
+            open.push(line);
+        }
+        match &mut self.lines[opener].control {
+            Control::If { otherwise, .. } => *otherwise = line + 1,
+            Control::Else(behind) => *behind = line + 1,
+            Control::While { end, .. } | Control::For { end, .. } => *end = line + 1,
+            _ => {}
+        }
+        match &mut self.lines[line].control {
+            Control::Back(start) | Control::EndFor(start) | Control::Until { start, .. } => {
+                *start = opener;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn control(
+        &mut self,
+        bytes: &[u8],
+        block: &Block,
+        tokens: &[Token],
+    ) -> Result<Control, Broken> {
+        let statement = block.items.iter().find(|item| item.what == What::Statement);
+        let Some(item) = statement else {
+            return Ok(Control::None);
+        };
+        let broken = |reason, remedy| Broken {
+            span: item.span.clone(),
+            reason,
+            remedy,
+        };
+        if block.items.len() > 1 || block.skip {
+            return Err(broken(
+                "it does not stand alone in its block, or behind a slash",
+                "write it as a block of its own, without a slash",
+            ));
+        }
+        let from = tokens.iter().position(|token| token.span == item.name);
+        let mut cursor = Cursor::new(bytes, &tokens[from.unwrap_or(0)..]);
+        let word = bytes[item.name.clone()].to_ascii_uppercase();
+        if !matches!(
+            word.as_slice(),
+            b"DEF" | b"GOTO" | b"GOTOF" | b"GOTOB" | b"GOTOC" | b"IF"
+        ) {
+            cursor.at = 1;
+        }
+        let control = match word.as_slice() {
+            b"IF" => condition(&mut cursor)?,
+            b"ELSE" => Control::Else(0),
+            b"ENDIF" | b"LOOP" => Control::Mark,
+            b"WHILE" => Control::While {
+                condition: cursor.expression()?,
+                end: 0,
+            },
+            b"ENDWHILE" | b"ENDLOOP" => Control::Back(0),
+            b"FOR" => for_loop(&mut cursor)?,
+            b"ENDFOR" => Control::EndFor(0),
+            b"UNTIL" => Control::Until {
+                condition: cursor.expression()?,
+                start: 0,
+            },
+            b"REPEAT" if cursor.peek().is_none() => Control::Mark,
+            b"REPEAT" | b"REPEATB" => repeat(&mut cursor, word == b"REPEATB")?,
+            b"GOTO" | b"GOTOF" | b"GOTOB" | b"GOTOC" => Control::Jump(jump(&mut cursor)?),
+            b"CASE" => case(&mut cursor)?,
+            b"DEF" => return Ok(Control::Define),
+            b"EXTERN" => return Ok(Control::Skip),
+            b"PROC" => {
+                self.procedure(&mut cursor)?;
+                return Ok(Control::Skip);
+            }
+            b"CALL" => {
+                return Err(broken(
+                    "what is called is stated by a text",
+                    "call it by its name",
+                ));
+            }
+            word => {
+                let word = String::from_utf8_lossy(word).into_owned();
+                return Err(match row(&word).map(|row| row.treatment) {
+                    Some(Treatment::Refused { reason, remedy }) if word != "GOTOS" => {
+                        broken(reason, remedy)
+                    }
+                    _ => broken("it is not followed", "write the program without it"),
+                });
+            }
+        };
+        match cursor.peek() {
+            None => Ok(control),
+            Some(token) => Err(Broken {
+                span: token.span.clone(),
+                reason: "more stands behind the statement",
+                remedy: "write it as a block of its own",
+            }),
+        }
+    }
+
+    fn procedure(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Broken> {
+        cursor.at += 1;
+        if cursor.takes(b'(') && !cursor.takes(b')') {
+            loop {
+                let by_reference = cursor.is_next("VAR");
+                cursor.at += usize::from(by_reference);
+                let kind = type_of(cursor)?;
+                let name = cursor.place();
+                cursor.at += 1;
+                if cursor.takes(b'[') {
+                    // An array of any size has commas alone.
+                    while cursor.peek().is_some_and(|token| token.is(b',')) {
+                        cursor.at += 1;
+                    }
+                    cursor.list(b']')?;
+                }
+                let default = match cursor.takes(b'=') {
+                    true => Some(cursor.expression()?),
+                    false => None,
+                };
+                self.parameters.push(Parameter {
+                    name: cursor.text(&name).to_ascii_uppercase(),
+                    kind,
+                    by_reference,
+                    default,
+                });
+                if cursor.takes(b')') {
+                    break;
+                }
+                if !cursor.takes(b',') {
+                    return Err(cursor.broken("a comma is missing between parameters"));
+                }
+            }
+        }
+        while cursor.peek().is_some() {
+            self.saves |= cursor.is_next("SAVE");
+            cursor.at += 1;
+        }
+        Ok(())
+    }
+}
+
+fn jump(cursor: &mut Cursor<'_>) -> Result<Jump, Broken> {
+    let way = match () {
+        () if cursor.is_next("GOTOF") => Way::Forward,
+        () if cursor.is_next("GOTOB") => Way::Back,
+        () if cursor.is_next("GOTO") => Way::Both,
+        () if cursor.is_next("GOTOC") => Way::IfThere,
+        () => return Err(cursor.broken("a jump is missing")),
+    };
+    cursor.at += 1;
+    let numbered = cursor.is_next("N")
+        && (cursor.peek_second()).is_some_and(|token| matches!(token.kind, Kind::Number(_)));
+    cursor.at += usize::from(numbered);
+    let missing = cursor.broken("the destination of a jump is missing");
+    let token = cursor.next().ok_or(missing.clone())?;
+    match (token.kind, numbered) {
+        (Kind::Name, false) => Ok(Jump {
+            way,
+            to: token.span.clone(),
+            number: None,
+        }),
+        (Kind::Number(number), true) => Ok(Jump {
+            way,
+            to: token.span.clone(),
+            number: Some(number as u64),
+        }),
+        _ => Err(missing),
+    }
+}
+
+/// IF of a structure, or one or more with jumps.
+fn condition(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
+    let mut jumps = Vec::new();
+    while cursor.is_next("IF") {
+        cursor.at += 1;
+        let condition = cursor.expression()?;
+        if cursor.peek().is_none() && jumps.is_empty() {
+            return Ok(Control::If {
+                condition,
+                otherwise: 0,
+            });
+        }
+        jumps.push((condition, jump(cursor)?));
+    }
+    Ok(Control::JumpIf(jumps))
+}
+
+fn for_loop(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
+    let variable = cursor.place();
+    cursor.at += 1;
+    let indices = match cursor.takes(b'[') {
+        true => cursor.list(b']')?,
+        false => Vec::new(),
+    };
+    if !cursor.takes(b'=') {
+        return Err(cursor.broken("the first value of FOR is missing"));
+    }
+    let from = cursor.expression()?;
+    if !cursor.is_next("TO") {
+        return Err(cursor.broken("TO is missing"));
+    }
+    cursor.at += 1;
+    let to = cursor.expression()?;
+    Ok(Control::For {
+        variable,
+        indices,
+        from,
+        to,
+        end: 0,
+    })
+}
+
+fn repeat(cursor: &mut Cursor<'_>, one_block: bool) -> Result<Control, Broken> {
+    let from = cursor.place();
+    cursor.at += 1;
+    let second = cursor.peek().filter(|token| {
+        token.kind == Kind::Name && !cursor.text(&token.span).eq_ignore_ascii_case(b"P")
+    });
+    let to = second.map(|token| token.span.clone());
+    cursor.at += usize::from(to.is_some());
+    let count = match cursor.is_next("P") {
+        true => {
+            cursor.at += 1;
+            cursor.takes(b'=');
+            Some(cursor.expression()?)
+        }
+        false => None,
+    };
+    Ok(Control::Repeat {
+        from,
+        to,
+        one_block,
+        count,
+    })
+}
+
+fn case(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
+    let of = cursor.expression()?;
+    if !cursor.is_next("OF") {
+        return Err(cursor.broken("OF is missing"));
+    }
+    cursor.at += 1;
+    let mut cases = Vec::new();
+    while cursor.peek().is_some() {
+        let value = match cursor.is_next("DEFAULT") {
+            true => {
+                cursor.at += 1;
+                None
+            }
+            false => Some(cursor.expression()?),
+        };
+        cases.push((value, jump(cursor)?));
+    }
+    Ok(Control::Case { of, cases })
+}

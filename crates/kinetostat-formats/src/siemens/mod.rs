@@ -1,0 +1,27 @@
+//! SINUMERIK 840D: part programs and subprograms as text.
+//!
+//! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`]) and what blocks do
+//! ([`motion`], [`arcs`], [`frames`]) along a program that runs straight on ([`scan`]). Programs with jumps, loops, calls and
+//! drilling cycles are run once and written flat ([`flat`]). What each word is taken for stands in [`table`].
+//!
+//! Source: Siemens, SINUMERIK 840D sl / 828D, Programming Manuals Fundamentals, Job Planning and Cycles, and public programs.
+
+pub(crate) mod arcs;
+pub(crate) mod block;
+pub(crate) mod declarations;
+pub(crate) mod expression;
+mod files;
+pub(crate) mod flat;
+pub(crate) mod frames;
+mod gathering;
+mod motion;
+mod place;
+pub(crate) mod reader;
+pub(crate) mod scan;
+pub(crate) mod state;
+pub(crate) mod table;
+pub(crate) mod tokens;
+pub(crate) mod values;
+mod walker;
+mod words;
+pub(crate) mod write;

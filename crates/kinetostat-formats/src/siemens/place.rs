@@ -1,0 +1,167 @@
+//! The words of a place in a block that is there.
+
+use std::ops::Range;
+
+use crate::options::WriteOptions;
+use crate::siemens::state::Coordinate;
+use crate::siemens::walker::Written;
+use crate::text::edits::Edits;
+use crate::text::number::{Width, printed};
+use crate::text::source::SourceFile;
+
+/// Names of the axes.
+pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
+
+/// Names of the point on a CIP.
+const VIA: [&str; 3] = ["I1", "J1", "K1"];
+
+/// Least decimals of places in a unit of so many mm: inches as fine as mm.
+pub(crate) fn digits_of(options: &WriteOptions, unit_mm: f64) -> usize {
+    match unit_mm == 1.0 {
+        true => options.position_decimals,
+        false => options.position_decimals + 2,
+    }
+}
+
+/// A number as it is written, and what it says.
+pub(crate) struct AxisText {
+    pub text: String,
+    pub value: f64,
+}
+
+impl AxisText {
+    /// Of a printed number; a zero has no sign.
+    pub(crate) fn plain(text: String) -> Self {
+        let value: f64 = text.parse().unwrap_or_default();
+        let text = match value == 0.0 {
+            true => text.trim_start_matches('-').to_owned(),
+            false => text,
+        };
+        Self { text, value }
+    }
+}
+
+/// A word with a blank before it, so that both are taken out.
+pub(crate) fn without(bytes: &[u8], word: &Range<usize>, words_at: usize) -> Range<usize> {
+    let blank = word.start > words_at
+        && word.start.checked_sub(1).and_then(|at| bytes.get(at)) == Some(&b' ');
+    word.start - usize::from(blank)..word.end
+}
+
+/// The place that a block ends at.
+pub(crate) struct Place<'p> {
+    pub file: &'p SourceFile,
+    pub written: &'p Written,
+    pub least: usize,
+    /// From where the tool was at the start to where it is, and then at the end; in the frame's axes, mm.
+    pub off: [f64; 3],
+}
+
+impl Place<'_> {
+    /// Writes the end along an axis: in its word, or in a further one where it is not reached without.
+    pub(crate) fn axis(
+        &mut self,
+        axis: usize,
+        wanted_mm: f64,
+        edits: &mut Edits,
+        added: &mut String,
+    ) {
+        let unit = self.written.unit_mm;
+        let old = self.written.end[axis].unwrap_or(wanted_mm);
+        let (least, letter) = (self.least, LETTERS[axis]);
+        let half_mm = 0.5 * 0.1_f64.powi(least as i32) * unit;
+        let Some(word) = &self.written.axes[axis] else {
+            let is = old + self.off[axis];
+            // Where nothing was displaced the place is the program's, to the last bit.
+            if (wanted_mm - is).abs() > half_mm {
+                let number = AxisText::plain(format!("{:.least$}", wanted_mm / unit));
+                added.push_str(&match self.written.steps {
+                    true => format!(" {letter}=AC({})", number.text),
+                    false => format!(" {letter}{}", number.text),
+                });
+                self.off[axis] = number.value * unit - old;
+            }
+            return;
+        };
+        let value = put(
+            self.file,
+            word,
+            (old, wanted_mm),
+            self.off[axis],
+            unit,
+            least,
+            edits,
+        );
+        self.off[axis] = value - old;
+    }
+
+    /// Writes the point on a CIP along an axis.
+    pub(crate) fn via(
+        &mut self,
+        axis: usize,
+        wanted_mm: f64,
+        edits: &mut Edits,
+        added: &mut String,
+    ) {
+        let unit = self.written.unit_mm;
+        let (least, name) = (self.least, VIA[axis]);
+        match &self.written.via[axis] {
+            Some(word) => {
+                let start = self.written.start[axis].unwrap_or_default();
+                let old = match word.step {
+                    true => start + word.mm,
+                    false => word.mm,
+                };
+                // A step from a start that may be displaced is written as a place.
+                let off = match word.step {
+                    true => f64::INFINITY,
+                    false => 0.0,
+                };
+                put(self.file, word, (old, wanted_mm), off, unit, least, edits);
+            }
+            None => {
+                let number = AxisText::plain(format!("{:.least$}", wanted_mm / unit));
+                added.push_str(&format!(" {name}=AC({})", number.text));
+            }
+        }
+    }
+}
+
+/// Puts a place in a word; where the tool is then along it, mm.
+fn put(
+    file: &SourceFile,
+    word: &Coordinate,
+    (old_mm, wanted_mm): (f64, f64),
+    off_mm: f64,
+    unit: f64,
+    least: usize,
+    edits: &mut Edits,
+) -> f64 {
+    let (old, wanted) = (old_mm / unit, wanted_mm / unit);
+    if word.literal && !word.step {
+        let original = file.part(&word.number);
+        let text = printed(original, word.written, wanted, least, Width::Free);
+        if text == original {
+            return old_mm;
+        }
+        let value: Option<f64> = std::str::from_utf8(&text)
+            .ok()
+            .and_then(|t| t.trim().parse().ok());
+        edits.replace(word.number.clone(), text);
+        return value.map_or(wanted_mm, |value| value * unit);
+    }
+    let number = AxisText::plain(format!("{wanted:.least$}"));
+    let same = AxisText::plain(format!("{old:.least$}")).value == number.value;
+    if same && (!word.step || off_mm == 0.0) {
+        return old_mm;
+    }
+    let name = file.part(&(word.word.start..word.whole.start));
+    let name = String::from_utf8_lossy(name);
+    let name = name.trim_end().trim_end_matches('=').trim_end();
+    let text = match word.step || word.wrapped {
+        true => format!("{name}=AC({})", number.text),
+        false => format!("{name}={}", number.text),
+    };
+    edits.replace(word.word.clone(), text);
+    number.value * unit
+}

@@ -1,0 +1,163 @@
+//! The walk over the blocks of a program that runs straight on.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+
+use crate::options::ReadOptions;
+use crate::siemens::block::{Block, What};
+use crate::siemens::declarations::define;
+use crate::siemens::files::whole_file;
+use crate::siemens::state::State;
+use crate::siemens::table::row;
+use crate::siemens::tokens::Token;
+use crate::siemens::values::Variables;
+use crate::siemens::walker::{Reader, Scan};
+use crate::table::Treatment;
+use crate::text::source::SourceFile;
+
+/// Reads all files, each for itself.
+pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
+    let mut out = Scan::default();
+    let frames = options.frames.iter();
+    let frames: BTreeMap<String, Isometry3<f64>> = frames
+        .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
+        .collect();
+    for (index, file) in files.iter().enumerate() {
+        if !whole_file(file, &mut out.faults) {
+            continue;
+        }
+        let mut reader = Reader {
+            changes_by_m6: has_change(file.bytes()),
+            out: &mut out,
+            options,
+            frames: &frames,
+            file,
+            index,
+            state: State::new(),
+            variables: Variables::default(),
+        };
+        for line in 1..=file.line_count() {
+            if reader.state.ended {
+                break;
+            }
+            let range = file.range_of(line);
+            match Block::of(file.bytes(), range) {
+                Ok((block, tokens)) => reader.block(&block, &tokens),
+                Err(broken) => reader.broken(broken),
+            }
+        }
+    }
+    out
+}
+
+/// Whether M6 stands anywhere: tools change at T where it does not.
+pub(crate) fn has_change(bytes: &[u8]) -> bool {
+    bytes.windows(3).enumerate().any(|(at, part)| {
+        let is_m6 = matches!(part, [b'M' | b'm', b'6', _]) && !part[2].is_ascii_digit();
+        let is_m06 = matches!(part, [b'M' | b'm', b'0', b'6']);
+        let ends = !bytes.get(at + 3).is_some_and(u8::is_ascii_digit);
+        is_m6 || is_m06 && ends
+    }) || bytes.ends_with(b"M6")
+}
+
+impl Reader<'_> {
+    fn block(&mut self, block: &Block, tokens: &[Token]) {
+        let Some(first) = block.items.first() else {
+            return;
+        };
+        if block.skip && !self.is_harmless(block) {
+            return self.fault(
+                &block.span.clone(),
+                "whether the block runs, depends on a switch at the machine (/)",
+                "take the slash out, or the block",
+            );
+        }
+        let statement = block.items.iter().find(|item| item.what == What::Statement);
+        if let Some(item) = statement {
+            let (item, alone) = (item.clone(), item.span == first.span);
+            return self.statement(&item.span, &item.name, alone, tokens);
+        }
+        let (code, feed) = (self.state.code_stated, self.state.feed_stated);
+        let faults = self.out.faults.len();
+        let words = self.words(block);
+        if self.out.faults.len() > faults {
+            // What the block does is not known: its places are taken as stated.
+            self.state.lost = true;
+            for (axis, word) in words.axes.iter().enumerate() {
+                if let Some(word) = word.as_ref().filter(|word| !word.step) {
+                    self.state.place[axis] = Some(word.mm);
+                }
+            }
+            return;
+        }
+        self.act(block, words, (code, feed));
+    }
+
+    /// Whether a block changes neither places nor what follows.
+    fn is_harmless(&self, block: &Block) -> bool {
+        block.items.iter().all(|item| {
+            let name = self.name(&item.name);
+            let value = match &item.what {
+                What::Value { value, .. } => self.variables.number(self.file.bytes(), value).ok(),
+                _ => None,
+            };
+            match name.as_str() {
+                "M" => value.is_some_and(|m| ![2.0, 6.0, 17.0, 30.0].contains(&m)),
+                "MSG" | "STOPRE" | "S" | "H" => true,
+                _ => false,
+            }
+        })
+    }
+
+    /// A statement that is read as a whole.
+    fn statement(
+        &mut self,
+        span: &Range<usize>,
+        name: &Range<usize>,
+        alone: bool,
+        tokens: &[Token],
+    ) {
+        let word = self.name(name);
+        match word.as_str() {
+            _ if !alone => self.fault(
+                span,
+                "it does not stand at the beginning of its block",
+                "write it as a block of its own",
+            ),
+            "DEF" => {
+                let from = tokens
+                    .iter()
+                    .position(|token| token.span == *name)
+                    .unwrap_or(0);
+                if let Err(broken) = define(self.file.bytes(), &tokens[from..], &mut self.variables)
+                {
+                    self.broken(broken);
+                }
+            }
+            "PROC" => {
+                let parameters = tokens.iter().any(|token| token.is(b'('))
+                    && !tokens
+                        .windows(2)
+                        .any(|pair| pair[0].is(b'(') && pair[1].is(b')'));
+                if parameters {
+                    self.fault(
+                        span,
+                        "the values of its parameters come from the program that calls it",
+                        "give that program with it, and let it be written flat: --expand",
+                    );
+                }
+            }
+            _ => match row(&word).map(|row| row.treatment) {
+                Some(Treatment::Refused { reason, remedy }) => self.fault(span, reason, remedy),
+                Some(_) => {}
+                None => self.fault(
+                    span,
+                    "what it sets, is not followed",
+                    "write it as single assignments",
+                ),
+            },
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! What is in force between two blocks.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use nalgebra::{Isometry3, Vector3};
+
+/// How the tool goes to the next place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Code {
+    /// G0.
+    Rapid,
+    /// G1.
+    Line,
+    /// G2.
+    Clockwise,
+    /// G3.
+    Counterclockwise,
+    /// CIP.
+    Through,
+}
+
+impl Code {
+    /// As a block states it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Rapid => "G0",
+            Self::Line => "G1",
+            Self::Clockwise => "G2",
+            Self::Counterclockwise => "G3",
+            Self::Through => "CIP",
+        }
+    }
+
+    /// Of a word in capitals.
+    pub(crate) fn of(word: &str) -> Option<Self> {
+        Some(match word {
+            "G0" => Self::Rapid,
+            "G1" => Self::Line,
+            "G2" => Self::Clockwise,
+            "G3" => Self::Counterclockwise,
+            "CIP" => Self::Through,
+            _ => return None,
+        })
+    }
+
+    /// Whether it is none of straight ones.
+    pub(crate) fn is_arc(self) -> bool {
+        !matches!(self, Self::Rapid | Self::Line)
+    }
+}
+
+/// What F says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FeedMode {
+    /// G94.
+    PerMinute,
+    /// G95, G96.
+    PerTurn,
+    /// G93.
+    Inverse,
+}
+
+/// A feed as it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Feed {
+    pub value: f64,
+    pub text: String,
+}
+
+/// What angles A2, B2, C2 mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Angles {
+    /// ORIEULER.
+    Euler,
+    /// ORIRPY.
+    Rpy,
+}
+
+/// An axis beside X, Y and Z.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct OtherAxis {
+    /// Where the program says it stands.
+    pub at: Option<f64>,
+    /// A place of the machine was stated behind that.
+    pub elsewhere: bool,
+}
+
+/// What is in force.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    pub code: Code,
+    /// Axis across the plane of arcs: 2 for G17.
+    pub normal: usize,
+    /// Length of the unit of coordinates, mm.
+    pub unit_mm: f64,
+    /// Length of the unit of the feed, mm.
+    pub feed_unit_mm: f64,
+    /// G91.
+    pub steps: bool,
+    pub feed_mode: FeedMode,
+    pub feed: Option<Feed>,
+    /// G60.
+    pub exact: bool,
+    /// Programmable frame: from its axes to those of the part, mm.
+    pub frame: Isometry3<f64>,
+    pub work_object: String,
+    pub tool: String,
+    /// Selected, and taken by M6.
+    pub next_tool: Option<String>,
+    pub edge: Option<u64>,
+    /// TRAORI.
+    pub oriented: bool,
+    pub angles: Option<Angles>,
+    /// ORIMKS.
+    pub machine_orientation: bool,
+    /// Direction of the tool in the part's axes, where it was stated.
+    pub direction: Option<Vector3<f64>>,
+    /// Where the tool is, in the frame's axes, mm.
+    pub place: [Option<f64>; 3],
+    /// The last motion.
+    pub last: Option<usize>,
+    pub others: BTreeMap<Vec<u8>, OtherAxis>,
+    /// M30 or the like was read.
+    pub ended: bool,
+    /// Something was refused: what follows from it is not reported again.
+    pub lost: bool,
+    /// A code of motion was stated since the last motion.
+    pub code_stated: bool,
+    /// A feed was stated since the last motion.
+    pub feed_stated: bool,
+}
+
+impl State {
+    /// Of the beginning of a program.
+    pub(crate) fn new() -> Self {
+        Self {
+            code: Code::Line,
+            normal: 2,
+            unit_mm: 1.0,
+            feed_unit_mm: 1.0,
+            steps: false,
+            feed_mode: FeedMode::PerMinute,
+            feed: None,
+            exact: false,
+            frame: Isometry3::identity(),
+            work_object: "PART".to_owned(),
+            tool: "TOOL".to_owned(),
+            next_tool: None,
+            edge: None,
+            oriented: false,
+            angles: None,
+            machine_orientation: false,
+            direction: None,
+            place: [None; 3],
+            last: None,
+            others: BTreeMap::new(),
+            ended: false,
+            lost: false,
+            code_stated: false,
+            feed_stated: false,
+        }
+    }
+
+    /// Where the tool is, in the frame's axes; none where an axis is not known.
+    pub(crate) fn known_place(&self) -> Option<Vector3<f64>> {
+        let [x, y, z] = self.place;
+        Some(Vector3::new(x?, y?, z?))
+    }
+
+    /// Puts another programmable frame in force; the tool stays where it is.
+    pub(crate) fn set_frame(&mut self, frame: Isometry3<f64>) {
+        let between = frame.inverse() * self.frame;
+        let turn = between.rotation.to_rotation_matrix();
+        let old = self.place;
+        self.place = [0, 1, 2].map(|axis| {
+            let mut sum = between.translation.vector[axis];
+            for from in 0..3 {
+                let share = turn[(axis, from)];
+                if share.abs() > NO_SHARE {
+                    sum += share * old[from]?;
+                }
+            }
+            Some(sum)
+        });
+        self.frame = frame;
+    }
+
+    /// The place is not known any longer.
+    pub(crate) fn forget(&mut self) {
+        self.place = [None; 3];
+    }
+}
+
+/// Parts of a rotation below this are rounding.
+const NO_SHARE: f64 = 1e-12;
+
+/// A coordinate of a block, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Coordinate {
+    /// The whole word.
+    pub word: Range<usize>,
+    /// The number or expression.
+    pub number: Range<usize>,
+    /// The value with what is around it, behind `=`.
+    pub whole: Range<usize>,
+    /// The value as written, in units of the program.
+    pub written: f64,
+    pub mm: f64,
+    /// From where the tool is.
+    pub step: bool,
+    /// `AC(` or the like stands around the number.
+    pub wrapped: bool,
+    /// It is a number, and no expression.
+    pub literal: bool,
+    /// `=` stands before it.
+    pub set: bool,
+}

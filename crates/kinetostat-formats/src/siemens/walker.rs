@@ -1,0 +1,134 @@
+//! What the walk over a program knows and has found, and how it says what is wrong.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::error::{ProgramError, note};
+use crate::model::motion::Motion;
+use crate::model::program::Finding;
+use crate::options::ReadOptions;
+use crate::siemens::expression::Expression;
+use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
+use crate::siemens::tokens::Broken;
+use crate::siemens::values::Variables;
+use crate::text::source::SourceFile;
+
+/// What a program's files hold.
+#[derive(Debug, Default)]
+pub(crate) struct Scan {
+    pub motions: Vec<Motion>,
+    /// Of each motion.
+    pub written: Vec<Written>,
+    pub findings: Vec<Finding>,
+    pub faults: Vec<ProgramError>,
+}
+
+/// How a motion is written, for the writer.
+#[derive(Debug, Clone)]
+pub(crate) struct Written {
+    /// The line without its ending.
+    pub line: Range<usize>,
+    /// Where its words begin.
+    pub words_at: usize,
+    /// X, Y, Z of its end; of the point on a CIP.
+    pub axes: [Option<Coordinate>; 3],
+    pub via: [Option<Coordinate>; 3],
+    /// Words that an end elsewhere makes void.
+    pub arc_words: Vec<Range<usize>>,
+    pub direction_words: Vec<Range<usize>>,
+    /// What acts at its end.
+    pub at_end: Vec<Range<usize>>,
+    pub code: Code,
+    pub code_word: Option<Range<usize>>,
+    /// A code was stated in a block between the motion before and this one.
+    pub code_stated: bool,
+    /// The feed in force, if it is known, as written.
+    pub feed: Option<Feed>,
+    pub feed_word: Option<(Range<usize>, Option<Range<usize>>)>,
+    pub feed_stated: bool,
+    /// From the axes of its numbers to those of the part.
+    pub frame: Isometry3<f64>,
+    pub unit_mm: f64,
+    /// In the frame's axes, mm.
+    pub start: [Option<f64>; 3],
+    pub end: [Option<f64>; 3],
+    /// It goes to a place of the machine.
+    pub machine: bool,
+    /// G91 is in force.
+    pub steps: bool,
+}
+
+/// The walk over one file.
+pub(crate) struct Reader<'r> {
+    pub out: &'r mut Scan,
+    pub options: &'r ReadOptions,
+    pub frames: &'r BTreeMap<String, Isometry3<f64>>,
+    pub file: &'r SourceFile,
+    pub index: usize,
+    pub state: State,
+    pub variables: Variables,
+    pub changes_by_m6: bool,
+}
+
+impl Reader<'_> {
+    pub(crate) fn fault(&mut self, span: &Range<usize>, reason: impl Into<String>, remedy: &str) {
+        note(&mut self.out.faults, || {
+            ProgramError::at(self.file, span.clone(), reason, remedy)
+        });
+        self.state.lost = true;
+    }
+
+    pub(crate) fn broken(&mut self, broken: Broken) {
+        self.fault(&broken.span, broken.reason, broken.remedy);
+    }
+
+    pub(crate) fn finding(&mut self, span: &Range<usize>, message: String) {
+        self.out.findings.push(Finding {
+            file: self.index,
+            line: self.file.line_of(span.start),
+            message,
+        });
+    }
+
+    /// The text of a name in capitals.
+    pub(crate) fn name(&self, span: &Range<usize>) -> String {
+        String::from_utf8_lossy(self.file.part(span)).to_ascii_uppercase()
+    }
+
+    /// The first stated number of an expression, or a fault.
+    pub(crate) fn number(&mut self, span: &Range<usize>, value: &Expression) -> Option<f64> {
+        match self.variables.number(self.file.bytes(), value) {
+            Ok(value) if value.abs() < FARTHEST => Some(value),
+            Ok(_) => {
+                self.fault(span, "its value is larger than 10 km", "mend it");
+                None
+            }
+            Err(why) => {
+                self.fault(
+                    span,
+                    why,
+                    "give it a value in the program, or write the number",
+                );
+                None
+            }
+        }
+    }
+
+    /// The direction into which angles turn Z.
+    pub(crate) fn turned(&self, angles: [f64; 3]) -> Option<Vector3<f64>> {
+        use nalgebra::UnitQuaternion as Q;
+        let [a, b, c] = angles.map(f64::to_radians);
+        let about = |axis: &nalgebra::Unit<Vector3<f64>>, angle| Q::from_axis_angle(axis, angle);
+        let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+        let turn = match self.state.angles? {
+            Angles::Euler => about(&z, a) * about(&x, b) * about(&z, c),
+            Angles::Rpy => about(&z, c) * about(&y, b) * about(&x, a),
+        };
+        Some(turn * Vector3::z())
+    }
+}
+
+/// Larger than any number of a program, mm or degrees.
+const FARTHEST: f64 = 1e7;

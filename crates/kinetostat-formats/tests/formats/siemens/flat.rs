@@ -1,0 +1,263 @@
+//! Programs that are run once and written flat.
+
+use kinetostat_formats::internal::expand_within;
+use kinetostat_formats::*;
+
+fn flat_of(files: &[(&str, &str)]) -> FlatText {
+    let files: Vec<SourceFile> = files
+        .iter()
+        .map(|(name, text)| SourceFile::new(*name, *text))
+        .collect();
+    expand_siemens(&files).unwrap_or_else(|errors| panic!("{errors:?}"))
+}
+
+fn flat(text: &str) -> String {
+    let found = flat_of(&[("main.mpf", text)]);
+    assert!(found.changed);
+    let lines = found
+        .file
+        .bytes()
+        .iter()
+        .filter(|byte| **byte == b'\n')
+        .count();
+    assert_eq!(lines, found.origins.len());
+    String::from_utf8(found.file.bytes().to_vec()).unwrap()
+}
+
+fn fault(text: &str) -> String {
+    let files = [SourceFile::new("main.mpf", text)];
+    expand_within(&files, 10_000).unwrap_err()[0].to_string()
+}
+
+#[test]
+fn what_runs_straight_on_comes_back_byte_for_byte() {
+    for text in [
+        super::EVERYTHING,
+        "",
+        "G1 X1\r\n; a\r\n",
+        "\n\n",
+        "R1=5\nX=R1",
+        "CYCLE84(1)\n",
+    ] {
+        let found = flat_of(&[("main.mpf", text), ("other.spf", "M17")]);
+        assert!(!found.changed, "{text}");
+        assert_eq!(found.file.bytes(), text.as_bytes());
+        assert_eq!(found.origins.len(), found.file.line_count());
+    }
+}
+
+#[test]
+fn loops_and_branches() {
+    let cases = [
+        ("FOR R1=1 TO 3\nX=R1*10\nENDFOR\n", "X=10\nX=20\nX=30\n"),
+        ("FOR R1=5 TO 3\nX1\nENDFOR\nX2\n", "X2\n"),
+        ("R1=0\nWHILE R1<2\nX=R1\nR1=R1+1\nENDWHILE\n", "X=0\nX=1\n"),
+        (
+            "R1=0\nREPEAT\nR1=R1+1 X=R1\nUNTIL R1>=2\nY1\n",
+            " X=1\n X=2\nY1\n",
+        ),
+        (
+            "R1=0\nLOOP\nR1=R1+1\nIF R1>2 GOTOF OUT\nX=R1\nENDLOOP\nOUT: Y1\n",
+            "X=1\nX=2\nY1\n",
+        ),
+        (
+            "R1=2\nIF R1==1\nX1\nELSE\nIF (R1==2) AND NOT (R1==3)\nX2\nENDIF\nENDIF\nX3\n",
+            "X2\nX3\n",
+        ),
+        ("R1=1\nIF R1==1\nX1\nELSE\nX2\nENDIF\n", "X1\n"),
+        ("GOTOF N30\nN20 X2\nN30 X3\n", "N30 X3\n"),
+        (
+            "R1=0\nMARK:\nX=R1\nR1=R1+1\nIF R1<2 GOTOB MARK\n",
+            "X=0\nX=1\n",
+        ),
+        (
+            "R1=2\nCASE R1 OF 1 GOTOF ALL 2 GOTOF BIT DEFAULT GOTOF CUT\nALL: X1\nBIT: X2\nCUT: X3\n",
+            "X2\nX3\n",
+        ),
+        (
+            "BEGIN: X1\nX2\nREPEAT BEGIN P=2\nX3\n",
+            "X1\nX2\nX1\nX2\nX1\nX2\nX3\n",
+        ),
+        (
+            "AA: X1\nX2\nBB: X3\nX4\nREPEAT AA BB\nX5\n",
+            "X1\nX2\nX3\nX4\nX1\nX2\nX3\nX5\n",
+        ),
+        ("AA: X1\nX2\nREPEATB AA P=2\nX5\n", "X1\nX2\nX1\nX1\nX5\n"),
+        (
+            "AA: X1\nENDLABEL: X2\nX3\nREPEAT AA\nX5\n",
+            "X1\nX2\nX3\nX1\nX2\nX5\n",
+        ),
+        (
+            "DEF INT IDX, A[2]\nA[1]=2.6\nFOR IDX=0 TO 1\nX=A[IDX]\nENDFOR\n",
+            "X=0\nX=3\n",
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(flat(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn numbers_of_expressions() {
+    let cases = [
+        ("SIN(30)", "0.5"),
+        ("ATAN2(1,1)", "45"),
+        ("POT(3)+SQRT(16)", "13"),
+        ("ACOS(0)-ASIN(1)+TAN(45)", "1"),
+        ("7 DIV 2 + 7 MOD 4", "6"),
+        ("ROUND(2.5)+TRUNC(-2.7)+ABS(-1)", "2"),
+        ("-R9*2", "-10"),
+        ("2+3*4", "14"),
+        ("'H1F'+'B101'", "36"),
+        ("1.5EX2+0", "150"),
+        ("R[9]", "5"),
+        ("MINVAL(3,2)*MAXVAL(3,2)", "6"),
+        ("1/3", "0.333333"),
+    ];
+    for (expression, expected) in cases {
+        let text = format!("R9=5\nFOR R8=1 TO 1\nX={expression} Y1 ; note\nENDFOR\n");
+        assert_eq!(
+            flat(&text),
+            format!("X={expected} Y1 ; note\n"),
+            "{expression}"
+        );
+    }
+}
+
+#[test]
+fn subprograms_by_name_and_number() {
+    let main = "%_N_MAIN_MPF\n;$PATH=/_N_MPF_DIR\nDEF REAL FOUND\nHOLE(5,FOUND) ; twice\nX=FOUND\nL10 P2\nL10\nCALLED\nM30\n";
+    let hole = "%_N_HOLE_SPF\nPROC HOLE(REAL DEPTH, VAR REAL BACK, INT COUNT=2) SAVE\nG91 G1 Z=-DEPTH\nBACK=DEPTH*COUNT\nM17\n";
+    let found = flat_of(&[
+        ("HOLE.SPF", hole),
+        ("MAIN.MPF", main),
+        ("L10.SPF", "Y1\nRET\n"),
+        ("_N_CALLED_SPF", "; nothing\nG0 Y2 M17"),
+    ]);
+    let text = String::from_utf8(found.file.bytes().to_vec()).unwrap();
+    assert_eq!(
+        text,
+        "%_N_MAIN_MPF\n;$PATH=/_N_MPF_DIR\nG91 G1 Z=-5\nX=10\nY1\nY1\nY1\n; nothing\nG0 Y2\nM30\n"
+    );
+    assert_eq!(found.origins[2], (0, 3));
+    assert_eq!(found.origins[8], (3, 2));
+    // SAVE puts codes back that were stated before.
+    let found = flat_of(&[
+        ("m.mpf", "G90 G0 X1\nSUB1\nX2\n"),
+        ("SUB1.SPF", "PROC SUB1 SAVE\nG91 G1 X5\nRET\n"),
+    ]);
+    assert_eq!(found.file.bytes(), b"G90 G0 X1\nG91 G1 X5\nG0 G90\nX2\n");
+}
+
+#[test]
+fn drilling_cycles() {
+    let drilled = |call: &str| flat(&format!("G17 G0 X0 Y0 Z10 F100\n{call}\nX9\n"));
+    let head = "G17 G0 X0 Y0 Z10 F100\n";
+    assert_eq!(
+        drilled("CYCLE82(10,0,2,-8,,0.5)"),
+        format!("{head}G0 Z=AC(2)\nG1 Z=AC(-8)\nG4 F0.5\nG0 Z=AC(10)\nX9\n")
+    );
+    // DPR counts from the reference plane.
+    assert_eq!(
+        drilled("CYCLE81(10,1,2,,8)"),
+        format!("{head}G0 Z=AC(3)\nG1 G9 Z=AC(-7)\nG0 Z=AC(10)\nX9\n")
+    );
+    // Three steps of 10; the last two are equal where the rest is shorter than the least.
+    assert_eq!(
+        drilled("CYCLE83(5,0,1,-30,,-10,,0,0,0,1,1)"),
+        format!(
+            "{head}G0 Z=AC(1)\nG1 Z=AC(-10)\nG0 Z=AC(1)\nG0 Z=AC(-9.4)\nG1 Z=AC(-20)\nG0 Z=AC(1)\nG0 Z=AC(-19.4)\n\
+             G1 Z=AC(-25)\nG0 Z=AC(1)\nG0 Z=AC(-24.4)\nG1 Z=AC(-30)\nG0 Z=AC(5)\nX9\n"
+        )
+    );
+    // Steps that become shorter, chips broken.
+    assert_eq!(
+        drilled("CYCLE83(5,0,1,-20,,,10,3,0,0,0.5,0)"),
+        format!(
+            "{head}G0 Z=AC(1)\nG1 Z=AC(-10) F50\nG0 Z=AC(-9)\nG1 Z=AC(-17) F100\nG0 Z=AC(-16)\nG1 Z=AC(-20)\nG0 Z=AC(5)\nX9\n"
+        )
+    );
+    // At each place, until MCALL alone; the code of before is stated again.
+    assert_eq!(
+        flat("G18 G1 X0 F100\nMCALL CYCLE81(10,0,2,-5)\nX10\nZ20 M8\nMCALL\nX30\n"),
+        "G18 G1 X0 F100\nX10\nG0 Y=AC(2)\nG1 G9 Y=AC(-5)\nG0 Y=AC(10)\nG1\nZ20 M8\nG0 Y=AC(2)\nG1 G9 Y=AC(-5)\nG0 Y=AC(10)\nG1\nX30\n"
+    );
+}
+
+#[test]
+fn what_cannot_be_run_is_refused_by_line() {
+    let cases = [
+        (
+            "LOOP\nR1=1\nENDLOOP\n",
+            "has not ended; check the conditions",
+        ),
+        ("AA:\nX1\nGOTOB AA\n", "has not ended"),
+        ("IF R1==1\nX1\n", "line 1: `IF R1==1`: it is not closed"),
+        ("ENDWHILE\n", "nothing that it closes is open"),
+        (
+            "IF R1==1 GOTOF AA\nX1\n",
+            "`R1` has no value that this program gives it",
+        ),
+        ("GOTOF AA\nX1\n", "the jump has no destination"),
+        (
+            "L20\n",
+            "line 1: `L20`: the subprogram is not among the files; give its file",
+        ),
+        ("CALL \"A\"\n", "what is called is stated by a text"),
+        (
+            "MCALL DRILL(5)\n",
+            "what it calls at each place, is not followed",
+        ),
+        ("CYCLE81(10,0,2)\n", "no depth is stated (DP or DPR)"),
+        (
+            "CYCLE81(10,0,2,5)\n",
+            "the hole does not go from the reference plane away",
+        ),
+        (
+            "CYCLE82(10,0,2,-5,,0,0,1,1)\n",
+            "an argument behind those that are followed is not zero",
+        ),
+        ("CYCLE83(10,0,2,-5)\n", "no first depth is stated"),
+        (
+            "CYCLE83(5,0,1,-20,,,10,-0.1,0,0,1,0)\n",
+            "more than 1000 steps",
+        ),
+        (
+            "FOR R1=1 TO 2\nDEF AXIS ALL\nENDFOR\n",
+            "variables of axes and frames are not followed",
+        ),
+        ("GOTOS\n", "it is not followed"),
+        ("REPEAT AA P=2\n", "the label of the section is not there"),
+        ("X1 GOTOF AA\nAA:\n", "it does not stand alone in its block"),
+    ];
+    for (text, part) in cases {
+        let found = fault(text);
+        assert!(found.contains(part), "{text}: {found}");
+    }
+}
+
+#[test]
+fn a_program_that_calls_itself_ends() {
+    let files = [
+        SourceFile::new("m.mpf", "SUB1\n"),
+        SourceFile::new("SUB1.SPF", "SUB1\n"),
+    ];
+    let found = expand_siemens(&files).unwrap_err();
+    assert!(
+        found[0]
+            .to_string()
+            .contains("more than 18 programs call one another")
+    );
+}
+
+#[test]
+fn a_flat_program_is_read_and_corrected() {
+    let text = "R1=0\nG17 G54 G90 G94\nG0 X0 Y0 Z5\nLOOP\nR1=R1+5\nIF R1>20 GOTOF OUT\nTRANS Z=R1/10\nG1 X=R1 Z-1 F600\nENDLOOP\nOUT:\nM30\n";
+    let flat = flat_of(&[("m.mpf", text)]);
+    let program = read_siemens(vec![flat.file], &ReadOptions::default()).unwrap();
+    assert_eq!(program.motions.len(), 5);
+    for (index, x) in [5.0, 10.0, 15.0, 20.0].into_iter().enumerate() {
+        let [found, _, z] = super::place(&program, index + 1);
+        assert!((found - x).abs() < 1e-12 && (z - (x / 10.0 - 1.0)).abs() < 1e-12);
+    }
+}
