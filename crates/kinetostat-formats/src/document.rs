@@ -3,6 +3,8 @@
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
+use crate::heidenhain::reader::read_heidenhain;
+use crate::heidenhain::write::write_heidenhain;
 use crate::krl::reader::read_krl;
 use crate::krl::write::KrlSyntax;
 use crate::ls::reader::read_ls;
@@ -39,6 +41,7 @@ pub fn read(
         Language::FanucLs => read_ls(files, options),
         Language::Apt => read_apt(files, options),
         Language::Krl => read_krl(files, options),
+        Language::Heidenhain => read_heidenhain(files, options),
     }
 }
 
@@ -78,5 +81,6 @@ pub fn write(
         Language::FanucLs => write_ls(program, pieces, options),
         Language::Apt => write_apt(program, pieces, options),
         Language::Krl => write_with(program, pieces, options, &KrlSyntax),
+        Language::Heidenhain => write_heidenhain(program, pieces, options),
     }
 }

@@ -11,6 +11,7 @@ const LOOKED_AT: usize = 1 << 16;
 /// use kinetostat_formats::{Language, language_of};
 ///
 /// assert_eq!(language_of("Path_10.mod", b"MODULE Path_10\n"), Some(Language::Rapid));
+/// assert_eq!(language_of("PART.H", b"0 BEGIN PGM PART MM\n"), Some(Language::Heidenhain)); // and no header of C
 /// assert_eq!(language_of("part.prg", b"%\nG21 G90\n"), None); // G-code has this ending, too
 /// ```
 #[must_use]
@@ -29,6 +30,7 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
         }
         "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
         "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
+        "h" if holds("BEGIN PGM") => Some(Language::Heidenhain),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@
 //! 1. A reader ([`read_rapid`], [`read_krl`], or [`read`] by language) takes the files of a program together and says where the tool
 //!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
-//!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`]).
+//!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`], ...).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
 //! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
@@ -38,6 +38,7 @@
 mod apt;
 mod document;
 mod error;
+mod heidenhain;
 #[doc(hidden)]
 pub mod internal;
 mod krl;
@@ -55,6 +56,9 @@ pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{read, write};
 pub use error::{ProgramError, WriteError};
+pub use heidenhain::expand::run::expand_heidenhain;
+pub use heidenhain::reader::read_heidenhain;
+pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
 pub use krl::reader::read_krl;
 pub use krl::table::KRL_STATEMENTS;
 pub use language::language_of;
@@ -75,5 +79,6 @@ pub use path::tools::tool_number;
 pub use rapid::reader::read_rapid;
 pub use rapid::table::RAPID_STATEMENTS;
 pub use table::{StatementRow, Treatment};
+pub use text::flat::FlatText;
 pub use text::source::SourceFile;
 pub use writing::piece::Piece;

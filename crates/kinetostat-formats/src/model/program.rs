@@ -18,6 +18,8 @@ pub enum Language {
     Apt,
     /// KUKA KRL.
     Krl,
+    /// Heidenhain conversational.
+    Heidenhain,
 }
 
 /// Something that a person should know of a program that was taken.

@@ -301,9 +301,16 @@ impl Maker<'_> {
             let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
             fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
         };
-        // APT says it beside the motion.
-        let said = self.program.language == Language::Apt
-            && motion.speed.text.to_ascii_uppercase().starts_with("RAPID");
+        // APT says it beside the motion, Heidenhain in it.
+        let said = match self.program.language {
+            Language::Apt => motion
+                .speed
+                .text
+                .to_ascii_uppercase()
+                .starts_with("RAPID"),
+            Language::Heidenhain => motion.speed.text == "FMAX",
+            _ => false,
+        };
         let rapid = motion.kind == MotionKind::Joint
             || motion.target.pose().is_none()
             || said

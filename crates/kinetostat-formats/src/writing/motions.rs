@@ -82,7 +82,7 @@ pub(crate) fn write_with(
 }
 
 /// No line that changed is longer than allowed.
-fn check_lines(
+pub(crate) fn check_lines(
     file: &SourceFile,
     written: &[u8],
     options: &WriteOptions,
@@ -343,7 +343,7 @@ fn check(pieces: &[&Piece]) -> Result<(), Reason> {
 const SAME_RAD: f64 = 1e-9;
 
 /// Farther than any robot reaches, mm.
-const FARTHEST_MM: f64 = 1e6;
+pub(crate) const FARTHEST_MM: f64 = 1e6;
 
 /// When the speed of a piece is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

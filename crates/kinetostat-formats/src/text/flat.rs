@@ -1,0 +1,24 @@
+//! A program run once and written flat, with where each of its lines is from.
+
+use crate::text::source::SourceFile;
+
+/// A program that was run once and written flat.
+///
+/// ```
+/// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain};
+///
+/// let text = "BEGIN PGM A MM\nFN 0: Q1 = +5\nL X+Q1 F200\nEND PGM A MM\n";
+/// let flat = expand_heidenhain(vec![SourceFile::new("a.h", text)], &ReadOptions::default()).unwrap();
+/// assert_eq!(flat.file.bytes(), b"BEGIN PGM A MM\nL X+5 F200\nEND PGM A MM\n");
+/// assert_eq!(flat.origins, [(0, 1), (0, 3), (0, 4)]);
+/// assert!(flat.changed);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatText {
+    /// The flat program, under the name of the first file.
+    pub file: SourceFile,
+    /// For every line of it: the file (an index of those given) and its line, counted from 1.
+    pub origins: Vec<(usize, usize)>,
+    /// Whether anything was to be flattened; without, the bytes are those of the first file.
+    pub changed: bool,
+}
