@@ -46,6 +46,7 @@ fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
         ("fuzz of TP programs", "fuzz_ls"),
         ("fuzz of APT files", "fuzz_apt"),
         ("fuzz of KRL programs", "fuzz_krl"),
+        ("fuzz of Heidenhain programs", "fuzz_heidenhain"),
     ] {
         example(what, "kinetostat-formats", name, &[&minutes, seed])?;
     }

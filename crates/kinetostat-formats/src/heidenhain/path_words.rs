@@ -173,6 +173,8 @@ impl PathWords {
             b"NX" | b"NY" | b"NZ" => {
                 word.value().ok_or(odd(word, at))?;
             }
+            // The spindle's speed.
+            b"S" => {}
             b"TX" => self.axis[0] = Some(word.value().ok_or(odd(word, at))?),
             b"TY" => self.axis[1] = Some(word.value().ok_or(odd(word, at))?),
             b"TZ" => self.axis[2] = Some(word.value().ok_or(odd(word, at))?),

@@ -62,6 +62,7 @@ pub(crate) fn write_heidenhain(
         feed: None,
         polar_broken: false,
         off_at: Vec::with_capacity(program.motions.len()),
+        changed: Vec::with_capacity(program.motions.len()),
         file: 0,
     };
     for (index, motion) in program.motions.iter().enumerate() {
@@ -123,8 +124,10 @@ struct Writer<'w> {
     feed: Option<f64>,
     /// A polar block was written by X and Y: those behind it have no last radius.
     polar_broken: bool,
-    /// `off` at the end of each motion.
+    /// Whether the written blocks are elsewhere at the end of each motion.
     off_at: Vec<bool>,
+    /// Whether each motion is another one.
+    changed: Vec<bool>,
     file: usize,
 }
 
@@ -141,6 +144,7 @@ impl Writer<'_> {
             self.feed = None;
             self.polar_broken = false;
         }
+        self.changed.push(!pieces.is_empty() || self.off != Vector3::zeros());
         let result = match pieces.split_last() {
             None => self.kept(motion, way),
             Some((last, before)) => self.pieces(motion, way, last, before),
@@ -171,6 +175,13 @@ impl Writer<'_> {
             Shape::Arc | Shape::Tangential => !pole_off,
             Shape::Unknown => true,
         };
+        let before = motion.follows.and_then(|from| self.changed.get(from));
+        if way.shape == Shape::Tangential && before == Some(&true) {
+            return Err((
+                "the arc begins in the direction of the block before it, which changes".to_owned(),
+                "divide it into straight pieces, too, or write it with CC and C",
+            ));
+        }
         let needs_feed = self.feed.is_some() && stated.feed == FeedWord::None && way.feed.is_some();
         if off == Vector3::zeros() && whole && !needs_feed {
             if matches!(stated.feed, FeedWord::Number(..) | FeedWord::Auto | FeedWord::Other) {
@@ -302,9 +313,9 @@ impl Writer<'_> {
         let stated = Stated::of(words);
         let straight = way.shape == Shape::Straight;
         let decimals = match way.unit_mm == 1.0 {
-            true => self.options.position_decimals,
-            // The control's last digit in inches.
-            false => self.options.position_decimals + 1,
+            true => self.options.position_decimals.min(4),
+            // As fine in inches. The control takes no more digits.
+            false => (self.options.position_decimals + 2).min(5),
         };
         let half = 0.5 * 10.0_f64.powi(-(decimals.min(12) as i32)) * way.unit_mm;
         let mut ends = wanted;

@@ -885,11 +885,35 @@ impl<'p> Run<'p> {
         Ok(text)
     }
 
+    /// The radius of a tool that the program defines and takes is Q108 from there on.
+    fn tool(&mut self, words: &[Word], text: &[u8]) {
+        let Some(kind) = words.get(1) else {
+            return;
+        };
+        let Some(name) = label_name(text, kind) else {
+            return;
+        };
+        let key = format!("TOOL {name}");
+        if kind.is("DEF") {
+            match words.iter().find(|word| word.is("R")).and_then(Word::value) {
+                Some(radius) => self.parameters.0.insert(key, radius),
+                None => self.parameters.0.remove(&key),
+            };
+            return;
+        }
+        let larger = words.iter().any(|word| word.is("DR"));
+        match self.parameters.0.get(&key).copied().filter(|_| !larger) {
+            Some(radius) => self.parameters.0.insert("Q108".to_owned(), radius),
+            None => self.parameters.0.remove("Q108"),
+        };
+    }
+
     /// Any other block: its values, its calls of a cycle, the feed behind a hole.
     fn path(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
         let mut text = self.text(at, words)?;
         let flat = words_of(&text, &(0..text.len()));
         if flat.first().is_some_and(|word| word.is("TOOL")) {
+            self.tool(&flat, &text);
             if flat.get(1).is_some_and(|word| word.is("CALL"))
                 && let Some(word) = flat.iter().find(|word| word.is("F"))
             {
