@@ -1,4 +1,5 @@
 //! For the tests of this crate alone: what the rooms of all languages share and no public function shows by itself.
 
+pub use crate::heidenhain::expand::run::expand_within;
 pub use crate::model::orientation::OrientationText;
 pub use crate::text::number::{Width, printed};

@@ -33,11 +33,9 @@ impl Datum {
     fn matrix(&self) -> Matrix3<f64> {
         match self.bend {
             Bend::None => Matrix3::identity(),
-            Bend::Mirror(axes) => Matrix3::from_diagonal(&Vector3::from_fn(|i, _| {
-                match axes[i] {
-                    true => -1.0,
-                    false => 1.0,
-                }
+            Bend::Mirror(axes) => Matrix3::from_diagonal(&Vector3::from_fn(|i, _| match axes[i] {
+                true => -1.0,
+                false => 1.0,
             })),
             Bend::Rotation(degrees) => {
                 let (sin, cos) = degrees.to_radians().sin_cos();
@@ -158,9 +156,7 @@ pub(crate) fn change(cycle: u32, part: u32, words: &[Word], unit_mm: f64) -> Cha
         11 => match words {
             [word] if word.is("SCL") => match word.value() {
                 Some(1.0) => Change::Bend(Bend::None),
-                Some(factor) if (1e-3..=1e3).contains(&factor) => {
-                    Change::Bend(Bend::Scale(factor))
-                }
+                Some(factor) if (1e-3..=1e3).contains(&factor) => Change::Bend(Bend::Scale(factor)),
                 Some(_) => Change::Refused("the factor is not from 0.001 to 1000"),
                 None => Change::Refused(PARAMETER),
             },

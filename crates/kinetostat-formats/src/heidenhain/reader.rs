@@ -163,7 +163,8 @@ struct Reader<'r> {
 }
 
 const EXPAND: &str = "write the program flat first (--expand)";
-const LEAVE: &str = "leave such motions as written by an option, or let the CAM system write L blocks";
+const LEAVE: &str =
+    "leave such motions as written by an option, or let the CAM system write L blocks";
 const BY_PARAMETER: &str = "a Q parameter says its value";
 const STATE_PLACE: &str = "state X, Y and Z once before it, without M91";
 const FIVE_AXES: &str =
@@ -190,7 +191,11 @@ impl Reader<'_> {
         let blocks = blocks_of(bytes);
         let first_of = |block: &Block| {
             let is_begin = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'B');
-            is_begin && block.words(bytes).first().is_some_and(|word| word.is("BEGIN"))
+            is_begin
+                && block
+                    .words(bytes)
+                    .first()
+                    .is_some_and(|word| word.is("BEGIN"))
         };
         let Some(first) = blocks.iter().position(first_of) else {
             let end = bytes.len().min(60);
@@ -203,7 +208,11 @@ impl Reader<'_> {
         let (labels, twice) = labels_of(bytes, &blocks);
         for index in twice {
             let text = blocks[index].text.clone();
-            self.fault(&text, "there is a label of this name above", "name it otherwise");
+            self.fault(
+                &text,
+                "there is a label of this name above",
+                "name it otherwise",
+            );
         }
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');
@@ -283,8 +292,14 @@ impl Reader<'_> {
             b"CYCL" | b"CYCLE" => self.cycle(block, &words, &span),
             b"TRANS" => self.trans(&words, &span),
             b"PLANE" => {
-                let flat = words[1..].iter().all(|word| word.value().unwrap_or(0.0) == 0.0);
-                if !flat || words.iter().any(|word| matches!(word.value, Value::Parameter { .. })) {
+                let flat = words[1..]
+                    .iter()
+                    .all(|word| word.value().unwrap_or(0.0) == 0.0);
+                if !flat
+                    || words
+                        .iter()
+                        .any(|word| matches!(word.value, Value::Parameter { .. }))
+                {
                     self.fault(
                         &span,
                         "it tilts the plane in which the places are",
@@ -293,10 +308,23 @@ impl Reader<'_> {
                 }
             }
             b"FUNCTION" => {
-                let known = ["TCPM", "RESET", "MODE", "S", "FEED", "PARAXCOMP", "DWELL", "COUNT"];
+                let known = [
+                    "TCPM",
+                    "RESET",
+                    "MODE",
+                    "S",
+                    "FEED",
+                    "PARAXCOMP",
+                    "DWELL",
+                    "COUNT",
+                ];
                 let named = words.get(1);
                 if !named.is_some_and(|word| known.iter().any(|name| word.is(name))) {
-                    self.fault(&span, "what this function moves is not known", "take it out");
+                    self.fault(
+                        &span,
+                        "what this function moves is not known",
+                        "take it out",
+                    );
                 }
             }
             b"CALL" => match words.get(1) {
@@ -313,10 +341,18 @@ impl Reader<'_> {
                     "give the programs together and write them flat (--expand)",
                 ),
             },
-            b"FN" if first.whole().is_some_and(|number| (9..=12).contains(&number)) => {
+            b"FN"
+                if first
+                    .whole()
+                    .is_some_and(|number| (9..=12).contains(&number)) =>
+            {
                 self.fault(&span, "it jumps where a Q parameter says", EXPAND);
             }
-            b"FN" if first.whole().is_some_and(|number| matches!(number, 17 | 25)) => {
+            b"FN"
+                if first
+                    .whole()
+                    .is_some_and(|number| matches!(number, 17 | 25)) =>
+            {
                 self.fault(
                     &span,
                     "it writes data of the control, which may move the coordinates",
@@ -324,7 +360,11 @@ impl Reader<'_> {
                 );
             }
             b"X" | b"Y" | b"Z" | b"IX" | b"IY" | b"IZ" => {
-                self.fault(&span, "the block has coordinates and no L", "write L before them");
+                self.fault(
+                    &span,
+                    "the block has coordinates and no L",
+                    "write L before them",
+                );
             }
             letters => match row(letters).map(|row| row.treatment) {
                 Some(Treatment::Refused { reason, remedy }) => self.fault(&span, reason, remedy),
@@ -340,13 +380,16 @@ impl Reader<'_> {
     }
 
     fn begin(&mut self, words: &[Word], span: &Range<usize>) {
-        let unit = words.iter().skip(1).rev().find_map(|word| {
-            match (word.is("MM"), word.is("INCH")) {
-                (true, _) => Some(1.0),
-                (_, true) => Some(25.4),
-                _ => None,
-            }
-        });
+        let unit =
+            words
+                .iter()
+                .skip(1)
+                .rev()
+                .find_map(|word| match (word.is("MM"), word.is("INCH")) {
+                    (true, _) => Some(1.0),
+                    (_, true) => Some(25.4),
+                    _ => None,
+                });
         // The name may be glued to the unit's word or missing: MM is the control's own.
         self.unit_mm = unit.unwrap_or(1.0);
         if self.unit_mm != 1.0 {
@@ -364,7 +407,10 @@ impl Reader<'_> {
             // TOOL DEF.
             return;
         };
-        if words[1..].iter().any(|word| matches!(word.value, Value::Parameter { .. })) {
+        if words[1..]
+            .iter()
+            .any(|word| matches!(word.value, Value::Parameter { .. }))
+        {
             return self.fault(span, BY_PARAMETER, EXPAND);
         }
         let side = |word: &&Word| (word.is("X") || word.is("Y")) && word.value == Value::None;
@@ -487,8 +533,8 @@ impl Reader<'_> {
                     }
                 }
                 Change::Bend(bend) => {
-                    let other = std::mem::discriminant(&bend)
-                        != std::mem::discriminant(&state.datum.bend);
+                    let other =
+                        std::mem::discriminant(&bend) != std::mem::discriminant(&state.datum.bend);
                     if other && bend != Bend::None && state.datum.bend != Bend::None {
                         return self.fault(
                             span,
@@ -551,8 +597,14 @@ impl Reader<'_> {
                     self.state.shift(axis, from + to);
                 }
             }
-            Change::Refused(reason) => self.fault(span, reason, "use TRANS DATUM AXIS with numbers"),
-            _ => self.fault(span, "the datum moves while the coordinates are turned", "shift it before"),
+            Change::Refused(reason) => {
+                self.fault(span, reason, "use TRANS DATUM AXIS with numbers")
+            }
+            _ => self.fault(
+                span,
+                "the datum moves while the coordinates are turned",
+                "shift it before",
+            ),
         }
     }
 
@@ -671,7 +723,13 @@ impl Reader<'_> {
     ) {
         let rapid = parsed.feed == FeedWord::Max;
         if acts.retracts {
-            self.unknown(block, words, span, "the tool goes back along its axis", Carried::Yes);
+            self.unknown(
+                block,
+                words,
+                span,
+                "the tool goes back along its axis",
+                Carried::Yes,
+            );
             self.state.place[2] = None;
             self.state.direction = None;
             return;
@@ -684,7 +742,13 @@ impl Reader<'_> {
             return;
         }
         if acts.machine {
-            self.unknown(block, words, span, "its places are those of the machine", Carried::Yes);
+            self.unknown(
+                block,
+                words,
+                span,
+                "its places are those of the machine",
+                Carried::Yes,
+            );
             for axis in 0..3 {
                 if parsed.axes[axis].is_some() {
                     self.state.place[axis] = None;
@@ -725,7 +789,10 @@ impl Reader<'_> {
         let kind = words[0].letters;
         let is_polar = matches!(kind.letters(), b"LP" | b"CP" | b"CTP");
         if !is_polar && (parsed.radius.is_some() || parsed.angle.is_some()) {
-            return Err(("polar words stand in a block without P".to_owned(), "write LP or CP"));
+            return Err((
+                "polar words stand in a block without P".to_owned(),
+                "write LP or CP",
+            ));
         }
         let whole = parsed.radius.is_some_and(|c| !c.step) && parsed.angle.is_some_and(|c| !c.step);
         let mut turned = None;
@@ -738,7 +805,10 @@ impl Reader<'_> {
         let (shape, arc) = match kind.letters() {
             b"L" | b"LN" => (Shape::Straight, None),
             b"LP" => (Shape::Polar { whole }, None),
-            b"C" | b"CP" | b"CR" => (Shape::Arc, self.circle(kind.is("CR"), parsed, &end, turned)?),
+            b"C" | b"CP" | b"CR" => (
+                Shape::Arc,
+                self.circle(kind.is("CR"), parsed, &end, turned)?,
+            ),
             b"CT" | b"CTP" => {
                 let from = self.state.in_plane();
                 let to = end[0].zip(end[1]).map(|(x, y)| Vector2::new(x, y));
@@ -755,13 +825,22 @@ impl Reader<'_> {
                     .map_err(|reason| (reason, "let the CAM system write the arc with CC and C"))?;
                 (Shape::Tangential, arc)
             }
-            _ => return Err(("coordinates stand in a block without L".to_owned(), "write L before them")),
+            _ => {
+                return Err((
+                    "coordinates stand in a block without L".to_owned(),
+                    "write L before them",
+                ));
+            }
         };
         Ok(Went { end, shape, arc })
     }
 
     /// X and Y of a polar end, and its angle or the angle turned, degrees.
-    fn polar_end(&mut self, is_circle: bool, parsed: &PathWords) -> Result<(f64, f64, f64), Reason> {
+    fn polar_end(
+        &mut self,
+        is_circle: bool,
+        parsed: &PathWords,
+    ) -> Result<(f64, f64, f64), Reason> {
         let pole = self.state.pole.map(|pole| pole.at);
         let pole = pole.ok_or((
             "the pole is not known".to_owned(),
@@ -772,19 +851,31 @@ impl Reader<'_> {
         let now = || arm.map(|arm| arm.y.atan2(arm.x).to_degrees());
         let unit = self.unit_mm;
         let radius = match (parsed.radius, is_circle) {
-            (Some(Coordinate { value, step: false, .. }), false) => value * unit,
-            (Some(Coordinate { value, step: true, .. }), false) => {
-                arm.ok_or_else(unknown)?.norm() + value * unit
-            }
+            (
+                Some(Coordinate {
+                    value, step: false, ..
+                }),
+                false,
+            ) => value * unit,
+            (
+                Some(Coordinate {
+                    value, step: true, ..
+                }),
+                false,
+            ) => arm.ok_or_else(unknown)?.norm() + value * unit,
             (Some(_), true) => {
-                return Err(("CP states a radius".to_owned(), "take PR out: the tool is on the circle"));
+                return Err((
+                    "CP states a radius".to_owned(),
+                    "take PR out: the tool is on the circle",
+                ));
             }
             (None, _) => {
                 let here = arm.ok_or_else(unknown)?.norm();
                 let last = self.state.radius_mm.unwrap_or(here);
                 if (here - last).abs() > 0.02 && !is_circle {
                     return Err((
-                        "the polar radius is not stated, and the tool is not at the last one".to_owned(),
+                        "the polar radius is not stated, and the tool is not at the last one"
+                            .to_owned(),
                         "state PR",
                     ));
                 }
@@ -795,10 +886,12 @@ impl Reader<'_> {
             }
         };
         let (angle, turned) = match parsed.angle {
-            Some(Coordinate { value, step: false, .. }) => (value, value),
-            Some(Coordinate { value, step: true, .. }) => {
-                (now().ok_or_else(unknown)? + value, value)
-            }
+            Some(Coordinate {
+                value, step: false, ..
+            }) => (value, value),
+            Some(Coordinate {
+                value, step: true, ..
+            }) => (now().ok_or_else(unknown)? + value, value),
             None if is_circle => {
                 return Err(("the arc has no angle".to_owned(), "state PA or IPA"));
             }
@@ -832,10 +925,9 @@ impl Reader<'_> {
             return Err(("where its arc begins is not known".to_owned(), STATE_PLACE));
         };
         if by_size {
-            let size = parsed.circle.ok_or((
-                "the circle has no radius".to_owned(),
-                "state R",
-            ))?;
+            let size = parsed
+                .circle
+                .ok_or(("the circle has no radius".to_owned(), "state R"))?;
             let arc = by_radius(&from, &to, size * self.unit_mm, sense);
             return arc.map(Some).map_err(|reason| (reason, AGAIN));
         }
@@ -857,7 +949,14 @@ impl Reader<'_> {
     }
 
     /// The motion of a block whose end is known as far as its words say it.
-    fn goes(&mut self, block: &Block, words: &[Word], span: &Range<usize>, went: &Went, rapid: bool) {
+    fn goes(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        went: &Went,
+        rapid: bool,
+    ) {
         let start = self.state.place;
         let [x, y, z] = went.end;
         let whole = x.zip(y).zip(z).map(|((x, y), z)| Vector3::new(x, y, z));
@@ -911,12 +1010,25 @@ impl Reader<'_> {
             configuration: Configuration::default(),
             external: Vec::new(),
         });
-        self.push(block, words, span, kind, (target, TargetSite::Literal(text)), (went.shape, went.end, rapid));
+        self.push(
+            block,
+            words,
+            span,
+            kind,
+            (target, TargetSite::Literal(text)),
+            (went.shape, went.end, rapid),
+        );
         self.state.place = went.end;
     }
 
     /// A cycle is called at the end of a block.
-    fn called(&mut self, block: &Block, words: &[Word], span: &Range<usize>, end: [Option<f64>; 3]) {
+    fn called(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        end: [Option<f64>; 3],
+    ) {
         let reason = "a cycle is called: from here the control drills or mills by itself";
         if self.options.unknown_targets == UnknownTargets::Refused {
             self.fault(
@@ -953,7 +1065,14 @@ impl Reader<'_> {
         };
         let site = TargetSite::Fixed("its end is not known");
         let parts = (Shape::Unknown, [None; 3], true);
-        self.push(block, words, span, MotionKind::Linear, (target, site), parts);
+        self.push(
+            block,
+            words,
+            span,
+            MotionKind::Linear,
+            (target, site),
+            parts,
+        );
     }
 
     fn push(
@@ -1062,7 +1181,9 @@ fn flow_of(bytes: &[u8], block: &Block) -> Step {
     if first.is("CALL") {
         let label = words.get(1).filter(|word| word.is("LBL"));
         let once = words.len() == 2;
-        let name = label.filter(|_| once).and_then(|word| label_name(bytes, word));
+        let name = label
+            .filter(|_| once)
+            .and_then(|word| label_name(bytes, word));
         return name.map_or(Step::Next, Step::Call);
     }
     let ends = |word: &Word| word.is("M") && matches!(word.whole(), Some(2 | 30));

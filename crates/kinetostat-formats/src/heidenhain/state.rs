@@ -96,7 +96,10 @@ impl State {
         }
         let in_plane = matches!(
             (bend, self.datum.bend),
-            (Bend::None | Bend::Rotation(_), Bend::None | Bend::Rotation(_))
+            (
+                Bend::None | Bend::Rotation(_),
+                Bend::None | Bend::Rotation(_)
+            )
         );
         self.datum.bend = bend;
         self.place[0] = None;

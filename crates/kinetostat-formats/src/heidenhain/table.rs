@@ -5,7 +5,8 @@ use crate::table::{StatementRow, Treatment};
 
 const PATHS: &str = "HEIDENHAIN, conversational programming: path functions";
 const PROGRAMS: &str = "HEIDENHAIN, conversational programming: fundamentals";
-const LABELS: &str = "HEIDENHAIN, conversational programming: subprograms and program-section repeats";
+const LABELS: &str =
+    "HEIDENHAIN, conversational programming: subprograms and program-section repeats";
 const PARAMETERS: &str = "HEIDENHAIN, conversational programming: Q parameters";
 const CYCLES: &str = "HEIDENHAIN, cycle programming";
 const AXES: &str = "HEIDENHAIN, conversational programming: multiple-axis machining";
@@ -124,9 +125,36 @@ pub(crate) enum Function {
 /// What a miscellaneous function is.
 pub(crate) fn function(number: u32) -> Function {
     match number {
-        3 | 4 | 7 | 8 | 13 | 14 | 90 | 94 | 97 | 103 | 107 | 108 | 109 | 110 | 111 | 112 | 116
-        | 120 | 124 | 126 | 128 | 134 | 138 | 141 | 148 | 150 | 197..=204 => Function::AtStart,
-        0 | 1 | 2 | 5 | 6 | 9 | 30 | 98 | 113 | 115 | 117 | 127 | 129 | 135 | 145 | 149 => Function::AtEnd,
+        3
+        | 4
+        | 7
+        | 8
+        | 13
+        | 14
+        | 90
+        | 94
+        | 97
+        | 103
+        | 107
+        | 108
+        | 109
+        | 110
+        | 111
+        | 112
+        | 116
+        | 120
+        | 124
+        | 126
+        | 128
+        | 134
+        | 138
+        | 141
+        | 148
+        | 150
+        | 197..=204 => Function::AtStart,
+        0 | 1 | 2 | 5 | 6 | 9 | 30 | 98 | 113 | 115 | 117 | 127 | 129 | 135 | 145 | 149 => {
+            Function::AtEnd
+        }
         91 | 92 => Function::Machine,
         140 => Function::Retracts,
         89 | 99 => Function::Calls,

@@ -63,7 +63,11 @@ const LONGEST: usize = 32;
 pub(crate) fn words_of(bytes: &[u8], text: &Range<usize>) -> Vec<Word> {
     let mut words = Vec::new();
     let mut at = text.start;
-    if bytes.get(at).is_some_and(|byte| *byte == b'*') {
+    // Comments and headings, over all their lines.
+    if bytes
+        .get(at)
+        .is_some_and(|byte| matches!(byte, b'*' | b';'))
+    {
         return words;
     }
     while at < text.end {
@@ -94,8 +98,7 @@ fn word(bytes: &[u8], start: usize, end: usize) -> Word {
     if is_digit(behind) {
         for name in [&b"QL"[..], b"QR", b"QS", b"Q"] {
             let part = &bytes[start..behind];
-            if part.len() > name.len()
-                && part[part.len() - name.len()..].eq_ignore_ascii_case(name)
+            if part.len() > name.len() && part[part.len() - name.len()..].eq_ignore_ascii_case(name)
             {
                 behind -= name.len();
                 break;

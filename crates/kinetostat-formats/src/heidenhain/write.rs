@@ -67,7 +67,9 @@ pub(crate) fn write_heidenhain(
     };
     for (index, motion) in program.motions.iter().enumerate() {
         let own = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
-        let way = ways.get(index).filter(|way| way.block.text.start <= motion.span.start);
+        let way = ways
+            .get(index)
+            .filter(|way| way.block.text.start <= motion.span.start);
         let way = way.ok_or_else(|| WriteError::Overlap {
             file: program.files[motion.file].name().to_owned(),
         })?;
@@ -98,7 +100,9 @@ pub(crate) fn write_heidenhain(
 /// Whether a file writes signs before positive coordinates: the first coordinate says it.
 fn has_signs(file: &SourceFile) -> bool {
     let bytes = file.bytes();
-    let letters = bytes.windows(2).filter(|pair| matches!(pair[0], b'X' | b'Y' | b'Z'));
+    let letters = bytes
+        .windows(2)
+        .filter(|pair| matches!(pair[0], b'X' | b'Y' | b'Z'));
     let mut found = letters.filter_map(|pair| match pair[1] {
         b'+' => Some(true),
         b'0'..=b'9' => Some(false),
@@ -144,7 +148,8 @@ impl Writer<'_> {
             self.feed = None;
             self.polar_broken = false;
         }
-        self.changed.push(!pieces.is_empty() || self.off != Vector3::zeros());
+        self.changed
+            .push(!pieces.is_empty() || self.off != Vector3::zeros());
         let result = match pieces.split_last() {
             None => self.kept(motion, way),
             Some((last, before)) => self.pieces(motion, way, last, before),
@@ -168,7 +173,9 @@ impl Writer<'_> {
             }
             return Ok(());
         }
-        let pole_off = way.pole_from.is_some_and(|from| self.off_at.get(from) == Some(&true));
+        let pole_off = way
+            .pole_from
+            .is_some_and(|from| self.off_at.get(from) == Some(&true));
         let whole = match way.shape {
             Shape::Straight => true,
             Shape::Polar { whole } => (whole || !self.polar_broken) && !pole_off,
@@ -184,7 +191,10 @@ impl Writer<'_> {
         }
         let needs_feed = self.feed.is_some() && stated.feed == FeedWord::None && way.feed.is_some();
         if off == Vector3::zeros() && whole && !needs_feed {
-            if matches!(stated.feed, FeedWord::Number(..) | FeedWord::Auto | FeedWord::Other) {
+            if matches!(
+                stated.feed,
+                FeedWord::Number(..) | FeedWord::Auto | FeedWord::Other
+            ) {
                 self.feed = None;
             }
             return Ok(());
@@ -222,7 +232,10 @@ impl Writer<'_> {
             "leave its pieces out",
         ))?;
         for piece in before.iter().copied().chain([last]) {
-            let near = piece.position_mm.iter().all(|value| value.abs() < FARTHEST_MM);
+            let near = piece
+                .position_mm
+                .iter()
+                .all(|value| value.abs() < FARTHEST_MM);
             if !(near && piece.speed_factor.is_finite() && piece.speed_factor > 0.0) {
                 return Err((
                     "a piece has no finite place or speed, or one farther than 1 km".to_owned(),
@@ -230,7 +243,9 @@ impl Writer<'_> {
                 ));
             }
             let z = Vector3::z();
-            let turned = piece.orientation.map(|to| (to * z).angle(&(end.orientation * z)));
+            let turned = piece
+                .orientation
+                .map(|to| (to * z).angle(&(end.orientation * z)));
             if turned.is_some_and(|angle| angle.is_nan() || angle > 1e-9) {
                 return Err((
                     "the tool's axis is not corrected in these programs".to_owned(),
@@ -254,7 +269,9 @@ impl Writer<'_> {
             && let Some((_, number)) = kinds.iter().find(|(kind, _)| *kind == When::Unknown)
         {
             return Err((
-                format!("M{number} stands beside a motion that is divided, and when it acts is not known"),
+                format!(
+                    "M{number} stands beside a motion that is divided, and when it acts is not known"
+                ),
                 "write it in a block of its own",
             ));
         }
@@ -269,7 +286,10 @@ impl Writer<'_> {
             let edits = self.block(motion, way, &words, (piece, part), &mut place);
             let text = edits.applied_to_part(file.bytes(), &motion.span);
             let text = text.ok_or_else(|| {
-                ("its words overlap".to_owned(), "write the block as the control shows it")
+                (
+                    "its words overlap".to_owned(),
+                    "write the block as the control shows it",
+                )
             })?;
             // What stands before the block, number and blanks, stands before its pieces.
             inserted.extend_from_slice(file.part(&(way.block.lines.start..motion.span.start)));
@@ -281,7 +301,8 @@ impl Writer<'_> {
             false => Part::Last,
         };
         let edits = self.block(motion, way, &words, (last, part), &mut place);
-        let [x, y, z] = [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
+        let [x, y, z] =
+            [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
         let off = way.datum.preset(&Vector3::new(x, y, z)) - way.datum.shift_mm;
         self.off = match off.amax() <= SAME_MM {
             true => Vector3::zeros(),
@@ -324,6 +345,17 @@ impl Writer<'_> {
         for axis in 0..3 {
             let word = stated.word[axis].map(|at| &words[at]);
             let value = wanted[axis] / way.unit_mm;
+            // A step from where the block began ends where it did.
+            let begins = started[axis].zip(way.start[axis]);
+            let ends_alike = way.end[axis].is_some_and(|end| (end - wanted[axis]).abs() <= half);
+            let is_step = straight && word.is_some() && !stated.absolute[axis];
+            if let (true, true, Part::Only, Some((now, then))) = (is_step, ends_alike, part, begins)
+                && (now - then).abs() <= SAME_MM
+            {
+                ends[axis] = way.end[axis].unwrap_or(wanted[axis]);
+                behind = word.map_or(behind, |word| word.span.end);
+                continue;
+            }
             match (word, straight && stated.absolute[axis]) {
                 (Some(word), true) => {
                     if let Some(number) = word.number() {
@@ -495,7 +527,10 @@ fn when(number: u32) -> When {
 }
 
 fn functions_of(words: &[Word]) -> Vec<(When, u32)> {
-    let numbers = words.iter().filter(|word| word.is("M")).filter_map(Word::whole);
+    let numbers = words
+        .iter()
+        .filter(|word| word.is("M"))
+        .filter_map(Word::whole);
     numbers.map(|number| (when(number), number)).collect()
 }
 

@@ -120,10 +120,7 @@ pub(crate) fn with_header(
     }
     let bytes = [&bytes[..at], &header, &bytes[at..]].concat();
     match numbered {
-        true => (
-            numbering::numbered_again(&bytes).unwrap_or(bytes),
-            count,
-        ),
+        true => (numbering::numbered_again(&bytes).unwrap_or(bytes), count),
         false => (bytes, count),
     }
 }

@@ -303,11 +303,7 @@ impl Maker<'_> {
         };
         // APT says it beside the motion, Heidenhain in it.
         let said = match self.program.language {
-            Language::Apt => motion
-                .speed
-                .text
-                .to_ascii_uppercase()
-                .starts_with("RAPID"),
+            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
             Language::Heidenhain => motion.speed.text == "FMAX",
             _ => false,
         };

@@ -63,8 +63,18 @@ impl Hole {
     /// Why there are none.
     pub(crate) fn strokes(&self) -> Result<Vec<Stroke>, String> {
         let numbers = [
-            self.clearance, self.depth, self.feed, self.peck, self.surface, self.second, self.less,
-            self.least, self.breaks, self.back, self.dwell_above, self.dwell_below,
+            self.clearance,
+            self.depth,
+            self.feed,
+            self.peck,
+            self.surface,
+            self.second,
+            self.less,
+            self.least,
+            self.breaks,
+            self.back,
+            self.dwell_above,
+            self.dwell_below,
         ];
         if numbers.iter().any(|number| !number.is_finite()) {
             return Err("a number of the cycle is not finite".to_owned());

@@ -63,7 +63,9 @@ impl Reader<'_> {
     /// A word of letters, looked at.
     fn word(&mut self) -> String {
         self.blanks();
-        let letters = self.text[self.at..].iter().take_while(|byte| byte.is_ascii_alphabetic());
+        let letters = self.text[self.at..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_alphabetic());
         let letters: Vec<u8> = letters.map(u8::to_ascii_uppercase).collect();
         String::from_utf8(letters).unwrap_or_default()
     }
@@ -142,9 +144,10 @@ impl Reader<'_> {
         if let Some(name) = parameter_at(self.text, self.at, self.text.len()) {
             self.at = name.end;
             let name = String::from_utf8_lossy(&self.text[name]).to_ascii_uppercase();
-            return self.parameters.value(&name).ok_or_else(|| {
-                format!("{name} has no value that the program states")
-            });
+            return self
+                .parameters
+                .value(&name)
+                .ok_or_else(|| format!("{name} has no value that the program states"));
         }
         let number = self.text[self.at..]
             .iter()

@@ -50,6 +50,18 @@ pub fn expand_heidenhain(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<FlatText, Vec<ProgramError>> {
+    expand_within(files, options, MOST_BLOCKS)
+}
+
+/// The same with at most so many blocks.
+///
+/// # Errors
+/// As there.
+pub fn expand_within(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+    most_blocks: usize,
+) -> Result<FlatText, Vec<ProgramError>> {
     let programs: Vec<Program<'_>> = files.iter().map(Program::of).collect();
     let Some(main) = programs.first() else {
         let none = SourceFile::new("", "");
@@ -77,6 +89,7 @@ pub fn expand_heidenhain(
         feed_lost: false,
         steps: 0,
         silent: 0,
+        most_blocks,
     };
     let outcome = run.whole();
     let Run {
@@ -122,7 +135,10 @@ impl<'f> Program<'f> {
         let begins = |block: &Block| {
             let letter = file.bytes().get(block.text.start);
             letter.is_some_and(|letter| letter.eq_ignore_ascii_case(&b'B'))
-                && block.words(file.bytes()).first().is_some_and(|word| word.is("BEGIN"))
+                && block
+                    .words(file.bytes())
+                    .first()
+                    .is_some_and(|word| word.is("BEGIN"))
         };
         let begin = blocks.iter().position(begins);
         Self {
@@ -134,7 +150,9 @@ impl<'f> Program<'f> {
     }
 
     fn unit_mm(&self) -> f64 {
-        let words = self.begin.map(|at| self.blocks[at].words(self.file.bytes()));
+        let words = self
+            .begin
+            .map(|at| self.blocks[at].words(self.file.bytes()));
         match words.is_some_and(|words| words.iter().any(|word| word.is("INCH"))) {
             true => 25.4,
             false => 1.0,
@@ -255,6 +273,7 @@ struct Run<'p> {
     feed_lost: bool,
     steps: usize,
     silent: usize,
+    most_blocks: usize,
 }
 
 /// Where the run goes on.
@@ -269,7 +288,10 @@ type Fault = ProgramError;
 impl<'p> Run<'p> {
     fn fault(&self, at: (usize, usize), reason: impl Into<String>, remedy: &str) -> Fault {
         let program = &self.programs[at.0];
-        let text = program.blocks.get(at.1).map_or(0..0, |block| block.text.clone());
+        let text = program
+            .blocks
+            .get(at.1)
+            .map_or(0..0, |block| block.text.clone());
         ProgramError::at(program.file, text, reason, remedy)
     }
 
@@ -290,7 +312,8 @@ impl<'p> Run<'p> {
         loop {
             self.steps += 1;
             self.silent += 1;
-            if self.steps > MOST_STEPS || self.silent > MOST_SILENT {
+            let fewer = self.most_blocks.saturating_mul(4);
+            if self.steps > MOST_STEPS.min(fewer) || self.silent > MOST_SILENT {
                 return Err(self.fault(
                     at,
                     "the program runs more than a million blocks that write nothing, or 20 million in all",
@@ -316,7 +339,10 @@ impl<'p> Run<'p> {
         // The last block of the program.
         let main = &programs[0];
         let is_end = |block: &&Block| {
-            block.words(main.file.bytes()).first().is_some_and(|word| word.is("END"))
+            block
+                .words(main.file.bytes())
+                .first()
+                .is_some_and(|word| word.is("END"))
         };
         if let Some(end) = main.blocks.iter().rposition(|block| is_end(&block)) {
             self.write(main.file.part(&main.blocks[end].text), (0, end))?;
@@ -326,11 +352,12 @@ impl<'p> Run<'p> {
 
     /// Bytes as they are, with their line ends.
     fn raw(&mut self, bytes: &[u8], at: (usize, usize)) -> Result<(), Fault> {
-        let line = self.programs[at.0].file.line_of(self.programs[at.0].blocks[at.1].lines.start);
+        let program = &self.programs[at.0];
+        let line = program.file.line_of(program.blocks[at.1].lines.start);
         let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
         let lines = lines + usize::from(!bytes.ends_with(b"\n"));
-        if self.origins.len() + lines > MOST_BLOCKS || self.output.len() + bytes.len() > MOST_BYTES
-        {
+        let full = self.origins.len() + lines > self.most_blocks;
+        if full || self.output.len() + bytes.len() > MOST_BYTES {
             return Err(self.fault(
                 at,
                 "the flat program has more than 5 million blocks, or 256 MiB",
@@ -338,7 +365,8 @@ impl<'p> Run<'p> {
             ));
         }
         self.output.extend_from_slice(bytes);
-        self.origins.extend((0..lines).map(|further| (at.0, line + further)));
+        self.origins
+            .extend((0..lines).map(|further| (at.0, line + further)));
         Ok(())
     }
 
@@ -352,14 +380,7 @@ impl<'p> Run<'p> {
         }
         bytes.extend_from_slice(text);
         bytes.extend_from_slice(self.ending);
-        let line = self.programs[at.0].file.line_of(self.programs[at.0].blocks[at.1].lines.start);
-        let before = self.origins.len();
-        self.raw(&bytes, at)?;
-        // Blocks that a cycle writes have one line, whatever the block that calls it has.
-        for (further, origin) in self.origins[before..].iter_mut().enumerate() {
-            *origin = (at.0, line + further);
-        }
-        Ok(())
+        self.raw(&bytes, at)
     }
 
     fn block(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
@@ -394,9 +415,10 @@ impl<'p> Run<'p> {
             b"END" => return self.program_ends(at),
             b"LBL" => {
                 let is_end = first.value() == Some(0.0);
-                let sub = self.frames.iter().rposition(|frame| {
-                    matches!(frame, Frame::Sub { .. } | Frame::Program { .. })
-                });
+                let sub = self
+                    .frames
+                    .iter()
+                    .rposition(|frame| matches!(frame, Frame::Sub { .. } | Frame::Program { .. }));
                 if let (true, Some(sub)) = (is_end, sub)
                     && let Frame::Sub { caller } = self.frames[sub]
                 {
@@ -416,7 +438,10 @@ impl<'p> Run<'p> {
 
     /// END PGM: the program that called goes on.
     fn program_ends(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
-        let open = self.frames.iter().rposition(|frame| matches!(frame, Frame::Program { .. }));
+        let open = self
+            .frames
+            .iter()
+            .rposition(|frame| matches!(frame, Frame::Program { .. }));
         let in_sub = |frames: &[Frame]| frames.iter().any(|f| matches!(f, Frame::Sub { .. }));
         let from = open.map_or(0, |open| open + 1);
         if in_sub(&self.frames[from..]) {
@@ -452,7 +477,11 @@ impl<'p> Run<'p> {
         let to = name.as_ref().and_then(|name| program.labels.get(name));
         to.copied().ok_or_else(|| {
             let name = name.map_or_else(|| "of this name".to_owned(), |name| format!("LBL {name}"));
-            self.fault(at, format!("there is no {name}"), "write the label, or take this out")
+            self.fault(
+                at,
+                format!("there is no {name}"),
+                "write the label, or take this out",
+            )
         })
     }
 
@@ -511,7 +540,11 @@ impl<'p> Run<'p> {
             ));
         };
         let Some(begin) = self.programs[found].begin else {
-            return Err(self.fault(at, format!("`{name}` has no block BEGIN PGM"), "give a program"));
+            return Err(self.fault(
+                at,
+                format!("`{name}` has no block BEGIN PGM"),
+                "give a program",
+            ));
         };
         self.enter(
             at,
@@ -544,13 +577,17 @@ impl<'p> Run<'p> {
                 name.whole().unwrap_or(0)
             );
             // Comments between are no words.
-            let parts = words[index + 1..next].iter().map(|word| &bytes[word.span.clone()]);
+            let parts = words[index + 1..next]
+                .iter()
+                .map(|word| &bytes[word.span.clone()]);
             let text = parts.collect::<Vec<_>>().join(&b' ');
             let text = text.strip_prefix(b"=").unwrap_or(&text).trim_ascii();
             if key == "Q208" {
                 self.rapid_out = text.eq_ignore_ascii_case(b"MAX");
             }
-            if ["MAX", "FMAX", "AUTO", "FAUTO"].iter().any(|w| text.eq_ignore_ascii_case(w.as_bytes()))
+            if ["MAX", "FMAX", "AUTO", "FAUTO"]
+                .iter()
+                .any(|w| text.eq_ignore_ascii_case(w.as_bytes()))
             {
                 self.parameters.0.remove(&key);
                 continue;
@@ -588,7 +625,8 @@ impl<'p> Run<'p> {
                 let mut reads = false;
                 for pair in words[1..].windows(2) {
                     if begins_value(&pair[1], bytes) && pair[0].whole().is_some() {
-                        let letters = String::from_utf8_lossy(pair[0].letters.letters()).into_owned();
+                        let letters =
+                            String::from_utf8_lossy(pair[0].letters.letters()).into_owned();
                         let key = format!("{letters}{}", pair[0].whole().unwrap_or(0));
                         self.parameters.0.remove(&key);
                         reads = true;
@@ -601,8 +639,10 @@ impl<'p> Run<'p> {
                         }
                     }
                 }
-                if let Some(Value::Parameter { name, .. }) =
-                    words.iter().find(|word| word.is("SYSREAD")).map(|word| &word.value)
+                if let Some(Value::Parameter { name, .. }) = words
+                    .iter()
+                    .find(|word| word.is("SYSREAD"))
+                    .map(|word| &word.value)
                 {
                     let key = String::from_utf8_lossy(&bytes[name.clone()]).to_ascii_uppercase();
                     self.parameters.0.remove(&key);
@@ -618,7 +658,11 @@ impl<'p> Run<'p> {
         let bytes = self.programs[at.0].file.bytes();
         let place = |name: &str| words.iter().position(|word| word.is(name));
         let (Some(from), Some(goes)) = (place("IF"), place("GOTO")) else {
-            return Err(self.fault(at, "the jump is not whole", "write IF .. EQU .. GOTO LBL .."));
+            return Err(self.fault(
+                at,
+                "the jump is not whole",
+                "write IF .. EQU .. GOTO LBL ..",
+            ));
         };
         let compares = ["EQU", "NE", "GT", "LT"];
         let by = compares.iter().find_map(|name| Some((*name, place(name)?)));
@@ -669,7 +713,10 @@ impl<'p> Run<'p> {
                 ));
             }
             let text = self.text(at, words)?;
-            let rest = match text.windows(4).position(|part| part.eq_ignore_ascii_case(b"CALL")) {
+            let rest = match text
+                .windows(4)
+                .position(|part| part.eq_ignore_ascii_case(b"CALL"))
+            {
                 Some(call) => text[call + 4..].trim_ascii().to_vec(),
                 None => Vec::new(),
             };
@@ -798,7 +845,8 @@ impl<'p> Run<'p> {
             },
         };
         let strokes = hole.strokes();
-        let strokes = strokes.map_err(|reason| self.fault(at, reason, "mend the cycle's values"))?;
+        let strokes =
+            strokes.map_err(|reason| self.fault(at, reason, "mend the cycle's values"))?;
         for stroke in strokes {
             let (letters, value, feed) = match stroke {
                 Stroke::To(to, feed) => ("Z", to, feed),
@@ -868,7 +916,9 @@ impl<'p> Run<'p> {
                     "state it before: FN 0: Q1 = +5",
                 ));
             };
-            let plain = ["F", "S", "M", "CALL", "DEF"].iter().any(|letters| word.is(letters));
+            let plain = ["F", "S", "M", "CALL", "DEF"]
+                .iter()
+                .any(|letters| word.is(letters));
             let text = match plain {
                 true => trimmed(sign * value, 3),
                 false => self.length(sign * value),
@@ -876,7 +926,13 @@ impl<'p> Run<'p> {
             edits.replace(span, text);
         }
         let text = edits.applied_to_part(bytes, &block.text);
-        text.ok_or_else(|| self.fault(at, "its words overlap", "write the block as the control shows it"))
+        text.ok_or_else(|| {
+            self.fault(
+                at,
+                "its words overlap",
+                "write the block as the control shows it",
+            )
+        })
     }
 
     fn substituted(&mut self, at: (usize, usize), words: &[Word]) -> Result<Vec<u8>, Fault> {
@@ -910,6 +966,20 @@ impl<'p> Run<'p> {
 
     /// Any other block: its values, its calls of a cycle, the feed behind a hole.
     fn path(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
+        // Most blocks are written as they are.
+        let plain = |word: &Word| {
+            !matches!(word.value, Value::Parameter { .. })
+                && !matches!(
+                    word.letters.letters(),
+                    b"M" | b"F" | b"FAUTO" | b"FU" | b"FZ" | b"FT" | b"TOOL"
+                )
+        };
+        if !self.modal && !self.feed_lost && words.iter().all(plain) {
+            let program = &self.programs[at.0];
+            let text = program.file.part(&program.blocks[at.1].text);
+            self.write(text, at)?;
+            return Ok(Next::Block);
+        }
         let mut text = self.text(at, words)?;
         let flat = words_of(&text, &(0..text.len()));
         if flat.first().is_some_and(|word| word.is("TOOL")) {
@@ -928,7 +998,8 @@ impl<'p> Run<'p> {
             Some(letters) if matches!(letters.letters(), b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP")
         );
         let numbers = |number: u32| {
-            flat.iter().position(|word| word.is("M") && word.whole() == Some(number))
+            flat.iter()
+                .position(|word| word.is("M") && word.whole() == Some(number))
         };
         let ends = numbers(2).or(numbers(30)).is_some();
         let parsed = PathWords::of(&flat).ok().filter(|_| moves);
@@ -944,7 +1015,10 @@ impl<'p> Run<'p> {
         }
         let mut edits = Edits::default();
         if let Some(parsed) = &parsed {
-            let first = flat.iter().position(|word| word.is("M")).unwrap_or(flat.len());
+            let first = flat
+                .iter()
+                .position(|word| word.is("M"))
+                .unwrap_or(flat.len());
             match parsed.feed {
                 FeedWord::Number(word, _) => {
                     let span = flat[word].span.clone();
@@ -977,13 +1051,19 @@ impl<'p> Run<'p> {
                 bare = true;
             }
         }
-        text = edits
-            .applied_to(&text)
-            .ok_or_else(|| self.fault(at, "its words overlap", "write the block as the control shows it"))?;
+        text = edits.applied_to(&text).ok_or_else(|| {
+            self.fault(
+                at,
+                "its words overlap",
+                "write the block as the control shows it",
+            )
+        })?;
         // What is left of `L FMAX M99` does nothing.
         let rest = words_of(&text, &(0..text.len()));
         let idle = |word: &Word| {
-            ["L", "FMAX", "F", "R", "MAX"].iter().any(|letters| word.is(letters))
+            ["L", "FMAX", "F", "R", "MAX"]
+                .iter()
+                .any(|letters| word.is(letters))
         };
         let nothing = bare && !goes && rest.iter().all(idle);
         match nothing {
@@ -994,7 +1074,11 @@ impl<'p> Run<'p> {
             self.drill(at)?;
         }
         match ends {
-            true if self.frames.iter().any(|frame| matches!(frame, Frame::Program { .. })) => {
+            true if self
+                .frames
+                .iter()
+                .any(|frame| matches!(frame, Frame::Program { .. })) =>
+            {
                 Err(self.fault(
                     at,
                     "a program that is called ends the whole program",

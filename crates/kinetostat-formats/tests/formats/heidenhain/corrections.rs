@@ -44,7 +44,7 @@ fn steps_and_signs_are_written_as_places_with_the_file_s_style() {
         Piece::to(3, Vector3::new(12.4756, 3.0, 0.0)),
     ];
     let output = written(&program, &pieces);
-    let expected = text("L X+10.020 Z+0.000 F200\nL X+10.000 Y3\nL X 12,476\n");
+    let expected = text("L X+10.020 IZ-5 F200\nL X+10.000 Y3\nL X 12,476\n");
     assert_eq!(output, expected);
     assert_eq!(place(&super::program(&output), 2), [10.0, 3.0, 0.0]);
 }
@@ -58,11 +58,17 @@ fn pieces_are_blocks_before_with_functions_where_they_act() {
         Piece::to(1, Vector3::new(40.0, 0.0, 5.0)),
     ];
     let output = written(&program, &pieces);
-    let expected = "L X+20.000 Y+0.050 R0 F200 M8\nL X+40 Y+0.000 R0 F200 M9 ; to the edge\nL Y+10\n";
+    let expected =
+        "L X+20.000 Y+0.050 R0 F200 M8\nL X+40 Y+0.000 R0 F200 M9 ; to the edge\nL Y+10\n";
     assert_eq!(output, text(expected));
     let odd = super::program(&text("L X+40 R0 F200 M77\n"));
     let error = write(&odd, &pieces, &WriteOptions::default()).unwrap_err();
-    assert!(error.to_string().contains("line 4: M77 stands beside a motion that is divided"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("line 4: M77 stands beside a motion that is divided"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -71,7 +77,10 @@ fn numbered_blocks_are_numbered_again_where_some_are_added() {
     let program = program(body);
     // One digit: nothing is numbered again.
     let output = written(&program, &[lifted(&program, 0, 0.5)]);
-    assert!(output.contains("\n7  L X+0 Y+0 Z+5.500 FMAX\n8  L X+40 Z+5.000 F200\n"), "{output}");
+    assert!(
+        output.contains("\n7  L X+0 Y+0 Z+5.500 FMAX\n8  L X+40 Z+5.000 F200\n"),
+        "{output}"
+    );
     assert!(output.contains("\n12 END PGM"));
     let side = 10.0 * 0.5_f64.sqrt();
     let pieces = [
@@ -100,7 +109,10 @@ fn polar_blocks_and_circles_become_straight_where_they_change() {
     assert_eq!(output, expected);
     // A step in the angle behind a place that changes ends where it did.
     let output = written(&program, &[moved(1), moved(3)]);
-    assert!(output.contains("\nL X+50.000 Y+80.000\nL X+20.010"), "{output}");
+    assert!(
+        output.contains("\nL X+50.000 Y+80.000\nL X+20.010"),
+        "{output}"
+    );
 }
 
 #[test]
@@ -108,7 +120,9 @@ fn arcs_are_not_bent_by_their_start() {
     let program = program(&text("L X+10 F100\nCC X+0 Y+0\nC X+0 Y+10 DR+\n"));
     let start = Piece::to(1, Vector3::new(10.1, 0.0, 5.0));
     let refused = |pieces: &[Piece]| {
-        write(&program, pieces, &WriteOptions::default()).unwrap_err().to_string()
+        write(&program, pieces, &WriteOptions::default())
+            .unwrap_err()
+            .to_string()
     };
     assert!(refused(&[start]).contains("line 6: the arc begins at a place that changes"));
     let mut through = Piece::to(2, Vector3::new(0.0, 10.0, 5.0));
@@ -120,16 +134,29 @@ fn arcs_are_not_bent_by_their_start() {
         Piece::to(1, Vector3::new(10.0, 0.0, 5.0)),
     ];
     let error = write(&tangential, &pieces, &WriteOptions::default()).unwrap_err();
-    assert!(error.to_string().contains("line 5: the arc begins in the direction of the block before it"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("line 5: the arc begins in the direction of the block before it"),
+        "{error}"
+    );
     // A pole that was set from a place that changes.
-    let relative = super::program(&text("L X+10 F100\nCC IX-10 IY+0\nL X+10 Y+0\nC X+0 Y+10 DR+\n"));
-    let error = write(&relative, &[Piece::to(1, Vector3::new(10.0, 0.2, 5.0))], &WriteOptions::default());
+    let relative = super::program(&text(
+        "L X+10 F100\nCC IX-10 IY+0\nL X+10 Y+0\nC X+0 Y+10 DR+\n",
+    ));
+    let error = write(
+        &relative,
+        &[Piece::to(1, Vector3::new(10.0, 0.2, 5.0))],
+        &WriteOptions::default(),
+    );
     assert!(error.unwrap_err().to_string().contains("line 7"));
 }
 
 #[test]
 fn feeds_of_pieces_are_restored_behind_them() {
-    let program = program(&text("L X+40 R0 F200\nL Y+10\nL X+0 M9\nL Y+0 FMAX\nL X+5 F300\n"));
+    let program = program(&text(
+        "L X+40 R0 F200\nL Y+10\nL X+0 M9\nL Y+0 FMAX\nL X+5 F300\n",
+    ));
     let mut slow = Piece::to(2, Vector3::new(40.0, 10.0, 5.0));
     slow.speed_factor = 0.5;
     let output = written(&program, &[slow]);
@@ -140,12 +167,19 @@ fn feeds_of_pieces_are_restored_behind_them() {
 #[test]
 fn shifted_turned_and_inch_coordinates_are_written_as_programmed() {
     let program = program(EVERYTHING);
-    let index = program.motions.iter().position(|motion| motion.line == 34).unwrap();
+    let index = program
+        .motions
+        .iter()
+        .position(|motion| motion.line == 34)
+        .unwrap();
     let (sin, cos) = 30.0_f64.to_radians().sin_cos();
     // 0.5 mm further along the turned X.
     let to = Vector3::new(100.0 + 20.5 * cos, -10.0 + 20.5 * sin, 7.0);
     let output = written(&program, &[Piece::to(index, to)]);
-    assert_eq!(output, EVERYTHING.replace("33 L X+20 Y+0 F300", "33 L X+20.500 Y+0 F300"));
+    assert_eq!(
+        output,
+        EVERYTHING.replace("33 L X+20 Y+0 F300", "33 L X+20.500 Y+0 F300")
+    );
     let inch = super::program("BEGIN PGM A INCH\nL X+1 Y+2 Z+3 FMAX\nEND PGM A INCH\n");
     let output = written(&inch, &[Piece::to(0, Vector3::new(25.654, 50.8, 76.2))]);
     assert!(output.contains("L X+1.01000 Y+2 Z+3 FMAX"), "{output}");
@@ -155,7 +189,9 @@ fn shifted_turned_and_inch_coordinates_are_written_as_programmed() {
 fn what_cannot_be_written_is_said() {
     let program = program(EVERYTHING);
     let refused = |piece: Piece| {
-        write(&program, &[piece], &WriteOptions::default()).unwrap_err().to_string()
+        write(&program, &[piece], &WriteOptions::default())
+            .unwrap_err()
+            .to_string()
     };
     assert!(refused(Piece::to(0, Vector3::zeros())).contains("line 12: the motion has no place"));
     assert!(refused(Piece::to(999, Vector3::zeros())).contains("motion 999"));

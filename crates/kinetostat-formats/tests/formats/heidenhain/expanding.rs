@@ -26,7 +26,15 @@ fn subprograms_and_repeats_run_as_often_as_they_say() {
     let lines = blocks_of(&body.replace("CALL LBL \"TWO\" REP 2\n", ""));
     assert_eq!(
         lines,
-        ["L X+0 FMAX", "L IX+1 F100", "L IY+1", "L Y+9", "L IX+1 F100", "L IY+1", "L M30"]
+        [
+            "L X+0 FMAX",
+            "L IX+1 F100",
+            "L IY+1",
+            "L Y+9",
+            "L IX+1 F100",
+            "L IY+1",
+            "L M30"
+        ]
     );
     let nested = "LBL 1\nLBL 2\nL IX+1\nCALL LBL 2 REP 2/2\nL IY+1\nCALL LBL 1 REP 1/1\n";
     let lines = blocks_of(nested);
@@ -62,7 +70,10 @@ fn jumps_follow_their_comparison() {
 fn other_programs_run_where_they_are_called_and_lines_say_where_from() {
     let main = "0 BEGIN PGM MAIN MM\n1 Q1 = 5\n2 CALL PGM TNC:\\PARTS\\Sub.h ; here\n3 L Y+Q2\n4 END PGM MAIN MM\n";
     let sub = "BEGIN PGM SUB MM\nL X+Q1\nQ2 = Q1 * 2\nEND PGM SUB MM\n";
-    let files = vec![SourceFile::new("main.h", main), SourceFile::new("dir/SUB.H", sub)];
+    let files = vec![
+        SourceFile::new("main.h", main),
+        SourceFile::new("dir/SUB.H", sub),
+    ];
     let flat = expand_heidenhain(files, &ReadOptions::default()).unwrap();
     assert_eq!(
         String::from_utf8_lossy(flat.file.bytes()),
@@ -92,7 +103,12 @@ fn holes_of_cycle_200_go_to_their_depth_in_pecks() {
         "L Z-8 R0 FMAX",
         "L Z+20 R0 FMAX",
     ];
-    let mut expected = vec!["TOOL CALL 1 Z S100", "L Z+50 R0 FMAX M3", "L X+1 Y+2 F700", "M8"];
+    let mut expected = vec![
+        "TOOL CALL 1 Z S100",
+        "L Z+50 R0 FMAX M3",
+        "L X+1 Y+2 F700",
+        "M8",
+    ];
     expected.extend(hole);
     expected.push("L X+20 FMAX");
     expected.extend(hole);
@@ -107,7 +123,10 @@ fn holes_of_cycle_200_go_to_their_depth_in_pecks() {
         end.is_some_and(|end| (end.position_mm.z + 22.0).abs() < 1e-9)
     });
     let places: Vec<[f64; 3]> = deepest.map(|index| place(&program, index)).collect();
-    assert_eq!(places, [[1.0, 2.0, -22.0], [20.0, 2.0, -22.0], [20.0, 2.0, -22.0]]);
+    assert_eq!(
+        places,
+        [[1.0, 2.0, -22.0], [20.0, 2.0, -22.0], [20.0, 2.0, -22.0]]
+    );
 }
 
 #[test]
@@ -115,7 +134,12 @@ fn reaming_universal_drilling_and_pecking_go_their_ways() {
     let reamed = blocks_of(
         "CYCL DEF 201 REAMING ~\n Q200=+2 ~\n Q201=-5 ~\n Q206=+100 ~\n Q211=+0 ~\n Q208=+250 ~\n Q203=+0 ~\n Q204=+10\nL X+1 Y+1 M89\nL X+2 M99\nL X+3\n",
     );
-    let hole = ["L Z+2 R0 FMAX", "L Z-5 R0 F100", "L Z+2 R0 F250", "L Z+10 R0 FMAX"];
+    let hole = [
+        "L Z+2 R0 FMAX",
+        "L Z-5 R0 F100",
+        "L Z+2 R0 F250",
+        "L Z+10 R0 FMAX",
+    ];
     let mut expected = vec!["L X+1 Y+1"];
     expected.extend(hole);
     expected.push("L X+2");
@@ -129,8 +153,17 @@ fn reaming_universal_drilling_and_pecking_go_their_ways() {
     assert_eq!(
         universal,
         [
-            "L X+1 FMAX", "L Z+1 R0 FMAX", "L Z-4 R0 F90", "L Z-3.8 R0 FMAX", "L Z-7 R0 F90", "L Z+1 R0 FMAX",
-            "L Z-6 R0 FMAX", "L Z-9 R0 F90", "L Z-8.8 R0 FMAX", "L Z-10 R0 F90", "L Z+1 R0 FMAX",
+            "L X+1 FMAX",
+            "L Z+1 R0 FMAX",
+            "L Z-4 R0 F90",
+            "L Z-3.8 R0 FMAX",
+            "L Z-7 R0 F90",
+            "L Z+1 R0 FMAX",
+            "L Z-6 R0 FMAX",
+            "L Z-9 R0 F90",
+            "L Z-8.8 R0 FMAX",
+            "L Z-10 R0 F90",
+            "L Z+1 R0 FMAX",
         ]
     );
     let pecked = blocks_of(
@@ -139,8 +172,14 @@ fn reaming_universal_drilling_and_pecking_go_their_ways() {
     assert_eq!(
         pecked,
         [
-            "L Z+2 FMAX", "L IZ-6 R0 F80", "L IZ+6 R0 FMAX", "L IZ-5.4 R0 FMAX", "L IZ-2.6 R0 F80",
-            "CYCL DEF 9.0 DWELL TIME", "CYCL DEF 9.1 DWELL 1", "L IZ+8 R0 FMAX",
+            "L Z+2 FMAX",
+            "L IZ-6 R0 F80",
+            "L IZ+6 R0 FMAX",
+            "L IZ-5.4 R0 FMAX",
+            "L IZ-2.6 R0 F80",
+            "CYCL DEF 9.0 DWELL TIME",
+            "CYCL DEF 9.1 DWELL 1",
+            "L IZ+8 R0 FMAX",
         ]
     );
 }
@@ -148,26 +187,65 @@ fn reaming_universal_drilling_and_pecking_go_their_ways() {
 #[test]
 fn runs_are_bounded_and_faults_name_their_line() {
     let cases = [
-        ("LBL 1\nCALL LBL 1\nLBL 0\n", "line 3: `CALL LBL 1`: calls and repeats are nested more than 20 deep"),
-        ("LBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\n", "more than a million blocks that write nothing"),
-        ("LBL 1\nL IX+1\nCALL LBL 1 REP 65534\nLBL 2\nL IX+1\nCALL LBL 2 REP 65534\nLBL 3\nCALL LBL 1 REP 65534\n", "more than 5 million blocks"),
-        ("CALL LBL 5\n", "line 2: `CALL LBL 5`: there is no LBL 5; write the label"),
-        ("LBL 1\nL IX+1\nCALL LBL 1 REP 0\n", "not a whole number from 1 to 65534"),
-        ("L X+Q7\n", "line 2: `L X+Q7`: Q7 has no value that the program states; state it before: FN 0: Q1 = +5"),
-        ("Q1 = Q2 + 1\nL X+Q1\n", "line 2: `Q1 = Q2 + 1`: Q2 has no value"),
+        (
+            "LBL 1\nCALL LBL 1\nLBL 0\n",
+            "line 3: `CALL LBL 1`: calls and repeats are nested more than 20 deep",
+        ),
+        (
+            "LBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\n",
+            "more than a million blocks that write nothing",
+        ),
+        (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 65534\nLBL 2\nL IX+1\nCALL LBL 2 REP 65534\nLBL 3\nCALL LBL 1 REP 65534\n",
+            "more than 5 million blocks",
+        ),
+        (
+            "CALL LBL 5\n",
+            "line 2: `CALL LBL 5`: there is no LBL 5; write the label",
+        ),
+        (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 0\n",
+            "not a whole number from 1 to 65534",
+        ),
+        (
+            "L X+Q7\n",
+            "line 2: `L X+Q7`: Q7 has no value that the program states; state it before: FN 0: Q1 = +5",
+        ),
+        (
+            "Q1 = Q2 + 1\nL X+Q1\n",
+            "line 2: `Q1 = Q2 + 1`: Q2 has no value",
+        ),
         ("Q1 = 1 / 0\nL X+Q1\n", "divides by zero"),
         ("Q1 = SQRT -1\nL X+Q1\n", "no finite value"),
         ("Q1 = FOO 3\nL X+Q1\n", "the function FOO is not known"),
         ("Q1 = (1 + 2\nL X+Q1\n", "a bracket is not closed"),
         ("Q1 = 1 2\nL X+Q1\n", "not understood to its end"),
-        ("FN 18: SYSREAD Q3 = ID270 NR1 IDX1\nL X+Q3\n", "line 3: `L X+Q3`: Q3 has no value"),
-        ("CALL PGM OTHER\n", "the program `OTHER` that it calls is not among the files; give its file together"),
+        (
+            "FN 18: SYSREAD Q3 = ID270 NR1 IDX1\nL X+Q3\n",
+            "line 3: `L X+Q3`: Q3 has no value",
+        ),
+        (
+            "CALL PGM OTHER\n",
+            "the program `OTHER` that it calls is not among the files; give its file together",
+        ),
         ("L X+1 M99\n", "no cycle is defined"),
-        ("CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n", "line 4: `L X+1 M99`: cycle 207 is called, and what it does is not followed"),
-        ("CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=+10 ~\n Q206=+5\nL X+1 M99\n", "the depth of the cycle is above the surface"),
-        ("CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n", "the cycle has no feed"),
+        (
+            "CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
+            "line 5: `L X+1 M99`: cycle 207 is called, and what it does is not followed",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=+10 ~\n Q206=+5\nL X+1 M99\n",
+            "the depth of the cycle is above the surface",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
+            "the cycle has no feed",
+        ),
         ("Q1 = 1\n/L X+Q1\n", "skipped or not"),
-        ("FN 14: ERROR = 1000\nCALL LBL 1\nLBL 1\nL X+1\nLBL 0\n", "ends here with an error of its own"),
+        (
+            "FN 14: ERROR = 1000\nCALL LBL 1\nLBL 1\nL X+1\nLBL 0\n",
+            "ends here with an error of its own",
+        ),
     ];
     for (body, part) in cases {
         let message = refused(body);
@@ -179,7 +257,8 @@ fn runs_are_bounded_and_faults_name_their_line() {
 
 #[test]
 fn cycles_that_are_not_followed_stay_where_that_is_asked_for() {
-    let body = text("Q1 = 4\nCYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+Q1 Y+1 FMAX M99\n");
+    let body =
+        text("Q1 = 4\nCYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+Q1 Y+1 FMAX M99\n");
     let mut options = ReadOptions::default();
     options.unknown_targets = UnknownTargets::LeftAsWritten;
     let flat = expand_heidenhain(vec![SourceFile::new("a.h", body)], &options).unwrap();

@@ -33,7 +33,10 @@ fn rapids_are_known() {
     let kinds: Vec<(usize, bool)> = (robot.path.moves.iter())
         .map(|one| (one.line, one.kind == MoveKind::Rapid))
         .collect();
-    assert_eq!(kinds[..4], [(12, true), (13, true), (14, true), (15, false)]);
+    assert_eq!(
+        kinds[..4],
+        [(12, true), (13, true), (14, true), (15, false)]
+    );
     let helix = robot.path.moves.iter().find(|one| one.line == 25).unwrap();
     let around = std::f64::consts::TAU * 12.5;
     assert!((helix.length_mm() - around.hypot(1.5)).abs() < 1e-9);

@@ -1,5 +1,6 @@
 //! Random Heidenhain programs, broken by chance, and random programs that repeat and compute.
 
+use kinetostat_formats::internal::expand_within;
 use kinetostat_formats::*;
 
 use crate::harness::{Chance, Kind, PLACE_MM, broken};
@@ -52,6 +53,7 @@ struct Writer<'c> {
     count: usize,
     place: [f64; 3],
     style: usize,
+    inch: bool,
 }
 
 impl Writer<'_> {
@@ -66,10 +68,13 @@ impl Writer<'_> {
     }
 
     fn number(&mut self, value: f64) -> String {
-        match self.style {
-            0 => format!("{value:+.3}"),
-            1 => format!("{value:.4}"),
-            _ => format!("{value:+.3}").replace('.', ","),
+        // Arcs in inches need more digits.
+        match (self.style, self.inch) {
+            (0, false) => format!("{value:+.3}"),
+            (1, false) => format!("{value:.4}"),
+            (_, false) => format!("{value:+.3}").replace('.', ","),
+            (0 | 1, true) => format!("{value:+.5}"),
+            (_, true) => format!("{value:.6}").replace('.', ","),
         }
     }
 
@@ -114,12 +119,23 @@ impl Writer<'_> {
         let centre = [x - radius * first.cos(), y - radius * first.sin()];
         let sense = if by > 0.0 { "+" } else { "-" };
         let end = first + by;
-        let to = [centre[0] + radius * end.cos(), centre[1] + radius * end.sin()];
-        let pole = format!("CC{}{}", self.word("X", centre[0]), self.word("Y", centre[1]));
+        let to = [
+            centre[0] + radius * end.cos(),
+            centre[1] + radius * end.sin(),
+        ];
+        let pole = format!(
+            "CC{}{}",
+            self.word("X", centre[0]),
+            self.word("Y", centre[1])
+        );
         match self.chance.below(3) {
             0 => {
                 self.block(&pole);
-                let text = format!("C{}{} DR{sense}", self.word("X", to[0]), self.word("Y", to[1]));
+                let text = format!(
+                    "C{}{} DR{sense}",
+                    self.word("X", to[0]),
+                    self.word("Y", to[1])
+                );
                 self.block(&text);
             }
             1 => {
@@ -134,7 +150,14 @@ impl Writer<'_> {
                     "CR{}{}{} DR{sense}",
                     self.word("X", to[0]),
                     self.word("Y", to[1]),
-                    self.word("R", if by.abs() > std::f64::consts::PI { -radius } else { radius })
+                    self.word(
+                        "R",
+                        if by.abs() > std::f64::consts::PI {
+                            -radius
+                        } else {
+                            radius
+                        }
+                    )
                 );
                 self.block(&text);
             }
@@ -168,6 +191,7 @@ pub fn program(chance: &mut Chance) -> String {
         count: 0,
         place: [0.0; 3],
         style,
+        inch: unit == "INCH",
     };
     writer.block(&format!("BEGIN PGM R {unit}"));
     writer.block("BLK FORM 0.1 Z X+0 Y+0 Z-9");
@@ -237,10 +261,15 @@ pub fn repeating(chance: &mut Chance) -> (String, Vec<[f64; 3]>) {
     let mut places = vec![[0.0, 0.0, 10.0]];
     let mut at = [0.0, 0.0, 10.0];
     for label in 1..=1 + chance.below(3) {
-        let (steps, by) = (1 + chance.below(4), (chance.within(20.0) * 10.0).round() / 10.0);
+        let (steps, by) = (
+            1 + chance.below(4),
+            (chance.within(20.0) * 10.0).round() / 10.0,
+        );
         match chance.below(3) {
             0 => {
-                text += &format!("LBL {label}\nL IX{by:+} F100\nCALL LBL {label} REP {steps}/{steps}\n");
+                text += &format!(
+                    "LBL {label}\nL IX{by:+} F100\nCALL LBL {label} REP {steps}/{steps}\n"
+                );
                 for _ in 0..=steps {
                     at[0] += by;
                     places.push(at);
@@ -281,9 +310,15 @@ pub fn repeating(chance: &mut Chance) -> (String, Vec<[f64; 3]>) {
 /// Whether what comes out of flattening is in order.
 fn flattened(bytes: &[u8], options: &ReadOptions) -> Result<(), String> {
     let file = SourceFile::new("a.h", bytes);
-    match expand_heidenhain(vec![file], options) {
+    // Loops by chance are many.
+    match expand_within(vec![file], options, 20_000) {
         Ok(flat) => {
-            let lines = flat.file.bytes().iter().filter(|byte| **byte == b'\n').count();
+            let lines = flat
+                .file
+                .bytes()
+                .iter()
+                .filter(|byte| **byte == b'\n')
+                .count();
             let last = !flat.file.bytes().is_empty() && !flat.file.bytes().ends_with(b"\n");
             let count = lines + usize::from(last);
             let most = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;

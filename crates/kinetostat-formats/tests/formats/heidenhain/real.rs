@@ -72,7 +72,11 @@ fn they_come_back_byte_for_byte_and_take_corrections() {
     let mut refused: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for (name, bytes) in &all {
         let file = SourceFile::new(name.clone(), bytes.clone());
-        assert_eq!(language_of(name, bytes), Some(Language::Heidenhain), "{name}");
+        assert_eq!(
+            language_of(name, bytes),
+            Some(Language::Heidenhain),
+            "{name}"
+        );
         plain += usize::from(read_heidenhain(vec![file.clone()], &ReadOptions::default()).is_ok());
         if let Ok(program) = read_heidenhain(vec![file.clone()], &stated()) {
             let files = write(&program, &[], &WriteOptions::default()).unwrap();

@@ -94,7 +94,12 @@ fn arcs_end_where_their_blocks_say_and_go_the_way_their_sense_says() {
 fn a_tangential_arc_leaves_in_the_direction_of_the_block_before() {
     let text = "BEGIN PGM A MM\nL X+0 Y+0 Z+0 FMAX\nL X+10 F100\nCT X+20 Y+10\nEND PGM A MM\n";
     let program = program(text);
-    let MotionKind::Arc { centre_mm, angle_rad, .. } = program.motions[2].kind else {
+    let MotionKind::Arc {
+        centre_mm,
+        angle_rad,
+        ..
+    } = program.motions[2].kind
+    else {
         panic!("an arc");
     };
     assert!((centre_mm - Vector3::new(10.0, 10.0, 0.0)).norm() < 1e-9);
@@ -105,8 +110,15 @@ fn a_tangential_arc_leaves_in_the_direction_of_the_block_before() {
 fn feeds_hold_on_and_rapid_traverse_does_not() {
     let program = program(EVERYTHING);
     let speed = |line: usize| {
-        let motion = program.motions.iter().find(|motion| motion.line == line).unwrap();
-        (motion.speed.mm_per_s.map(|speed| (speed * 60.0).round()), motion.speed.text.clone())
+        let motion = program
+            .motions
+            .iter()
+            .find(|motion| motion.line == line)
+            .unwrap();
+        (
+            motion.speed.mm_per_s.map(|speed| (speed * 60.0).round()),
+            motion.speed.text.clone(),
+        )
     };
     assert_eq!(speed(14), (None, "FMAX".to_owned()));
     assert_eq!(speed(15), (Some(250.0), "F250".to_owned()));
@@ -134,13 +146,18 @@ fn mirrored_and_scaled_coordinates_are_followed() {
 fn inches_are_mm_and_tools_and_presets_have_names() {
     let text = "BEGIN PGM A INCH\nCYCL DEF 247 DATUM SETTING~\n Q339=+3 ; NUMBER\nTOOL CALL 12 Z S100\nL X+1 Y+2 Z+,5 F100\nEND PGM A INCH\n";
     let mut options = ReadOptions::default();
-    options.frames.insert("preset:3".into(), Isometry3::translation(0.0, 0.0, 100.0));
+    options
+        .frames
+        .insert("preset:3".into(), Isometry3::translation(0.0, 0.0, 100.0));
     let program = read_with(text.as_bytes(), &options).unwrap();
     let motion = &program.motions[0];
     assert_eq!(motion.tool.name, "TOOL:12");
     assert_eq!(motion.work_object.name, "PRESET:3");
     let base = motion.base_pose().unwrap().translation.vector;
-    assert!((base - Vector3::new(25.4, 50.8, 112.7)).norm() < 1e-9, "{base}");
+    assert!(
+        (base - Vector3::new(25.4, 50.8, 112.7)).norm() < 1e-9,
+        "{base}"
+    );
     // 100 tenths of an inch in a minute.
     assert!((motion.speed.mm_per_s.unwrap() * 60.0 - 254.0).abs() < 1e-9);
 }
@@ -161,6 +178,9 @@ fn texts_and_comments_are_never_words_and_what_does_not_run_is_carried() {
 
 #[test]
 fn files_are_known_by_their_ending_and_their_beginning() {
-    assert_eq!(language_of("P.H", EVERYTHING.as_bytes()), Some(Language::Heidenhain));
+    assert_eq!(
+        language_of("P.H", EVERYTHING.as_bytes()),
+        Some(Language::Heidenhain)
+    );
     assert_eq!(language_of("p.h", b"#pragma once\n"), None);
 }
