@@ -100,3 +100,33 @@ pub(crate) fn order(
     }
     Ok(order)
 }
+
+/// Where a block leads, as far as it says so without a parameter.
+pub(crate) fn step_of(bytes: &[u8], block: &Block) -> Step {
+    let words = block.words(bytes);
+    let Some(first) = words.first() else {
+        return Step::Next;
+    };
+    if first.is("END") {
+        return Step::Ends;
+    }
+    if first.is("LBL") {
+        return match first.value() {
+            Some(0.0) => Step::Back,
+            _ => Step::Next,
+        };
+    }
+    if first.is("CALL") {
+        let label = words.get(1).filter(|word| word.is("LBL"));
+        let once = words.len() == 2;
+        let name = label
+            .filter(|_| once)
+            .and_then(|word| label_name(bytes, word));
+        return name.map_or(Step::Next, Step::Call);
+    }
+    let ends = |word: &Word| word.is("M") && matches!(word.whole(), Some(2 | 30));
+    match words.iter().any(ends) {
+        true => Step::Ends,
+        false => Step::Next,
+    }
+}

@@ -7,11 +7,11 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
 use crate::apt::places::{Frames, frame_use};
 use crate::error::{ProgramError, note};
-use crate::heidenhain::arcs::{Arc, about, by_radius, polar, tangential};
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::datum::{Bend, Change, Datum, axis_of, change};
-use crate::heidenhain::flow::{Step, label_name, labels_of, order};
-use crate::heidenhain::path_words::{Coordinate, FeedWord, Odd, PathWords};
+use crate::heidenhain::ends::{Ends, Shape, Went};
+use crate::heidenhain::flow::{Step, label_name, labels_of, order, step_of};
+use crate::heidenhain::path_words::{FeedWord, Odd, PathWords};
 use crate::heidenhain::state::{Pole, State};
 use crate::heidenhain::table::{Function, function, row};
 use crate::heidenhain::words::{Value, Word};
@@ -72,21 +72,6 @@ pub fn read_heidenhain(
         findings,
         declarations: Vec::new(),
     })
-}
-
-/// What the way of a motion is, for the writer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shape {
-    /// By X, Y and Z.
-    Straight,
-    /// By radius and angle; whether both are stated, so that it ends there wherever it begins.
-    Polar { whole: bool },
-    /// About a pole or by a radius.
-    Arc,
-    /// An arc that begins in the direction of before.
-    Tangential,
-    /// It stays as it is written.
-    Unknown,
 }
 
 /// A motion as it is programmed.
@@ -166,7 +151,6 @@ const EXPAND: &str = "write the program flat first (--expand)";
 const LEAVE: &str =
     "leave such motions as written by an option, or let the CAM system write L blocks";
 const BY_PARAMETER: &str = "a Q parameter says its value";
-const STATE_PLACE: &str = "state X, Y and Z once before it, without M91";
 const FIVE_AXES: &str =
     "programs whose rotary axes turn are not corrected yet: divide the program there";
 
@@ -216,12 +200,12 @@ impl Reader<'_> {
         }
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');
-            is_call && matches!(flow_of(bytes, block), Step::Call(_))
+            is_call && matches!(step_of(bytes, block), Step::Call(_))
         };
         let ordered = match labels.is_empty() || !blocks.iter().any(calls) {
             true => None,
             false => Some(order(first, blocks.len(), &labels, |at| {
-                flow_of(bytes, &blocks[at])
+                step_of(bytes, &blocks[at])
             })),
         };
         let mut last = first;
@@ -764,7 +748,11 @@ impl Reader<'_> {
                 None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
             }
         }
-        match self.ends(words, parsed) {
+        let mut ends = Ends {
+            state: &mut self.state,
+            unit_mm: self.unit_mm,
+        };
+        match ends.of(words, parsed) {
             Ok(went) if acts.calls => self.called(block, words, span, went.end),
             Ok(went) => self.goes(block, words, span, &went, rapid),
             Err((reason, remedy)) => {
@@ -772,180 +760,6 @@ impl Reader<'_> {
                 self.state.lost();
             }
         }
-    }
-
-    /// The end of a path block and its way, in the programmed axes.
-    fn ends(&mut self, words: &[Word], parsed: &PathWords) -> Result<Went, Reason> {
-        let unit = self.unit_mm;
-        let mut end = self.state.place;
-        for axis in 0..3 {
-            if let Some(Coordinate { value, step, .. }) = parsed.axes[axis] {
-                end[axis] = match step {
-                    true => end[axis].map(|at| at + value * unit),
-                    false => Some(value * unit),
-                };
-            }
-        }
-        let kind = words[0].letters;
-        let is_polar = matches!(kind.letters(), b"LP" | b"CP" | b"CTP");
-        if !is_polar && (parsed.radius.is_some() || parsed.angle.is_some()) {
-            return Err((
-                "polar words stand in a block without P".to_owned(),
-                "write LP or CP",
-            ));
-        }
-        let whole = parsed.radius.is_some_and(|c| !c.step) && parsed.angle.is_some_and(|c| !c.step);
-        let mut turned = None;
-        if is_polar {
-            let (x, y, angle) = self.polar_end(kind.is("CP"), parsed)?;
-            end[0] = Some(x);
-            end[1] = Some(y);
-            turned = Some(angle);
-        }
-        let (shape, arc) = match kind.letters() {
-            b"L" | b"LN" => (Shape::Straight, None),
-            b"LP" => (Shape::Polar { whole }, None),
-            b"C" | b"CP" | b"CR" => (
-                Shape::Arc,
-                self.circle(kind.is("CR"), parsed, &end, turned)?,
-            ),
-            b"CT" | b"CTP" => {
-                let from = self.state.in_plane();
-                let to = end[0].zip(end[1]).map(|(x, y)| Vector2::new(x, y));
-                let (Some(from), Some(to)) = (from, to) else {
-                    return Err(("where its arc begins is not known".to_owned(), STATE_PLACE));
-                };
-                let Some(direction) = self.state.direction else {
-                    return Err((
-                        "the direction in which the block before ends is not known".to_owned(),
-                        "write the arc with CC and C",
-                    ));
-                };
-                let arc = tangential(&from, &to, &direction)
-                    .map_err(|reason| (reason, "let the CAM system write the arc with CC and C"))?;
-                (Shape::Tangential, arc)
-            }
-            _ => {
-                return Err((
-                    "coordinates stand in a block without L".to_owned(),
-                    "write L before them",
-                ));
-            }
-        };
-        Ok(Went { end, shape, arc })
-    }
-
-    /// X and Y of a polar end, and its angle or the angle turned, degrees.
-    fn polar_end(
-        &mut self,
-        is_circle: bool,
-        parsed: &PathWords,
-    ) -> Result<(f64, f64, f64), Reason> {
-        let pole = self.state.pole.map(|pole| pole.at);
-        let pole = pole.ok_or((
-            "the pole is not known".to_owned(),
-            "state it before: CC X.. Y..",
-        ))?;
-        let arm = self.state.in_plane().map(|here| here - pole);
-        let unknown = || ("where its way begins is not known".to_owned(), STATE_PLACE);
-        let now = || arm.map(|arm| arm.y.atan2(arm.x).to_degrees());
-        let unit = self.unit_mm;
-        let radius = match (parsed.radius, is_circle) {
-            (
-                Some(Coordinate {
-                    value, step: false, ..
-                }),
-                false,
-            ) => value * unit,
-            (
-                Some(Coordinate {
-                    value, step: true, ..
-                }),
-                false,
-            ) => arm.ok_or_else(unknown)?.norm() + value * unit,
-            (Some(_), true) => {
-                return Err((
-                    "CP states a radius".to_owned(),
-                    "take PR out: the tool is on the circle",
-                ));
-            }
-            (None, _) => {
-                let here = arm.ok_or_else(unknown)?.norm();
-                let last = self.state.radius_mm.unwrap_or(here);
-                if (here - last).abs() > 0.02 && !is_circle {
-                    return Err((
-                        "the polar radius is not stated, and the tool is not at the last one"
-                            .to_owned(),
-                        "state PR",
-                    ));
-                }
-                match is_circle {
-                    true => here,
-                    false => last,
-                }
-            }
-        };
-        let (angle, turned) = match parsed.angle {
-            Some(Coordinate {
-                value, step: false, ..
-            }) => (value, value),
-            Some(Coordinate {
-                value, step: true, ..
-            }) => (now().ok_or_else(unknown)? + value, value),
-            None if is_circle => {
-                return Err(("the arc has no angle".to_owned(), "state PA or IPA"));
-            }
-            None => (now().ok_or_else(unknown)?, 0.0),
-        };
-        if !(radius.is_finite() && angle.abs() < 1e6) {
-            return Err(("the angle is too large".to_owned(), "mend it"));
-        }
-        if !is_circle {
-            self.state.radius_mm = Some(radius);
-        }
-        let place = polar(&pole, radius, angle);
-        Ok((place.x, place.y, turned))
-    }
-
-    fn circle(
-        &mut self,
-        by_size: bool,
-        parsed: &PathWords,
-        end: &[Option<f64>; 3],
-        turned: Option<f64>,
-    ) -> Result<Option<Arc>, Reason> {
-        const AGAIN: &str = "let the CAM system write the circle again";
-        let sense = parsed.sense.ok_or((
-            "the sense of the circle is not stated".to_owned(),
-            "state DR+ or DR-",
-        ))?;
-        let from = self.state.in_plane();
-        let to = end[0].zip(end[1]).map(|(x, y)| Vector2::new(x, y));
-        let (Some(from), Some(to)) = (from, to) else {
-            return Err(("where its arc begins is not known".to_owned(), STATE_PLACE));
-        };
-        if by_size {
-            let size = parsed
-                .circle
-                .ok_or(("the circle has no radius".to_owned(), "state R"))?;
-            let arc = by_radius(&from, &to, size * self.unit_mm, sense);
-            return arc.map(Some).map_err(|reason| (reason, AGAIN));
-        }
-        let pole = self.state.pole.map(|pole| pole.at).ok_or((
-            "the centre of the circle is not known".to_owned(),
-            "state it before: CC X.. Y..",
-        ))?;
-        let mut arc = about(pole, &from, &to, sense).map_err(|reason| (reason, AGAIN))?;
-        if let (Some(Coordinate { step: true, .. }), Some(by)) = (parsed.angle, turned) {
-            if by * sense <= 0.0 || by.abs() > MOST_DEGREES {
-                return Err((
-                    "its angle and its sense do not fit, or it is more than 15 turns".to_owned(),
-                    "give IPA the sign of DR",
-                ));
-            }
-            arc.angle = by.to_radians();
-        }
-        Ok(Some(arc))
     }
 
     /// The motion of a block whose end is known as far as its words say it.
@@ -1109,7 +923,7 @@ impl Reader<'_> {
                 keyword: words[0].span.clone(),
                 target_span: span.clone(),
                 target: site,
-                via: is_arc.then(|| (span.start..span.start, fixed)),
+                via: is_arc.then_some((span.start..span.start, fixed)),
                 speed: known.then(|| SpeedSite {
                     span: span.start..span.start,
                     before: String::new(),
@@ -1134,24 +948,11 @@ impl Reader<'_> {
     }
 }
 
-/// Largest angle of a helix: 15 turns.
-const MOST_DEGREES: f64 = 5400.0;
-
-/// Why a block is refused, and what to do.
-type Reason = (String, &'static str);
-
 /// Whether a motion to an end that is not known may stay whatever the options say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Carried {
     Yes,
     IfLeft,
-}
-
-/// Where a block ends in the programmed axes, mm, and its way.
-struct Went {
-    end: [Option<f64>; 3],
-    shape: Shape,
-    arc: Option<Arc>,
 }
 
 /// What the functions of a block do.
@@ -1161,34 +962,4 @@ struct Acts {
     machine: bool,
     retracts: bool,
     calls: bool,
-}
-
-/// Where a block leads.
-fn flow_of(bytes: &[u8], block: &Block) -> Step {
-    let words = block.words(bytes);
-    let Some(first) = words.first() else {
-        return Step::Next;
-    };
-    if first.is("END") {
-        return Step::Ends;
-    }
-    if first.is("LBL") {
-        return match first.value() {
-            Some(0.0) => Step::Back,
-            _ => Step::Next,
-        };
-    }
-    if first.is("CALL") {
-        let label = words.get(1).filter(|word| word.is("LBL"));
-        let once = words.len() == 2;
-        let name = label
-            .filter(|_| once)
-            .and_then(|word| label_name(bytes, word));
-        return name.map_or(Step::Next, Step::Call);
-    }
-    let ends = |word: &Word| word.is("M") && matches!(word.whole(), Some(2 | 30));
-    match words.iter().any(ends) {
-        true => Step::Ends,
-        false => Step::Next,
-    }
 }

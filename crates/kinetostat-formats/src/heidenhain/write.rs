@@ -11,9 +11,10 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
+use crate::heidenhain::ends::Shape;
 use crate::heidenhain::numbering::numbered_again;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
-use crate::heidenhain::reader::{Shape, Way, interpret};
+use crate::heidenhain::reader::{Way, interpret};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::{Word, words_of};
 use crate::model::motion::Motion;

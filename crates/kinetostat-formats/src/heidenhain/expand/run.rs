@@ -6,7 +6,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::expand::drill::{Hole, Retract, Stroke};
 use crate::heidenhain::expand::expression::{Parameters, value_of};
-use crate::heidenhain::flow::{Labels, Step, label_name, labels_of, order};
+use crate::heidenhain::flow::{Labels, label_name, labels_of, order, step_of};
 use crate::heidenhain::numbering::is_numbered;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};
@@ -197,25 +197,11 @@ impl<'f> Program<'f> {
                 return true;
             }
         }
-        calls && order(begin, self.blocks.len(), &self.labels, |at| self.step(at)).is_err()
-    }
-
-    fn step(&self, at: usize) -> Step {
-        let bytes = self.file.bytes();
-        let words = self.blocks[at].words(bytes);
-        let Some(first) = words.first() else {
-            return Step::Next;
-        };
-        let ends = |word: &Word| word.is("M") && matches!(word.whole(), Some(2 | 30));
-        match () {
-            () if first.is("END") || words.iter().any(ends) => Step::Ends,
-            () if first.is("LBL") && first.value() == Some(0.0) => Step::Back,
-            () if first.is("CALL") => {
-                let name = words.get(1).and_then(|word| label_name(bytes, word));
-                name.map_or(Step::Next, Step::Call)
-            }
-            () => Step::Next,
-        }
+        calls
+            && order(begin, self.blocks.len(), &self.labels, |at| {
+                step_of(bytes, &self.blocks[at])
+            })
+            .is_err()
     }
 }
 
