@@ -89,7 +89,7 @@ impl PathWords {
             if word.is("M") {
                 let number = word.whole().ok_or(odd(word, at))?;
                 found.functions.push((at, number));
-                owned = matches!(number, 103 | 112 | 118 | 120 | 124 | 128 | 138 | 140);
+                owned = has_words(number);
             } else if !owned {
                 at += found.one(words, at, is_circle)?;
             }
@@ -187,6 +187,11 @@ impl PathWords {
     pub(crate) fn moves(&self) -> bool {
         !self.places.is_empty()
     }
+}
+
+/// Whether the words behind a function are its own.
+pub(crate) fn has_words(function: u32) -> bool {
+    matches!(function, 103 | 112 | 118 | 120 | 124 | 128 | 138 | 140)
 }
 
 fn odd(word: &Word, at: usize) -> Odd {

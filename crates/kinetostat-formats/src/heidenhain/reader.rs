@@ -715,6 +715,11 @@ impl Reader<'_> {
                 Carried::Yes,
             );
             self.state.place[2] = None;
+            for axis in 0..2 {
+                if parsed.axes[axis].is_some() {
+                    self.state.place[axis] = None;
+                }
+            }
             self.state.direction = None;
             return;
         }
@@ -734,7 +739,8 @@ impl Reader<'_> {
                 Carried::Yes,
             );
             for axis in 0..3 {
-                if parsed.axes[axis].is_some() {
+                let by_angle = parsed.radius.is_some() || parsed.angle.is_some();
+                if parsed.axes[axis].is_some() || by_angle {
                     self.state.place[axis] = None;
                 }
             }
@@ -782,6 +788,7 @@ impl Reader<'_> {
                 false => Carried::IfLeft,
             };
             self.unknown(block, words, span, reason, carried);
+            self.ends_at(went.end);
             self.state.place = went.end;
             self.state.direction = None;
             return;
@@ -835,6 +842,14 @@ impl Reader<'_> {
         self.state.place = went.end;
     }
 
+    /// What is known of the end of the last motion, which stays as it is written.
+    fn ends_at(&mut self, end: [Option<f64>; 3]) {
+        let last = self.found.ways.last_mut();
+        if let Some(way) = last.filter(|way| way.shape == Shape::Unknown) {
+            way.end = end;
+        }
+    }
+
     /// A cycle is called at the end of a block.
     fn called(
         &mut self,
@@ -852,6 +867,7 @@ impl Reader<'_> {
             );
         } else {
             self.unknown(block, words, span, reason, Carried::IfLeft);
+            self.ends_at(end);
         }
         self.state.place = [end[0], end[1], None];
         self.state.direction = None;

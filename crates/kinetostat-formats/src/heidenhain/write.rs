@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use crate::error::WriteError;
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::numbering::numbered_again;
-use crate::heidenhain::path_words::{FeedWord, PathWords};
+use crate::heidenhain::path_words::{FeedWord, PathWords, has_words};
 use crate::heidenhain::reader::{Way, interpret};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::{Word, words_of};
@@ -166,13 +166,7 @@ impl Writer<'_> {
         let stated = Stated::of(&words);
         let off = self.off;
         if way.shape == Shape::Unknown {
-            // What it states, it states as it did.
-            for axis in 0..3 {
-                if stated.absolute[axis] {
-                    self.off[axis] = 0.0;
-                }
-            }
-            return Ok(());
+            return self.unknown(motion, way, &words, &stated);
         }
         let pole_off = way
             .pole_from
@@ -208,6 +202,11 @@ impl Writer<'_> {
             return Ok(());
         }
         if matches!(way.shape, Shape::Arc | Shape::Tangential) {
+            // A digit that was not worth stating again bends no arc.
+            if off.amax() <= 1.01 * self.half_mm(way) && !pole_off {
+                self.stated_again(way, &stated);
+                return Ok(());
+            }
             return Err((
                 "the arc begins at a place that changes, and is then none about its written centre"
                     .to_owned(),
@@ -219,6 +218,84 @@ impl Writer<'_> {
         };
         let piece = Piece::to(0, end.position_mm);
         self.pieces(motion, way, &piece, &[])
+    }
+
+    /// Half of the last digit, mm.
+    fn half_mm(&self, way: &Way) -> f64 {
+        0.5 * 10.0_f64.powi(-(self.decimals(way) as i32)) * way.unit_mm
+    }
+
+    fn decimals(&self, way: &Way) -> usize {
+        match way.unit_mm == 1.0 {
+            true => self.options.position_decimals.min(4),
+            // As fine in inches. The control takes no more digits.
+            false => (self.options.position_decimals + 2).min(5),
+        }
+    }
+
+    /// Axes that a block states as it did are where they were.
+    fn stated_again(&mut self, way: &Way, stated: &Stated) {
+        let mut off = way.datum.step(&self.off);
+        for axis in 0..3 {
+            if stated.absolute[axis] {
+                off[axis] = 0.0;
+            }
+        }
+        self.off = way.datum.preset(&off) - way.datum.shift_mm;
+    }
+
+    /// A block that stays as it is written. What is known of its end, and what it takes over, it states.
+    fn unknown(
+        &mut self,
+        motion: &Motion,
+        way: &Way,
+        words: &[Word],
+        stated: &Stated,
+    ) -> Result<(), Reason> {
+        let off = way.datum.step(&self.off);
+        let taken_over = |axis: usize| {
+            let word = stated.word[axis].is_some();
+            let end = way.end[axis].filter(|_| !stated.absolute[axis] && off[axis] != 0.0);
+            // A step ends elsewhere, too.
+            end.map(|end| (axis, end, word))
+        };
+        let again: Vec<(usize, f64, bool)> = (0..3).filter_map(taken_over).collect();
+        self.stated_again(way, stated);
+        if again.is_empty() {
+            return Ok(());
+        }
+        let is_line = words
+            .first()
+            .is_some_and(|word| word.is("L") || word.is("LN"));
+        if !is_line {
+            return Err((
+                "it goes on from a place that changes, and its own end is not known".to_owned(),
+                "write the program flat first (--expand), or leave the block before as it is",
+            ));
+        }
+        let mut off = way.datum.step(&self.off);
+        let own = &mut self.edits[motion.file];
+        for (axis, end, is_stated) in again {
+            let text = word_text(
+                axis,
+                end / way.unit_mm,
+                match way.unit_mm == 1.0 {
+                    true => 4,
+                    false => 5,
+                },
+                self.signs[motion.file],
+            );
+            match stated.word[axis].filter(|_| is_stated) {
+                Some(at) => own.replace(words[at].span.clone(), text),
+                None => {
+                    let at = words[0].span.end;
+                    own.replace(at..at, format!(" {text}"));
+                }
+            }
+            off[axis] = 0.0;
+        }
+        self.off = way.datum.preset(&off) - way.datum.shift_mm;
+        Ok(())
     }
 
     fn pieces(
@@ -334,12 +411,7 @@ impl Writer<'_> {
         let started = *place;
         let stated = Stated::of(words);
         let straight = way.shape == Shape::Straight;
-        let decimals = match way.unit_mm == 1.0 {
-            true => self.options.position_decimals.min(4),
-            // As fine in inches. The control takes no more digits.
-            false => (self.options.position_decimals + 2).min(5),
-        };
-        let half = 0.5 * 10.0_f64.powi(-(decimals.min(12) as i32)) * way.unit_mm;
+        let (decimals, half) = (self.decimals(way), self.half_mm(way));
         let mut ends = wanted;
         let mut behind = words[0].span.end;
         let mut new_words = String::new();
@@ -374,7 +446,7 @@ impl Writer<'_> {
                     let stays = same && word.is_none() && (straight || axis == 2);
                     let text = match stays {
                         true => String::new(),
-                        false => self.word(motion.file, axis, value, decimals),
+                        false => word_text(axis, value, decimals, self.signs[motion.file]),
                     };
                     match stays {
                         true => ends[axis] = started[axis].unwrap_or(wanted[axis]),
@@ -414,20 +486,6 @@ impl Writer<'_> {
         self.write_feed(way, words, piece.speed_factor, &mut edits);
         *place = [Some(ends.x), Some(ends.y), Some(ends.z)];
         edits
-    }
-
-    /// A word of an axis.
-    fn word(&self, file: usize, axis: usize, value: f64, decimals: usize) -> String {
-        let digits = decimals.min(12);
-        let text = format!("{value:+.digits$}");
-        let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
-        let unsigned = text.trim_start_matches(['+', '-']);
-        let sign = match (text.starts_with('-') && !is_zero, self.signs[file]) {
-            (true, _) => "-",
-            (false, true) => "+",
-            (false, false) => "",
-        };
-        format!("{}{sign}{unsigned}", ["X", "Y", "Z"][axis])
     }
 
     /// The feed of a piece, where it is not the one in force.
@@ -488,13 +546,18 @@ fn write_functions(words: &[Word], part: Part, edits: &mut Edits) {
     if part == Part::Only {
         return;
     }
-    let mut taken = false;
+    // With the words of its own.
+    let (mut taken, mut owned) = (false, false);
     for (at, word) in words.iter().enumerate().skip(1) {
         if word.is("M") {
-            taken = match when(word.whole().unwrap_or(0)) {
+            let number = word.whole().unwrap_or(0);
+            owned = has_words(number);
+            taken = match when(number) {
                 When::Start => part != Part::First,
                 _ => part != Part::Last,
             };
+        } else if !owned {
+            continue;
         }
         if taken {
             edits.replace(with_blanks(words, at), "");
@@ -610,4 +673,18 @@ fn number_text(file: &SourceFile, number: &NumberText, value: f64, decimals: usi
 fn feed_text(feed: f64) -> String {
     let text = format!("{feed:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A word of an axis.
+fn word_text(axis: usize, value: f64, decimals: usize, signs: bool) -> String {
+    let digits = decimals.min(12);
+    let text = format!("{value:+.digits$}");
+    let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    let unsigned = text.trim_start_matches(['+', '-']);
+    let sign = match (text.starts_with('-') && !is_zero, signs) {
+        (true, _) => "-",
+        (false, true) => "+",
+        (false, false) => "",
+    };
+    format!("{}{sign}{unsigned}", ["X", "Y", "Z"][axis])
 }

@@ -271,6 +271,12 @@ enum Next {
 
 type Fault = ProgramError;
 
+/// Parameters of the drilling cycles.
+const OWN: [&str; 15] = [
+    "Q200", "Q201", "Q202", "Q203", "Q204", "Q205", "Q206", "Q208", "Q210", "Q211", "Q212", "Q213",
+    "Q256", "Q379", "Q395",
+];
+
 impl<'p> Run<'p> {
     fn fault(&self, at: (usize, usize), reason: impl Into<String>, remedy: &str) -> Fault {
         let program = &self.programs[at.0];
@@ -726,6 +732,13 @@ impl<'p> Run<'p> {
         let has_values = words
             .windows(2)
             .any(|pair| pair[0].is("Q") && begins_value(&pair[1], file.bytes()));
+        if matches!(cycle, 200 | 201 | 203) {
+            // What a cycle before said, says nothing of this one.
+            for name in OWN {
+                self.parameters.0.remove(name);
+            }
+            self.rapid_out = false;
+        }
         if has_values {
             self.assign(at, &words[2..])?;
         }
@@ -782,6 +795,13 @@ impl<'p> Run<'p> {
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);
         let cycle = self.cycle.unwrap_or(0);
         let own = |line: usize| self.pecking[line].unwrap_or(0.0);
+        if cycle != 1 && value("Q395") != 0.0 {
+            return Err(self.fault(
+                at,
+                "the depth is that of the drill's full diameter (Q395), which its tip says",
+                "state the depth of the tip: Q395=+0",
+            ));
+        }
         let hole = match cycle {
             1 => Hole {
                 cycle,

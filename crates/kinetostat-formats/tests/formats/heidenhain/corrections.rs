@@ -186,6 +186,20 @@ fn shifted_turned_and_inch_coordinates_are_written_as_programmed() {
 }
 
 #[test]
+fn holes_stay_where_they_are_behind_a_place_that_changes() {
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let body = text("L X+10 Y+20 F100\nL X+30 FMAX M99\nL IX+5 FMAX M99\nL M140 MB MAX\n");
+    let program = super::read_with(body.as_bytes(), &options).unwrap();
+    let pieces = [Piece::to(1, Vector3::new(10.1, 20.2, 5.0))];
+    let output = written(&program, &pieces);
+    let expected = text(
+        "L X+10.100 Y+20.200 F100\nL Y+20.0000 X+30 FMAX M99\nL IX+5 FMAX M99\nL M140 MB MAX\n",
+    );
+    assert_eq!(output, expected);
+}
+
+#[test]
 fn what_cannot_be_written_is_said() {
     let program = program(EVERYTHING);
     let refused = |piece: Piece| {

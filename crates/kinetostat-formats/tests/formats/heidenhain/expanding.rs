@@ -241,6 +241,10 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
             "the cycle has no feed",
         ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q395=+1\nL X+1 M99\n",
+            "the drill's full diameter (Q395)",
+        ),
         ("Q1 = 1\n/L X+Q1\n", "skipped or not"),
         (
             "FN 14: ERROR = 1000\nCALL LBL 1\nLBL 1\nL X+1\nLBL 0\n",

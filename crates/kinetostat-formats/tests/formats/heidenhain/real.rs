@@ -97,6 +97,7 @@ fn they_come_back_byte_for_byte_and_take_corrections() {
             }
         }
     }
+    assert!(all.is_empty() || (plain >= 8 && with_all >= 8 && expanded >= 40));
     let _ = writeln!(
         std::io::stderr(),
         "{} Heidenhain files: {plain} read as they are, {with_all} with all stated, {expanded} when written flat ({motions} motions); refused: {refused:#?}",
