@@ -57,6 +57,58 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
+    /// Of cycle 1, by the numbers of its lines.
+    pub(crate) fn pecked(lines: &[Option<f64>; 6], unit_mm: f64) -> Self {
+        let own = |line: usize| lines[line].unwrap_or(0.0);
+        Self {
+            cycle: 1,
+            clearance: own(1),
+            depth: own(2),
+            feed: own(5),
+            peck: own(3).abs(),
+            surface: 0.0,
+            second: 0.0,
+            dwell_above: 0.0,
+            dwell_below: own(4),
+            retract: Retract::Rapid,
+            less: 0.0,
+            least: 0.0,
+            breaks: 0.0,
+            back: 0.0,
+            unit_mm,
+        }
+    }
+
+    /// Of cycles 200, 201 and 203, by the values of their parameters.
+    pub(crate) fn drilled(
+        cycle: u32,
+        value: impl Fn(&str) -> f64,
+        retract: Retract,
+        unit_mm: f64,
+    ) -> Self {
+        let only = |is: bool, name: &str| match is {
+            true => value(name),
+            false => 0.0,
+        };
+        Self {
+            cycle,
+            clearance: value("Q200"),
+            depth: value("Q201"),
+            feed: value("Q206"),
+            peck: only(cycle != 201, "Q202").abs(),
+            surface: value("Q203"),
+            second: value("Q204"),
+            dwell_above: only(cycle != 201, "Q210"),
+            dwell_below: value("Q211"),
+            retract,
+            less: only(cycle == 203, "Q212"),
+            least: value("Q205"),
+            breaks: value("Q213"),
+            back: value("Q256"),
+            unit_mm,
+        }
+    }
+
     /// Its strokes.
     ///
     /// # Errors

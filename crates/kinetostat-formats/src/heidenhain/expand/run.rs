@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
-use crate::heidenhain::blocks::{Block, blocks_of};
+use crate::heidenhain::blocks::Block;
 use crate::heidenhain::expand::drill::{Hole, Retract, Stroke};
 use crate::heidenhain::expand::expression::{Parameters, value_of};
-use crate::heidenhain::flow::{Labels, label_name, labels_of, order, step_of};
+use crate::heidenhain::expand::program::Program;
+use crate::heidenhain::flow::label_name;
 use crate::heidenhain::numbering::is_numbered;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};
@@ -116,102 +117,6 @@ fn unchanged(file: &SourceFile) -> FlatText {
         file: file.clone(),
         origins: (1..=count).map(|line| (0, line)).collect(),
         changed: false,
-    }
-}
-
-/// A file of the program.
-struct Program<'f> {
-    file: &'f SourceFile,
-    blocks: Vec<Block>,
-    labels: Labels,
-    /// The block BEGIN PGM.
-    begin: Option<usize>,
-}
-
-impl<'f> Program<'f> {
-    fn of(file: &'f SourceFile) -> Self {
-        let blocks = blocks_of(file.bytes());
-        let (labels, _) = labels_of(file.bytes(), &blocks);
-        let begins = |block: &Block| {
-            let letter = file.bytes().get(block.text.start);
-            letter.is_some_and(|letter| letter.eq_ignore_ascii_case(&b'B'))
-                && block
-                    .words(file.bytes())
-                    .first()
-                    .is_some_and(|word| word.is("BEGIN"))
-        };
-        let begin = blocks.iter().position(begins);
-        Self {
-            file,
-            blocks,
-            labels,
-            begin,
-        }
-    }
-
-    fn unit_mm(&self) -> f64 {
-        let words = self
-            .begin
-            .map(|at| self.blocks[at].words(self.file.bytes()));
-        match words.is_some_and(|words| words.iter().any(|word| word.is("INCH"))) {
-            true => 25.4,
-            false => 1.0,
-        }
-    }
-
-    /// Its name, as CALL PGM says it.
-    fn is_named(&self, name: &str) -> bool {
-        let own = stem(self.file.name());
-        own.eq_ignore_ascii_case(&stem(name))
-    }
-
-    /// Whether anything is to be flattened.
-    fn needs(&self) -> bool {
-        let bytes = self.file.bytes();
-        let Some(begin) = self.begin else {
-            return false;
-        };
-        let mut calls = false;
-        for block in &self.blocks[begin..] {
-            let words = block.words(bytes);
-            let Some(first) = words.first() else {
-                continue;
-            };
-            let assigns = matches!(first.letters.letters(), b"Q" | b"QL" | b"QR" | b"QS");
-            match first.letters.letters() {
-                b"CALL" if words.len() == 2 && words[1].is("LBL") => calls = true,
-                b"CALL" => return true,
-                b"FN" if matches!(first.whole(), Some(9..=12)) => return true,
-                b"FN" => continue,
-                b"CYCL" | b"CYCLE" if words.get(1).is_some_and(|word| word.is("CALL")) => {
-                    return true;
-                }
-                _ if assigns => continue,
-                _ => {}
-            }
-            let needs = |word: &Word| {
-                matches!(word.value, Value::Parameter { .. })
-                    || (word.is("M") && matches!(word.whole(), Some(89 | 99)))
-            };
-            if words.iter().any(needs) {
-                return true;
-            }
-        }
-        calls
-            && order(begin, self.blocks.len(), &self.labels, |at| {
-                step_of(bytes, &self.blocks[at])
-            })
-            .is_err()
-    }
-}
-
-/// A name of a file without folders and ending.
-fn stem(name: &str) -> String {
-    let name = name.trim().trim_matches('"');
-    let name = name.rsplit(['/', '\\', ':']).next().unwrap_or(name);
-    match name.rsplit_once('.') {
-        Some((stem, ending)) if ending.eq_ignore_ascii_case("h") => stem.to_owned(),
-        _ => name.to_owned(),
     }
 }
 
@@ -794,7 +699,6 @@ impl<'p> Run<'p> {
     fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);
         let cycle = self.cycle.unwrap_or(0);
-        let own = |line: usize| self.pecking[line].unwrap_or(0.0);
         if cycle != 1 && value("Q395") != 0.0 {
             return Err(self.fault(
                 at,
@@ -803,52 +707,14 @@ impl<'p> Run<'p> {
             ));
         }
         let hole = match cycle {
-            1 => Hole {
-                cycle,
-                clearance: own(1),
-                depth: own(2),
-                feed: own(5),
-                peck: own(3).abs(),
-                surface: 0.0,
-                second: 0.0,
-                dwell_above: 0.0,
-                dwell_below: own(4),
-                retract: Retract::Rapid,
-                less: 0.0,
-                least: 0.0,
-                breaks: 0.0,
-                back: 0.0,
-                unit_mm: self.unit_mm,
-            },
-            _ => Hole {
-                cycle,
-                clearance: value("Q200"),
-                depth: value("Q201"),
-                feed: value("Q206"),
-                peck: match cycle {
-                    201 => 0.0,
-                    _ => value("Q202").abs(),
-                },
-                surface: value("Q203"),
-                second: value("Q204"),
-                dwell_above: match cycle {
-                    201 => 0.0,
-                    _ => value("Q210"),
-                },
-                dwell_below: value("Q211"),
-                retract: match self.rapid_out {
+            1 => Hole::pecked(&self.pecking, self.unit_mm),
+            _ => {
+                let retract = match self.rapid_out {
                     true => Retract::Rapid,
                     false => Retract::Feed(value("Q208")),
-                },
-                less: match cycle {
-                    203 => value("Q212"),
-                    _ => 0.0,
-                },
-                least: value("Q205"),
-                breaks: value("Q213"),
-                back: value("Q256"),
-                unit_mm: self.unit_mm,
-            },
+                };
+                Hole::drilled(cycle, value, retract, self.unit_mm)
+            }
         };
         let strokes = hole.strokes();
         let strokes =
