@@ -26,7 +26,17 @@ pub(crate) fn write_functions(words: &[Word], part: Part, edits: &mut Edits) {
             continue;
         }
         if taken {
-            edits.replace(with_blanks(words, at), "");
+            let span = with_blanks(words, at);
+            // The word behind may stand against it.
+            let next = words.get(at + 1).map(|next| next.span.start);
+            let against = next == Some(span.end);
+            edits.replace(
+                span,
+                match against {
+                    true => " ",
+                    false => "",
+                },
+            );
         }
     }
 }

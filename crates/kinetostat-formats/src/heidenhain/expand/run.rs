@@ -919,7 +919,16 @@ impl<'p> Run<'p> {
                     0 => 0,
                     _ => flat[index - 1].span.end,
                 };
-                edits.replace(from..flat[index].span.end, "");
+                let end = flat[index].span.end;
+                // The word behind may stand against it.
+                let against = flat
+                    .get(index + 1)
+                    .is_some_and(|next| next.span.start == end);
+                let gap = match against {
+                    true => " ",
+                    false => "",
+                };
+                edits.replace(from..end, gap);
                 bare = true;
             }
         }
