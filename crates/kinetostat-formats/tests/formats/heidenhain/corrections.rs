@@ -61,6 +61,13 @@ fn pieces_are_blocks_before_with_functions_where_they_act() {
     let expected =
         "L X+20.000 Y+0.050 R0 F200 M8\nL X+40 Y+0.000 R0 F200 M9 ; to the edge\nL Y+10\n";
     assert_eq!(output, text(expected));
+    // A function that stands against a coordinate leaves a blank.
+    let against = super::program(&text("L M9X+40 F200\n"));
+    let output = written(&against, &pieces);
+    assert!(
+        output.contains("\nL X+20.000 Y+0.050 F200\nL M9X+40 Y+0.000 F200\n"),
+        "{output}"
+    );
     let odd = super::program(&text("L X+40 R0 F200 M77\n"));
     let error = write(&odd, &pieces, &WriteOptions::default()).unwrap_err();
     assert!(
