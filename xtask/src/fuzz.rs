@@ -48,6 +48,7 @@ fn robot_programs(minutes: &str, seed: &str) -> Result<()> {
         ("fuzz of KRL programs", "fuzz_krl"),
         ("fuzz of lists of poses", "fuzz_poses"),
         ("fuzz of SINUMERIK programs", "fuzz_siemens"),
+        ("fuzz of Heidenhain programs", "fuzz_heidenhain"),
     ] {
         example(what, "kinetostat-formats", name, &[&minutes, seed])?;
     }

@@ -3,6 +3,9 @@
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
+use crate::heidenhain::expand::run::expand_heidenhain;
+use crate::heidenhain::reader::read_heidenhain;
+use crate::heidenhain::write::write_heidenhain;
 use crate::krl::reader::read_krl;
 use crate::krl::write::KrlSyntax;
 use crate::ls::reader::read_ls;
@@ -13,8 +16,10 @@ use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
+use crate::siemens::flat::expand_siemens;
 use crate::siemens::reader::read_siemens;
 use crate::siemens::write::write_siemens;
+use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
@@ -45,6 +50,33 @@ pub fn read(
         Language::Krl => read_krl(files, options),
         Language::Poses => read_poses(files, options),
         Language::Siemens => read_siemens(files, options),
+        Language::Heidenhain => read_heidenhain(files, options),
+    }
+}
+
+/// Runs a program once and writes it flat, where its language has loops, jumps and calls that are followed so; `None` where the reader
+/// follows what its language has.
+///
+/// ```
+/// use kinetostat_formats::{Language, ReadOptions, SourceFile, expand};
+///
+/// let text = "R1=4\nG0 X=R1*2\nM30\n";
+/// let files = vec![SourceFile::new("a.mpf", text)];
+/// let flat = expand(Language::Siemens, files, &ReadOptions::default()).unwrap().unwrap();
+/// assert_eq!(flat.file.bytes(), b"G0 X=8\nM30\n");
+/// ```
+///
+/// # Errors
+/// What is refused, by line of its file.
+pub fn expand(
+    language: Language,
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<Option<FlatText>, Vec<ProgramError>> {
+    match language {
+        Language::Heidenhain => expand_heidenhain(files, options).map(Some),
+        Language::Siemens => expand_siemens(&files).map(Some),
+        _ => Ok(None),
     }
 }
 
@@ -86,5 +118,6 @@ pub fn write(
         Language::Krl => write_with(program, pieces, options, &KrlSyntax),
         Language::Poses => write_poses(program, pieces, options),
         Language::Siemens => write_siemens(program, pieces, options),
+        Language::Heidenhain => write_heidenhain(program, pieces, options),
     }
 }

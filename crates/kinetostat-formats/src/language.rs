@@ -61,6 +61,7 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
 ///
 /// assert_eq!(language_of("Path_10.mod", b"MODULE Path_10\n"), Some(Language::Rapid));
 /// assert_eq!(language_of("poses.csv", b"x_mm,y_mm,z_mm\n"), Some(Language::Poses));
+/// assert_eq!(language_of("PART.H", b"0 BEGIN PGM PART MM\n"), Some(Language::Heidenhain)); // and no header of C
 /// assert_eq!(language_of("part.prg", b"%\nG21 G90\n"), None); // G-code has this ending, too
 /// ```
 #[must_use]
@@ -85,6 +86,7 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
         "nc" | "cnc" | "tap" | "ngc" | "iso" | "txt" if is_siemens(&beginning) => {
             Some(Language::Siemens)
         }
+        "h" if holds("BEGIN PGM") => Some(Language::Heidenhain),
         _ => None,
     }
 }

@@ -5,8 +5,9 @@
 //! 1. A reader ([`read_rapid`], [`read_krl`], or [`read`] by language) takes the files of a program together and says where the tool
 //!    goes: a [`RobotProgram`] with its [`Motion`]s, in the order in which they run. What can move the tool and is not
 //!    understood is refused, all of it in one run, by line, with what to do. All else is carried. What each statement is
-//!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`]).
-//!    SINUMERIK programs with jumps, loops and calls are run once and written flat before ([`expand_siemens`]).
+//!    taken for stands in a table ([`RAPID_STATEMENTS`], [`KRL_STATEMENTS`], ...).
+//!    Programs with jumps, loops and calls of SINUMERIK and Heidenhain are run once and written flat before ([`expand_siemens`],
+//!    [`expand_heidenhain`]).
 //! 2. The caller makes [`Piece`]s: where motions are to end instead.
 //! 3. [`write()`] changes the numbers of the text that must change, and nothing else.
 //!
@@ -39,6 +40,7 @@
 mod apt;
 mod document;
 mod error;
+mod heidenhain;
 #[doc(hidden)]
 pub mod internal;
 mod krl;
@@ -56,8 +58,11 @@ mod writing;
 
 pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
-pub use document::{read, write};
+pub use document::{expand, read, write};
 pub use error::{ProgramError, WriteError};
+pub use heidenhain::expand::run::expand_heidenhain;
+pub use heidenhain::reader::read_heidenhain;
+pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
 pub use krl::reader::read_krl;
 pub use krl::table::KRL_STATEMENTS;
 pub use language::{language_of, odd_program};

@@ -1,8 +1,8 @@
 //! The languages that are read, and what their writers keep.
 
 use kinetostat_formats::{
-    APT_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS, RAPID_STATEMENTS,
-    SIEMENS_STATEMENTS, StatementRow,
+    APT_STATEMENTS, HEIDENHAIN_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS,
+    RAPID_STATEMENTS, SIEMENS_STATEMENTS, StatementRow,
 };
 
 /// Where the table of a language is.
@@ -26,7 +26,7 @@ pub(crate) struct Language {
 }
 
 /// All of them.
-pub(crate) const LANGUAGES: [Language; 7] = [
+pub(crate) const LANGUAGES: [Language; 8] = [
     Language {
         name: "gcode",
         title: "G-code as LinuxCNC and most controllers read it",
@@ -75,5 +75,12 @@ pub(crate) const LANGUAGES: [Language; 7] = [
         endings: &["mpf", "spf"],
         written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
         words: Words::Statements(SIEMENS_STATEMENTS),
+    },
+    Language {
+        name: "heidenhain",
+        title: "Heidenhain conversational programs of TNC 426 to TNC 640",
+        endings: &["h"],
+        written: "Written: numbers in place with the file's signs, at most 4 decimals in mm and 5 in inches, as the control takes them (from -99999.9999 to 99999.9999); a coordinate that a block took over from a corrected one is stated. Further blocks stand before the block, with its feed and radius compensation; a function acts on the first or the last of them as it acts on a block. Circles and polar blocks that are corrected become L blocks. Where a file numbers its blocks and gets further ones, all are numbered again. Programs with labels, Q parameters, jumps and drilling cycles are written flat first: at most 5 million blocks.",
+        words: Words::Statements(HEIDENHAIN_STATEMENTS),
     },
 ];

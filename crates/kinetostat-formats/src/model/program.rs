@@ -22,6 +22,8 @@ pub enum Language {
     Poses,
     /// SINUMERIK 840D.
     Siemens,
+    /// Heidenhain conversational.
+    Heidenhain,
 }
 
 /// Something that a person should know of a program that was taken.

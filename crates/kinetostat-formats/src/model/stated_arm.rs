@@ -79,7 +79,9 @@ impl StatedArm {
                     wrist: one_of("F", "N"),
                 }
             }
-            Language::Apt | Language::Poses | Language::Siemens => Self::default(),
+            Language::Apt | Language::Heidenhain | Language::Poses | Language::Siemens => {
+                Self::default()
+            }
         }
     }
 }

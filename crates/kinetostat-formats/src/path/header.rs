@@ -2,6 +2,7 @@
 
 use kinetostat_program::COMPENSATED_MARK;
 
+use crate::heidenhain::numbering;
 use crate::ls::write::numbered_again;
 use crate::model::program::Language;
 use crate::poses::carrier::beginning;
@@ -46,6 +47,10 @@ fn comments(language: Language) -> Comments {
             opens: "; ",
             below: None,
         },
+        Language::Heidenhain => Comments {
+            opens: "; ",
+            below: Some("BEGIN"),
+        },
     }
 }
 
@@ -65,7 +70,13 @@ pub(crate) fn with_header(
 ) -> (Vec<u8>, usize) {
     let Comments { opens, below } = comments(language);
     let begins = |line: &[u8]| {
-        let line = line.trim_ascii_start().to_ascii_uppercase();
+        let mut line = line.trim_ascii_start();
+        if language == Language::Heidenhain {
+            // Behind the number of the block.
+            let digits = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            line = line[digits..].trim_ascii_start();
+        }
+        let line = line.to_ascii_uppercase();
         below.is_none_or(|word| line.starts_with(word.as_bytes()))
     };
     let mut at = 0;
@@ -96,6 +107,12 @@ pub(crate) fn with_header(
         true => b"\r\n",
         false => b"\n",
     };
+    // A block of its own, where blocks have numbers.
+    let numbered = language == Language::Heidenhain && numbering::is_numbered(bytes);
+    let opens = match numbered {
+        true => format!("0 {opens}"),
+        false => opens.to_owned(),
+    };
     let mut header = Vec::new();
     let mut count = 0;
     let closes: &[u8] = match language {
@@ -122,7 +139,11 @@ pub(crate) fn with_header(
             write(&format!("{PREFIX}{}", part.iter().collect::<String>()));
         }
     }
-    ([&bytes[..at], &header, &bytes[at..]].concat(), count)
+    let bytes = [&bytes[..at], &header, &bytes[at..]].concat();
+    match numbered {
+        true => (numbering::numbered_again(&bytes).unwrap_or(bytes), count),
+        false => (bytes, count),
+    }
 }
 
 /// ASCII that ends no comment.

@@ -330,10 +330,11 @@ impl Maker<'_> {
             let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
             fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
         };
-        // APT says it beside the motion, a machine's control by its code.
+        // APT says it beside the motion, a machine's control in it.
         let said = match self.program.language {
             Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
             Language::Siemens => motion.speed.text == "G0",
+            Language::Heidenhain => motion.speed.text == "FMAX",
             _ => false,
         };
         let rapid = motion.kind == MotionKind::Joint

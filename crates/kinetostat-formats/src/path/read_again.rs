@@ -204,6 +204,10 @@ fn untouched(
 
 /// A line without what is counted anew where lines are added: its number and the count of lines.
 fn without_number(language: Language, line: &[u8]) -> &[u8] {
+    if language == Language::Heidenhain {
+        let digits = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        return line[digits..].trim_ascii_start();
+    }
     if language != Language::FanucLs {
         return line;
     }

@@ -12,6 +12,11 @@ impl Edits {
         self.0.push((span, bytes.into()));
     }
 
+    /// Adds those of another.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.0.append(&mut other.0);
+    }
+
     /// The text with all replacements; `None` where two overlap or one lies outside.
     pub(crate) fn applied_to(mut self, text: &[u8]) -> Option<Vec<u8>> {
         self.0.sort_by_key(|(span, _)| (span.start, span.end));

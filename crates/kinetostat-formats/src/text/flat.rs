@@ -1,24 +1,24 @@
-//! A program that was run once and written flat.
+//! A program run once and written flat, with where each of its lines is from.
 
 use crate::text::source::SourceFile;
 
-/// A program without jumps, loops and calls, and where its lines are from.
+/// A program that was run once and written flat.
 ///
 /// ```
-/// use kinetostat_formats::{SourceFile, expand_siemens};
+/// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain};
 ///
-/// let text = "R1=0\nLOOP1:\nG1 X=R1 F100\nR1=R1+10\nIF R1<=20 GOTOB LOOP1\nM30\n";
-/// let flat = expand_siemens(&[SourceFile::new("a.mpf", text)]).unwrap();
+/// let text = "BEGIN PGM A MM\nFN 0: Q1 = +5\nL X+Q1 F200\nEND PGM A MM\n";
+/// let flat = expand_heidenhain(vec![SourceFile::new("a.h", text)], &ReadOptions::default()).unwrap();
+/// assert_eq!(flat.file.bytes(), b"BEGIN PGM A MM\nL X+5 F200\nEND PGM A MM\n");
+/// assert_eq!(flat.origins, [(0, 1), (0, 3), (0, 4)]);
 /// assert!(flat.changed);
-/// assert_eq!(flat.file.bytes(), b"G1 X=0 F100\nG1 X=10 F100\nG1 X=20 F100\nM30\n");
-/// assert_eq!(flat.origins[1], (0, 3)); // file and line of the second one
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlatText {
-    /// The flat program, under the name of the one that was run.
+    /// The flat program, under the name of the first file.
     pub file: SourceFile,
-    /// Of each line: the file, counted from 0, and the line there, counted from 1.
+    /// For every line of it: the file (an index of those given) and its line, counted from 1.
     pub origins: Vec<(usize, usize)>,
-    /// Whether it is another text than before.
+    /// Whether anything was to be flattened; without, the bytes are those of the first file.
     pub changed: bool,
 }

@@ -24,6 +24,14 @@ impl Name {
         })
     }
 
+    /// No letters.
+    pub(crate) fn empty() -> Self {
+        Self {
+            bytes: [0; LONGEST],
+            length: 0,
+        }
+    }
+
     /// In capitals.
     pub(crate) fn letters(&self) -> &[u8] {
         &self.bytes[..usize::from(self.length)]

@@ -343,7 +343,7 @@ pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
 const SAME_RAD: f64 = 1e-9;
 
 /// Farther than any robot reaches, mm.
-const FARTHEST_MM: f64 = 1e6;
+pub(crate) const FARTHEST_MM: f64 = 1e6;
 
 /// When the speed of a piece is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

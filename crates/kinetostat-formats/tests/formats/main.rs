@@ -11,6 +11,7 @@
 mod apt;
 mod fields;
 mod harness;
+mod heidenhain;
 mod krl;
 mod ls;
 mod numbers;

@@ -91,7 +91,7 @@ fn fixtures_with_everything_are_corrected_along_their_paths() {
 }
 
 /// Real files that are corrected along their paths with all stated; the others are refused in words.
-fn real(language: Language, folder: &str, least: usize) {
+pub fn real(language: Language, folder: &str, least: usize) {
     let all = programs(folder);
     let (mut done, mut refused) = (Vec::new(), Vec::new());
     for (name, bytes) in &all {

@@ -1,6 +1,6 @@
 //! Programs that are run once and written flat.
 
-use kinetostat_formats::internal::expand_within;
+use kinetostat_formats::internal::expand_siemens_within as expand_within;
 use kinetostat_formats::*;
 
 fn flat_of(files: &[(&str, &str)]) -> FlatText {

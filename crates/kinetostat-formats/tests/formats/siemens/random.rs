@@ -258,7 +258,7 @@ fn check_flat(seed: u64, chance: &mut Chance, kind: &Kind) -> Result<bool, Strin
     let bytes = broken(chance, &whole, kind);
     let same = bytes == whole.as_bytes();
     let files = [SourceFile::new("a.mpf", bytes.clone())];
-    let flat = match kinetostat_formats::internal::expand_within(&files, 100_000) {
+    let flat = match kinetostat_formats::internal::expand_siemens_within(&files, 100_000) {
         Ok(flat) => flat,
         Err(errors) => {
             let lines = files[0].line_count();

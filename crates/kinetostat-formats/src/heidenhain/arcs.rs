@@ -1,0 +1,121 @@
+//! Circles in the plane of X and Y: about a pole, by a radius, tangential.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Rotation2, Vector2};
+
+/// An arc in the programmed axes, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Arc {
+    pub centre: Vector2<f64>,
+    /// Anticlockwise seen from above, rad.
+    pub angle: f64,
+}
+
+/// Farthest that radii of start and end differ, mm: a little more than the control's usual 0.016.
+const RADIUS_MM: f64 = 0.02;
+/// Ends nearer than this are one place.
+const SAME_MM: f64 = 1e-4;
+
+impl Arc {
+    /// The direction in which it ends.
+    pub(crate) fn last_direction(&self, end: &Vector2<f64>) -> Option<Vector2<f64>> {
+        let arm = (end - self.centre).try_normalize(1e-9)?;
+        Some(Vector2::new(-arm.y, arm.x) * self.angle.signum())
+    }
+}
+
+/// About a centre, from a place to another: `sense` is 1 anticlockwise, -1 clockwise. A whole turn where they are one place.
+///
+/// # Errors
+/// Where they lie on no circle about the centre.
+pub(crate) fn about(
+    centre: Vector2<f64>,
+    from: &Vector2<f64>,
+    to: &Vector2<f64>,
+    sense: f64,
+) -> Result<Arc, String> {
+    let (a, b) = (from - centre, to - centre);
+    let (first, last) = (a.norm(), b.norm());
+    let fits = (first - last).abs() <= RADIUS_MM && first > SAME_MM;
+    if !fits {
+        return Err(format!(
+            "the circle has radius {first:.4} mm at its start and {last:.4} mm at its end"
+        ));
+    }
+    let along = sense * a.perp(&b).atan2(a.dot(&b));
+    let turned = match (b - a).norm() < SAME_MM {
+        true => TAU,
+        false => along.rem_euclid(TAU),
+    };
+    Ok(Arc {
+        centre,
+        angle: sense * turned,
+    })
+}
+
+/// By a radius, negative for more than half a turn.
+///
+/// # Errors
+/// Where no such circle goes through both places.
+pub(crate) fn by_radius(
+    from: &Vector2<f64>,
+    to: &Vector2<f64>,
+    radius_mm: f64,
+    sense: f64,
+) -> Result<Arc, String> {
+    let chord = to - from;
+    let (length, radius) = (chord.norm(), radius_mm.abs());
+    if !(length > SAME_MM && radius > SAME_MM && 0.5 * length <= radius + RADIUS_MM) {
+        return Err(format!(
+            "no circle of radius {radius:.4} mm goes through two places {length:.4} mm apart"
+        ));
+    }
+    let height = (radius * radius - 0.25 * length * length).max(0.0).sqrt();
+    let left = Vector2::new(-chord.y, chord.x) / length;
+    // The centre of a short arc to the left is on the left.
+    let side = sense * radius_mm.signum();
+    let centre = from + 0.5 * chord + left * (side * height);
+    let short = 2.0 * (0.5 * length / radius).min(1.0).asin();
+    let turned = match radius_mm > 0.0 {
+        true => short,
+        false => TAU - short,
+    };
+    Ok(Arc {
+        centre,
+        angle: sense * turned,
+    })
+}
+
+/// Tangential to a direction; none where that is a straight line.
+///
+/// # Errors
+/// Where the way would turn back on itself.
+pub(crate) fn tangential(
+    from: &Vector2<f64>,
+    to: &Vector2<f64>,
+    direction: &Vector2<f64>,
+) -> Result<Option<Arc>, String> {
+    let chord = to - from;
+    let left = Vector2::new(-direction.y, direction.x);
+    let (across, along) = (left.dot(&chord), direction.dot(&chord));
+    if chord.norm() < SAME_MM {
+        return Err("the arc ends where it begins".to_owned());
+    }
+    if across.abs() < 1e-7 * chord.norm() {
+        return match along > 0.0 {
+            true => Ok(None),
+            false => Err("the arc would turn back on itself".to_owned()),
+        };
+    }
+    let radius = chord.norm_squared() / (2.0 * across);
+    Ok(Some(Arc {
+        centre: from + left * radius,
+        angle: 2.0 * across.atan2(along),
+    }))
+}
+
+/// A place by its radius and its angle from a pole, degrees from X.
+pub(crate) fn polar(pole: &Vector2<f64>, radius_mm: f64, degrees: f64) -> Vector2<f64> {
+    pole + Rotation2::new(degrees.to_radians()) * Vector2::new(radius_mm, 0.0)
+}

@@ -1,0 +1,132 @@
+//! The order in which the blocks of a file run, where each runs once.
+
+use std::collections::BTreeMap;
+
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::words::{Value, Word};
+
+/// The labels of a file: by number or text, the block.
+pub(crate) type Labels = BTreeMap<String, usize>;
+
+/// The name of a label as a word states it.
+pub(crate) fn label_name(bytes: &[u8], word: &Word) -> Option<String> {
+    match &word.value {
+        Value::Number(number) => Some(format!("{}", number.value)),
+        Value::Text(text) => Some(format!(
+            "\"{}\"",
+            String::from_utf8_lossy(bytes.get(text.clone())?)
+        )),
+        _ => None,
+    }
+}
+
+/// The labels of a file, and blocks that state one a second time.
+pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<usize>) {
+    let (mut labels, mut twice) = (Labels::new(), Vec::new());
+    for (index, block) in blocks.iter().enumerate() {
+        // Most blocks begin with another letter.
+        let first = bytes.get(block.text.start).map(u8::to_ascii_uppercase);
+        if first != Some(b'L') {
+            continue;
+        }
+        let words = block.words(bytes);
+        let name = words
+            .first()
+            .filter(|word| word.is("LBL"))
+            .and_then(|word| label_name(bytes, word));
+        if let Some(name) = name.filter(|name| name != "0")
+            && labels.insert(name, index).is_some()
+        {
+            twice.push(index);
+        }
+    }
+    (labels, twice)
+}
+
+/// Where a block leads.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Step {
+    Next,
+    /// To a label and back at LBL 0.
+    Call(String),
+    /// LBL 0.
+    Back,
+    /// The program ends behind it.
+    Ends,
+}
+
+/// Why a file has no order of its own: the block, and why.
+pub(crate) type Fault = (usize, String);
+
+/// Deepest nesting of calls.
+pub(crate) const DEEPEST: usize = 20;
+
+/// The blocks in the order in which they run.
+///
+/// # Errors
+/// The first block that runs twice or leads nowhere.
+pub(crate) fn order(
+    first: usize,
+    count: usize,
+    labels: &Labels,
+    step: impl Fn(usize) -> Step,
+) -> Result<Vec<usize>, Fault> {
+    let mut order = Vec::with_capacity(count);
+    let mut ran = vec![false; count];
+    let mut calls: Vec<usize> = Vec::new();
+    let mut at = first;
+    while at < count {
+        if ran[at] {
+            let by = calls.last().copied().unwrap_or(at);
+            return Err((by, "it runs blocks a second time".to_owned()));
+        }
+        ran[at] = true;
+        order.push(at);
+        at = match step(at) {
+            Step::Next => at + 1,
+            Step::Ends => break,
+            Step::Back => calls.pop().map_or(at, |from| from) + 1,
+            Step::Call(name) => {
+                let Some(to) = labels.get(&name) else {
+                    return Err((at, format!("there is no LBL {name}")));
+                };
+                if calls.len() >= DEEPEST {
+                    return Err((at, "calls are nested more than 20 deep".to_owned()));
+                }
+                calls.push(at);
+                *to
+            }
+        };
+    }
+    Ok(order)
+}
+
+/// Where a block leads, as far as it says so without a parameter.
+pub(crate) fn step_of(bytes: &[u8], block: &Block) -> Step {
+    let words = block.words(bytes);
+    let Some(first) = words.first() else {
+        return Step::Next;
+    };
+    if first.is("END") {
+        return Step::Ends;
+    }
+    if first.is("LBL") {
+        return match first.value() {
+            Some(0.0) => Step::Back,
+            _ => Step::Next,
+        };
+    }
+    if first.is("CALL") {
+        let label = words.get(1).filter(|word| word.is("LBL"));
+        let once = words.len() == 2;
+        let name = label
+            .filter(|_| once)
+            .and_then(|word| label_name(bytes, word));
+        return name.map_or(Step::Next, Step::Call);
+    }
+    let ends = |word: &Word| word.is("M") && matches!(word.whole(), Some(2 | 30));
+    match words.iter().any(ends) {
+        true => Step::Ends,
+        false => Step::Next,
+    }
+}

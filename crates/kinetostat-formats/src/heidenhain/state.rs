@@ -1,0 +1,127 @@
+//! What is in force between two blocks.
+
+use nalgebra::{Vector2, Vector3};
+
+use crate::heidenhain::datum::{Bend, Datum};
+use crate::model::motion::Speed;
+
+/// The pole of polar coordinates and the centre of circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pole {
+    /// In the programmed axes, mm.
+    pub at: Vector2<f64>,
+    /// It was stated from where the tool was.
+    pub relative: bool,
+}
+
+/// What is in force.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    /// Where the tool is in the programmed axes, mm; none where that is not known.
+    pub place: [Option<f64>; 3],
+    pub pole: Option<Pole>,
+    /// The last polar radius about this pole, mm.
+    pub radius_mm: Option<f64>,
+    /// Direction in the plane in which the last block ended.
+    pub direction: Option<Vector2<f64>>,
+    /// As programmed.
+    pub feed: Option<f64>,
+    pub feed_text: String,
+    /// F of the last TOOL CALL.
+    pub tool_feed: Option<f64>,
+    pub per_turn: bool,
+    pub tool: String,
+    /// The control's preset by its name.
+    pub preset: String,
+    pub datum: Datum,
+    /// The last motion.
+    pub last: Option<usize>,
+    /// Axis of the tool in the programmed axes.
+    pub axis: Vector3<f64>,
+    /// M89 is on.
+    pub calls: bool,
+    /// The path is moved aside by the tool's radius.
+    pub aside: bool,
+}
+
+impl State {
+    /// Of the beginning of a file.
+    pub(crate) fn new() -> Self {
+        Self {
+            place: [None; 3],
+            pole: None,
+            radius_mm: None,
+            direction: None,
+            feed: None,
+            feed_text: String::new(),
+            tool_feed: None,
+            per_turn: false,
+            tool: "TOOL".to_owned(),
+            preset: "PRESET".to_owned(),
+            datum: Datum::none(),
+            last: None,
+            axis: Vector3::z(),
+            calls: false,
+            aside: false,
+        }
+    }
+
+    /// Where it is in the plane.
+    pub(crate) fn in_plane(&self) -> Option<Vector2<f64>> {
+        Some(Vector2::new(self.place[0]?, self.place[1]?))
+    }
+
+    /// The tool's length or the machine's axes are others now.
+    pub(crate) fn lost(&mut self) {
+        self.place = [None; 3];
+        self.direction = None;
+        self.last = None;
+    }
+
+    /// Shifts the datum along an axis: the tool stays, and is at other coordinates.
+    pub(crate) fn shift(&mut self, axis: usize, to_mm: f64) {
+        let by = to_mm - self.datum.shift_mm[axis];
+        self.datum.shift_mm[axis] = to_mm;
+        if by != 0.0 {
+            self.place[axis] = self.place[axis].map(|at| at - by);
+            self.pole = None;
+            self.direction = None;
+        }
+    }
+
+    /// Mirrors, turns or scales. What is not stated again behind it is not known.
+    pub(crate) fn bend(&mut self, bend: Bend) {
+        if bend == self.datum.bend {
+            return;
+        }
+        let in_plane = matches!(
+            (bend, self.datum.bend),
+            (
+                Bend::None | Bend::Rotation(_),
+                Bend::None | Bend::Rotation(_)
+            )
+        );
+        self.datum.bend = bend;
+        self.place[0] = None;
+        self.place[1] = None;
+        if !in_plane {
+            self.place[2] = None;
+        }
+        self.pole = None;
+        self.direction = None;
+    }
+
+    /// The speed in force as it is written, for a unit of so many mm.
+    pub(crate) fn speed(&self, unit_mm: f64) -> Speed {
+        // Programs in inches state feeds in tenths of an inch in a minute.
+        let per_unit = match unit_mm == 1.0 {
+            true => 1.0,
+            false => unit_mm / 10.0,
+        };
+        let value = self.feed.filter(|_| !self.per_turn);
+        Speed {
+            mm_per_s: value.map(|feed| feed * per_unit / 60.0),
+            text: self.feed_text.clone(),
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Files that are refused: line, what is said, and all of it in one run.
+
+use kinetostat_formats::*;
+
+use super::read_with;
+
+fn errors(text: &str) -> Vec<(usize, String)> {
+    let found = read_with(text.as_bytes(), &ReadOptions::default()).expect_err("it is refused");
+    found
+        .iter()
+        .map(|error| (error.line, error.to_string()))
+        .collect()
+}
+
+#[test]
+fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
+    const EXPAND: &str = "write the program flat first (--expand)";
+    let cases = [
+        (
+            "L X+Q1",
+            "`X+Q1`: a Q parameter says its value; write the program flat first (--expand)",
+        ),
+        ("L X+1 FQ2", "`FQ2`: a Q parameter says its value"),
+        ("FN 9: IF +Q1 EQU +0 GOTO LBL 1", EXPAND),
+        (
+            "LBL 1\nCALL LBL 1 REP 2/2",
+            "it runs a part of the program again; write the program flat first (--expand)",
+        ),
+        (
+            "CALL PGM OTHER",
+            "it runs another program; give the programs together and write them flat (--expand)",
+        ),
+        (
+            "FN 17: SYSWRITE ID 210 NR1 = +5",
+            "it writes data of the control",
+        ),
+        (
+            "CYCL CALL",
+            "a cycle is called: from here the control drills or mills by itself; write drilling cycles flat first (--expand)",
+        ),
+        ("L X+5 FMAX M99", "a cycle is called"),
+        (
+            "RND R5",
+            "the control rounds or breaks the corner between two blocks; let the CAM system write arcs and lines",
+        ),
+        ("CHF 2", "the control rounds or breaks the corner"),
+        (
+            "APPR LT X+10 Y+20 LEN10 RR F300",
+            "the control makes the way to or from a contour by itself; let the CAM system write it as L and C blocks",
+        ),
+        (
+            "DEP LCT X+10 R5",
+            "the control makes the way to or from a contour",
+        ),
+        ("FL X+10 AN45", "the control computes the contour by itself"),
+        (
+            "L X+5 RL F100",
+            "the control moves the path aside by the tool's radius; say by an option that the places are those of the tool's centre, if they are",
+        ),
+        (
+            "L A+30 FMAX",
+            "a rotary axis turns the part or the tool; programs whose rotary axes turn are not corrected yet: divide the program there",
+        ),
+        (
+            "L X+5 C+90 F100",
+            "a rotary axis turns the part or the tool",
+        ),
+        (
+            "PLANE SPATIAL SPA+0 SPB+45 SPC+0 STAY",
+            "it tilts the plane in which the places are",
+        ),
+        (
+            "CYCL DEF 19.1 A+0 B+45 C+0",
+            "it tilts the plane in which the places are",
+        ),
+        ("CYCL DEF 7.1 #5", "the datum is in a table"),
+        ("CYCL DEF 10.1 ROT+Q5", "a Q parameter says by how much"),
+        (
+            "CYCL DEF 221 CARTESIAN PATTERN",
+            "the cycle moves the tool or the coordinates where it is defined",
+        ),
+        (
+            "PATTERN DEF POS1",
+            "places or programs come from a table or a choice of the control; write the places into the program",
+        ),
+        (
+            "TCH PROBE 413 DATUM",
+            "it moves until a probe touches; take it into a program of its own",
+        ),
+        ("TOOL CALL 3 Y S100", "the tool's axis is not Z"),
+        ("TOOL CALL Q5 Z", "a Q parameter says its value"),
+        (
+            "C X+5 Y+5 DR+",
+            "the centre of the circle is not known; state it before: CC X.. Y..",
+        ),
+        (
+            "CC X+0 Y+0\nC X+5 Y+5",
+            "the sense of the circle is not stated; state DR+ or DR-",
+        ),
+        (
+            "CC X+0 Y+0\nC X+5 Y+5 DR+",
+            "the circle has radius 3.7417 mm at its start and 7.0711 mm at its end",
+        ),
+        (
+            "CC X+0 Z+0",
+            "the pole is not stated by X and Y; circles in other planes are not followed",
+        ),
+        ("CC XQ1", "a Q parameter says its value"),
+        (
+            "CR X+50 Y+0 R+5 DR+",
+            "no circle of radius 5.0000 mm goes through two places",
+        ),
+        ("CR X+50 Y+0 DR+", "the circle has no radius; state R"),
+        ("LP PR+5 PA+30", "the pole is not known; state it before"),
+        (
+            "CC X+0 Y+0\nCP IPA-90 DR+",
+            "its angle and its sense do not fit",
+        ),
+        (
+            "CC X+0 Y+0\nCP DR+",
+            "the arc has no angle; state PA or IPA",
+        ),
+        (
+            "L PR+5",
+            "polar words stand in a block without P; write LP or CP",
+        ),
+        ("L X+1 X+2", "`X+2`: the word is there twice; take one out"),
+        (
+            "L X+1 W+5",
+            "`W+5`: the word is not known here, or has no number",
+        ),
+        ("L X F100", "the word is not known here, or has no number"),
+        (
+            "X+10 R0 F100",
+            "the block has coordinates and no L; write L before them",
+        ),
+        (
+            "/L X+10",
+            "the block is skipped or not, as a switch of the machine says; take the sign `/` away",
+        ),
+        (
+            "L X+1 M118 X1 Y1",
+            "the handwheel moves the tool beside the program; take it out",
+        ),
+        ("L X+1 M114", "the control moves the axes for the tilt"),
+        (
+            "DANCE",
+            "the statement is not known, and may move the tool; take it out, or make it a comment (;)",
+        ),
+        (
+            "TRANS MIRROR AXIS X",
+            "how it moves the coordinates is not followed",
+        ),
+        (
+            "LBL 1\nLBL 1",
+            "there is a label of this name above; name it otherwise",
+        ),
+        ("CALL LBL", "the label has no number and no name"),
+        ("LN X+1 TX0 TY0 TZ2", "the tool's axis has not the length 1"),
+        ("FUNCTION FACING", "what this function moves is not known"),
+    ];
+    for (text, part) in cases {
+        let found = errors(&format!(
+            "BEGIN PGM A MM\nL X+1 Y+2 Z+3 FMAX\nL X+3 Y+2.2360679 F100\n{text}\nL X+9 Y+9 Z+9 FMAX\nEND PGM A MM\n"
+        ));
+        let hit = found
+            .iter()
+            .any(|(line, message)| (4..=5).contains(line) && message.contains(part));
+        assert!(hit, "{text}: {found:?}");
+        assert!(found.len() <= 2, "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn files_as_a_whole_are_refused() {
+    let found = errors("L X+1\n");
+    assert!(
+        found[0]
+            .1
+            .contains("no block BEGIN PGM begins a program; give a program of Heidenhain's")
+    );
+    let found = errors("BEGIN PGM A MM\nL X+1 Y+1 F100\nEND PGM A MM\n");
+    assert!(
+        found[0]
+            .1
+            .contains("where the tool is, is not wholly known here"),
+        "{found:?}"
+    );
+    // A tool of another length: where its tip is, is not known.
+    let found = errors(
+        "BEGIN PGM A MM\nTOOL CALL 1 Z\nL X+1 Y+1 Z+1 FMAX\nTOOL CALL 2 Z\nL X+5 F100\nEND PGM A MM\n",
+    );
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].0, 5);
+    let found = errors("BEGIN PGM A MM\nCALL LBL 4\nLBL 1\nEND PGM A MM\n");
+    assert!(
+        found[0]
+            .1
+            .contains("line 2: `CALL LBL 4`: there is no LBL 4"),
+        "{found:?}"
+    );
+    let found = errors(
+        "BEGIN PGM A MM\nCALL LBL 1\nCALL LBL 1\nL M30\nLBL 1\nL Z+1 FMAX\nLBL 0\nEND PGM A MM\n",
+    );
+    assert!(found[0].1.contains("line 3: `CALL LBL 1`: it runs blocks a second time; write the program flat first (--expand)"), "{found:?}");
+    let found = errors(
+        "BEGIN PGM A MM\nCYCL DEF 10.1 ROT+30\nCYCL DEF 7.1 X+5\nCYCL DEF 11.1 SCL 2\nEND PGM A MM\n",
+    );
+    assert_eq!(
+        found.iter().map(|(line, _)| *line).collect::<Vec<_>>(),
+        [3, 4]
+    );
+}
+
+#[test]
+fn all_problems_come_in_one_run_in_the_order_of_lines() {
+    let found = errors(
+        "BEGIN PGM A MM\nL X+1 Y+1 Z+1 FMAX\nRND R1\nDANCE\nL X+Q1\nL X+1 Y+1 Z+1 FMAX\nCHF 1\nLBL 1\nLBL 1\nEND PGM A MM\n",
+    );
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [3, 4, 5, 7, 9]);
+}
+
+#[test]
+fn what_is_stated_is_taken() {
+    let mut options = ReadOptions::default();
+    options.cutter_compensation = CutterCompensation::CentrePath;
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let text = "BEGIN PGM A MM\nL X+1 Y+1 Z+1 FMAX\nL X+5 RL F100\nL X+6 M99\nL Z+5\nL X+9 R0\nL M25\nEND PGM A MM\n";
+    let program = read_with(text.as_bytes(), &options).unwrap();
+    let known: Vec<bool> = program
+        .motions
+        .iter()
+        .map(|motion| motion.target.pose().is_some())
+        .collect();
+    assert_eq!(known, [true, true, false, true, true]);
+    let said = |part: &str| {
+        program
+            .findings
+            .iter()
+            .any(|finding| finding.message.contains(part))
+    };
+    assert!(said("a cycle is called"));
+    assert!(said("M25 is the machine builder's"));
+}
+
+#[test]
+fn statements_stand_once_in_their_table() {
+    let mut names: Vec<&str> = HEIDENHAIN_STATEMENTS.iter().map(|row| row.name).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+}

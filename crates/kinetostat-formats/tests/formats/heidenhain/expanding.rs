@@ -1,0 +1,273 @@
+//! Programs that repeat, jump, count and drill, written flat.
+
+use kinetostat_formats::*;
+
+use super::{flat, place, program};
+
+fn text(blocks: &str) -> String {
+    format!("BEGIN PGM A MM\n{blocks}END PGM A MM\n")
+}
+
+fn blocks_of(body: &str) -> Vec<String> {
+    let output = flat(&text(body));
+    let lines: Vec<String> = output.lines().map(str::to_owned).collect();
+    lines[1..lines.len() - 1].to_vec()
+}
+
+fn refused(body: &str) -> String {
+    let files = vec![SourceFile::new("a.h", text(body))];
+    expand_heidenhain(files, &ReadOptions::default()).unwrap_err()[0].to_string()
+}
+
+#[test]
+fn subprograms_and_repeats_run_as_often_as_they_say() {
+    let body = "L X+0 FMAX\nCALL LBL 1\nCALL LBL \"TWO\" REP 2\nL Y+9\nCALL LBL 1\nL M30\nLBL 1\nL IX+1 F100\nCALL LBL \"TWO\"\nLBL 0\nLBL \"TWO\"\nL IY+1\nLBL 0\n";
+    // The repeat goes to a label below: its part ends with LBL 0, which belongs to no call there.
+    let lines = blocks_of(&body.replace("CALL LBL \"TWO\" REP 2\n", ""));
+    assert_eq!(
+        lines,
+        [
+            "L X+0 FMAX",
+            "L IX+1 F100",
+            "L IY+1",
+            "L Y+9",
+            "L IX+1 F100",
+            "L IY+1",
+            "L M30"
+        ]
+    );
+    let nested = "LBL 1\nLBL 2\nL IX+1\nCALL LBL 2 REP 2/2\nL IY+1\nCALL LBL 1 REP 1/1\n";
+    let lines = blocks_of(nested);
+    let runs = |what: &str| lines.iter().filter(|line| line.as_str() == what).count();
+    assert_eq!((runs("L IX+1"), runs("L IY+1")), (6, 2));
+}
+
+#[test]
+fn parameters_are_computed_as_the_control_does() {
+    let body = "FN 0: Q1 = +60\nFN 1: Q2 = -Q1 + -5\nFN 2: Q3 = +10 - +4\nFN 3: Q4 = +3 * +3\nFN 4: Q5 = +4 DIV +8\nFN 5: Q6 = SQRT +4\n\
+        FN 6: Q7 = SIN +30\nFN 7: Q8 = COS +60\nFN 8: Q9 = +3 LEN +4\nFN 13: Q10 = +1 ANG -1\n\
+        Q11 = (Q1 + 5 * 2) / 7 - 2 ^ 3\nQ12 = SQRT 16 + ABS - 3 + INT 2,7 + SGN -4\nQ13 = NEG ATAN 1\nQL1 = ASIN 0.5 + ACOS 0.5\n\
+        L X+Q2 Y-Q3 Z+Q4\nL X+Q5 Y+Q6 Z+Q7\nL X+Q8 Y+Q9 Z+Q10\nL X+Q11 Y+Q12 Z+Q13 FQ1\nL XQL1\n";
+    assert_eq!(
+        blocks_of(body),
+        [
+            "L X-65 Y-6 Z+9",
+            "L X+0.5 Y+2 Z+0.5",
+            "L X+0.5 Y+5 Z+135",
+            "L X+2 Y+8 Z-45 F60",
+            "L X+90",
+        ]
+    );
+}
+
+#[test]
+fn jumps_follow_their_comparison() {
+    let body = "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nL X+Q1\nFN 12: IF +Q1 LT +3 GOTO LBL 1\nFN 9: IF +Q1 EQU +3 GOTO LBL \"OUT\"\nL X+99\nLBL \"OUT\"\nFN 11: IF +Q1 GT +3 GOTO LBL 1\nFN 10: IF +Q1 NE +3 GOTO LBL 1\nL Y+1\n";
+    assert_eq!(blocks_of(body), ["L X+1", "L X+2", "L X+3", "L Y+1"]);
+}
+
+#[test]
+fn other_programs_run_where_they_are_called_and_lines_say_where_from() {
+    let main = "0 BEGIN PGM MAIN MM\n1 Q1 = 5\n2 CALL PGM TNC:\\PARTS\\Sub.h ; here\n3 L Y+Q2\n4 END PGM MAIN MM\n";
+    let sub = "BEGIN PGM SUB MM\nL X+Q1\nQ2 = Q1 * 2\nEND PGM SUB MM\n";
+    let files = vec![
+        SourceFile::new("main.h", main),
+        SourceFile::new("dir/SUB.H", sub),
+    ];
+    let flat = expand_heidenhain(files, &ReadOptions::default()).unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(flat.file.bytes()),
+        "0 BEGIN PGM MAIN MM\n1 L X+5\n2 L Y+10\n3 END PGM MAIN MM\n"
+    );
+    assert_eq!(flat.origins, [(0, 1), (1, 2), (0, 4), (0, 5)]);
+    assert_eq!(flat.file.name(), "main.h");
+}
+
+#[test]
+fn holes_of_cycle_200_go_to_their_depth_in_pecks() {
+    let body = "TOOL CALL 1 Z S100\nL Z+50 R0 FMAX M3\nL X+1 Y+2 F700\n\
+        CYCL DEF 200 DRILLING ~\n  Q200=+2 ;SET-UP CLEARANCE ~\n  Q201=-12 ;DEPTH ~\n  Q206=+150 ;FEED ~\n  Q202=+5 ;PECK ~\n  Q210=+0 ;DWELL ~\n  Q203=-10 ;SURFACE ~\n  Q204=+30 ;2ND CLEARANCE ~\n  Q211=+0.5 ;DWELL BELOW\n\
+        CYCL CALL M8\nL X+20 FMAX M99\nL FMAX M99\nL X+30\n";
+    let lines = blocks_of(body);
+    let hole = [
+        "L Z-8 R0 FMAX",
+        "L Z-15 R0 F150",
+        "L Z-8 R0 FMAX",
+        "L Z-13 R0 FMAX",
+        "L Z-20 R0 F150",
+        "L Z-8 R0 FMAX",
+        "L Z-18 R0 FMAX",
+        "L Z-22 R0 F150",
+        "CYCL DEF 9.0 DWELL TIME",
+        "CYCL DEF 9.1 DWELL 0.5",
+        "L Z-8 R0 FMAX",
+        "L Z+20 R0 FMAX",
+    ];
+    let mut expected = vec![
+        "TOOL CALL 1 Z S100",
+        "L Z+50 R0 FMAX M3",
+        "L X+1 Y+2 F700",
+        "M8",
+    ];
+    expected.extend(hole);
+    expected.push("L X+20 FMAX");
+    expected.extend(hole);
+    expected.extend(hole);
+    // The feed of before is stated again.
+    expected.push("L X+30 F700");
+    assert_eq!(lines, expected);
+    // Flat, it is read: the bottom of the second hole.
+    let program = program(&flat(&text(body)));
+    let deepest = (0..program.motions.len()).filter(|index| {
+        let end = program.motions[*index].target.pose();
+        end.is_some_and(|end| (end.position_mm.z + 22.0).abs() < 1e-9)
+    });
+    let places: Vec<[f64; 3]> = deepest.map(|index| place(&program, index)).collect();
+    assert_eq!(
+        places,
+        [[1.0, 2.0, -22.0], [20.0, 2.0, -22.0], [20.0, 2.0, -22.0]]
+    );
+}
+
+#[test]
+fn reaming_universal_drilling_and_pecking_go_their_ways() {
+    let reamed = blocks_of(
+        "CYCL DEF 201 REAMING ~\n Q200=+2 ~\n Q201=-5 ~\n Q206=+100 ~\n Q211=+0 ~\n Q208=+250 ~\n Q203=+0 ~\n Q204=+10\nL X+1 Y+1 M89\nL X+2 M99\nL X+3\n",
+    );
+    let hole = [
+        "L Z+2 R0 FMAX",
+        "L Z-5 R0 F100",
+        "L Z+2 R0 F250",
+        "L Z+10 R0 FMAX",
+    ];
+    let mut expected = vec!["L X+1 Y+1"];
+    expected.extend(hole);
+    expected.push("L X+2");
+    expected.extend(hole);
+    expected.push("L X+3");
+    assert_eq!(reamed, expected);
+    // One chip is broken in the hole, then it is cleared; pecks become smaller.
+    let universal = blocks_of(
+        "CYCL DEF 203 UNIVERSAL ~\n Q200=+1 ~\n Q201=-10 ~\n Q206=+90 ~\n Q202=+4 ~\n Q210=+0 ~\n Q203=+0 ~\n Q204=+0 ~\n Q212=+1 ~\n Q213=+1 ~\n Q205=+2 ~\n Q211=+0 ~\n Q208= MAX ~\n Q256=+0.2\nL X+1 FMAX M99\n",
+    );
+    assert_eq!(
+        universal,
+        [
+            "L X+1 FMAX",
+            "L Z+1 R0 FMAX",
+            "L Z-4 R0 F90",
+            "L Z-3.8 R0 FMAX",
+            "L Z-7 R0 F90",
+            "L Z+1 R0 FMAX",
+            "L Z-6 R0 FMAX",
+            "L Z-9 R0 F90",
+            "L Z-8.8 R0 FMAX",
+            "L Z-10 R0 F90",
+            "L Z+1 R0 FMAX",
+        ]
+    );
+    let pecked = blocks_of(
+        "CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP 2\nCYCL DEF 1.2 DEPTH -6\nCYCL DEF 1.3 PECKG 4\nCYCL DEF 1.4 DWELL 1\nCYCL DEF 1.5 F80\nL Z+2 FMAX M99\n",
+    );
+    assert_eq!(
+        pecked,
+        [
+            "L Z+2 FMAX",
+            "L IZ-6 R0 F80",
+            "L IZ+6 R0 FMAX",
+            "L IZ-5.4 R0 FMAX",
+            "L IZ-2.6 R0 F80",
+            "CYCL DEF 9.0 DWELL TIME",
+            "CYCL DEF 9.1 DWELL 1",
+            "L IZ+8 R0 FMAX",
+        ]
+    );
+}
+
+#[test]
+fn runs_are_bounded_and_faults_name_their_line() {
+    let cases = [
+        (
+            "LBL 1\nCALL LBL 1\nLBL 0\n",
+            "line 3: `CALL LBL 1`: calls and repeats are nested more than 20 deep",
+        ),
+        (
+            "LBL 1\nFN 9: IF +0 EQU +0 GOTO LBL 1\n",
+            "more than a million blocks that write nothing",
+        ),
+        (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 65534\nLBL 2\nL IX+1\nCALL LBL 2 REP 65534\nLBL 3\nCALL LBL 1 REP 65534\n",
+            "more than 5 million blocks",
+        ),
+        (
+            "CALL LBL 5\n",
+            "line 2: `CALL LBL 5`: there is no LBL 5; write the label",
+        ),
+        (
+            "LBL 1\nL IX+1\nCALL LBL 1 REP 0\n",
+            "not a whole number from 1 to 65534",
+        ),
+        (
+            "L X+Q7\n",
+            "line 2: `L X+Q7`: Q7 has no value that the program states; state it before: FN 0: Q1 = +5",
+        ),
+        (
+            "Q1 = Q2 + 1\nL X+Q1\n",
+            "line 2: `Q1 = Q2 + 1`: Q2 has no value",
+        ),
+        ("Q1 = 1 / 0\nL X+Q1\n", "divides by zero"),
+        ("Q1 = SQRT -1\nL X+Q1\n", "no finite value"),
+        ("Q1 = FOO 3\nL X+Q1\n", "the function FOO is not known"),
+        ("Q1 = (1 + 2\nL X+Q1\n", "a bracket is not closed"),
+        ("Q1 = 1 2\nL X+Q1\n", "not understood to its end"),
+        (
+            "FN 18: SYSREAD Q3 = ID270 NR1 IDX1\nL X+Q3\n",
+            "line 3: `L X+Q3`: Q3 has no value",
+        ),
+        (
+            "CALL PGM OTHER\n",
+            "the program `OTHER` that it calls is not among the files; give its file together",
+        ),
+        ("L X+1 M99\n", "no cycle is defined"),
+        (
+            "CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
+            "line 5: `L X+1 M99`: cycle 207 is called, and what it does is not followed",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=+10 ~\n Q206=+5\nL X+1 M99\n",
+            "the depth of the cycle is above the surface",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
+            "the cycle has no feed",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q395=+1\nL X+1 M99\n",
+            "the drill's full diameter (Q395)",
+        ),
+        ("Q1 = 1\n/L X+Q1\n", "skipped or not"),
+        (
+            "FN 14: ERROR = 1000\nCALL LBL 1\nLBL 1\nL X+1\nLBL 0\n",
+            "ends here with an error of its own",
+        ),
+    ];
+    for (body, part) in cases {
+        let message = refused(body);
+        assert!(message.contains(part), "{body}: {message}");
+    }
+    let deep = format!("Q1 = {}1\nL X+Q1\n", "(".repeat(100_000));
+    assert!(refused(&deep).contains("nested more than 64 deep"));
+}
+
+#[test]
+fn cycles_that_are_not_followed_stay_where_that_is_asked_for() {
+    let body =
+        text("Q1 = 4\nCYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+Q1 Y+1 FMAX M99\n");
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let flat = expand_heidenhain(vec![SourceFile::new("a.h", body)], &options).unwrap();
+    let output = String::from_utf8_lossy(flat.file.bytes()).into_owned();
+    assert!(output.contains("\nL X+4 Y+1 FMAX M99\n"), "{output}");
+    let program = read_heidenhain(vec![flat.file], &options).unwrap();
+    assert!(program.motions[0].target.pose().is_none());
+}
