@@ -13,6 +13,7 @@ mod fields;
 mod harness;
 mod krl;
 mod ls;
+mod making;
 mod numbers;
 mod orientations;
 mod paths;

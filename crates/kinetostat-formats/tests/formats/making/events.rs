@@ -1,0 +1,131 @@
+//! What stands beside the moves: notes with their lines, pauses that stay, and what is lost, named.
+
+use kinetostat_formats::*;
+
+use super::{cell, gcode, made, text_of};
+
+const TEXT: &str = "G21 G90 (setup)\nS8000 M3\nG0 X0 Y0 Z5\nM8\nG1 Z-1 F300\nG4 X0.5\nG1 X10 M9\nM0\nG1 X20\nM117 hello\nM5\nM30\n";
+
+#[test]
+fn they_are_notes_at_their_places() {
+    let text = text_of(&made(TEXT, &cell(), MakeLanguage::Krl), 0);
+    let order = [
+        "; line 1: (setup",
+        "; line 2: S8000 M3",
+        "PTP {",
+        "; line 4: M8",
+        "Z -1.0",
+        "WAIT SEC 0.5",
+        "; line 7: M9",
+        "X 10.0",
+        "HALT",
+        "X 20.0",
+        "; line 11: M5",
+        "; line 12: M30",
+    ];
+    let mut at = 0;
+    for words in order {
+        let words = words.replace("(setup", "[setup]");
+        let found = text[at..]
+            .find(&words)
+            .unwrap_or_else(|| panic!("{words} behind {at}: {text}"));
+        at += found;
+    }
+    let rapid = text_of(&made(TEXT, &cell(), MakeLanguage::Rapid), 0);
+    assert!(
+        rapid.contains("WaitTime 0.5;\n") && rapid.contains("Stop;\n"),
+        "{rapid}"
+    );
+    let ls = text_of(&made(TEXT, &cell(), MakeLanguage::FanucLs), 0);
+    assert!(
+        ls.contains("  WAIT   0.50(sec) ;\n") && ls.contains("  PAUSE ;\n"),
+        "{ls}"
+    );
+}
+
+#[test]
+fn what_is_lost_is_named() {
+    let made = made(TEXT, &cell(), MakeLanguage::Krl);
+    let said = |words: &str| {
+        made.findings
+            .iter()
+            .any(|finding| finding.message.contains(words))
+    };
+    assert!(
+        said("spindle: 2 lines are notes now, and do nothing there (line 2: S8000 M3)"),
+        "{:?}",
+        made.findings
+    );
+    assert!(said(
+        "coolant: 2 lines are notes now, and do nothing there (line 4: M8)"
+    ));
+    assert!(said("other statements: 1 lines"));
+    assert!(!said("dwells") && !said("stops: "));
+    let table = super::made(TEXT, &cell(), MakeLanguage::Csv);
+    assert!(
+        table
+            .findings
+            .iter()
+            .any(|f| f.message.contains("stops: 1 lines"))
+    );
+}
+
+#[test]
+fn a_dwell_of_unknown_unit_is_a_note() {
+    let made = made(
+        "G21 G90\nG0 X0 Y0 Z0\nG4 P500\nG1 X5 F60\n",
+        &cell(),
+        MakeLanguage::Rapid,
+    );
+    let text = text_of(&made, 0);
+    assert!(
+        !text.contains("WaitTime") && text.contains("! line 3: G4 P500"),
+        "{text}"
+    );
+    assert!(
+        made.findings
+            .iter()
+            .any(|f| f.message.contains("dwells: 1 lines"))
+    );
+}
+
+#[test]
+fn motions_before_a_pause_stop_exactly() {
+    let text = text_of(&made(TEXT, &cell(), MakeLanguage::Krl), 0);
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| line.starts_with("LIN"))
+        .collect();
+    // Before the dwell, before the stop, at the end.
+    assert!(lines.iter().all(|line| !line.ends_with("C_DIS")), "{text}");
+    let (_, path) = gcode("G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F60\nG1 X5\nG1 X9\nG0 Z5\nG0 X0\n");
+    let made = make(&path, &[], &cell(), MakeLanguage::Krl).unwrap();
+    let text = text_of(&made, 0);
+    let ends: Vec<bool> = text
+        .lines()
+        .filter(|l| l.starts_with("LIN"))
+        .map(|l| l.ends_with(" C_DIS"))
+        .collect();
+    assert_eq!(ends, [true, true, false, true, false], "{text}");
+}
+
+#[test]
+fn notes_end_no_comment_and_no_line() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\n(a \u{e4} \u{1b}[31m \"q\")\n; b ) ; ! c\nG1 X5 F60\n";
+    for language in [
+        MakeLanguage::Krl,
+        MakeLanguage::Rapid,
+        MakeLanguage::FanucLs,
+        MakeLanguage::Apt,
+        MakeLanguage::Csv,
+        MakeLanguage::Gcode,
+    ] {
+        let made = made(text, &cell(), language);
+        assert_eq!(made.kept.motions, 2, "{language:?}");
+        assert!(
+            text_of(&made, 0)
+                .bytes()
+                .all(|byte| matches!(byte, b'\n' | b'\t' | b' '..=b'~'))
+        );
+    }
+}
