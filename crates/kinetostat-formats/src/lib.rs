@@ -66,6 +66,7 @@ pub use making::events::{EventKind, SourceEvent, events_of_gcode};
 pub use making::fault::{MakeError, MakeFinding};
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
+pub use making::of_robot::make_of_robot;
 pub use making::robot_events::events_of_robot;
 pub use making::template::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
 pub use model::frame::{Frame, FrameUse};

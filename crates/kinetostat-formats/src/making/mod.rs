@@ -17,6 +17,7 @@ pub(crate) mod ls;
 pub(crate) mod make;
 pub(crate) mod names;
 pub(crate) mod numbers;
+pub(crate) mod of_robot;
 pub(crate) mod parts;
 pub(crate) mod pieces;
 pub(crate) mod plan;

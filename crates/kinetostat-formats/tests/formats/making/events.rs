@@ -111,7 +111,7 @@ fn motions_before_a_pause_stop_exactly() {
 
 #[test]
 fn notes_end_no_comment_and_no_line() {
-    let text = "G21 G90\nG0 X0 Y0 Z0\n(a \u{e4} \u{1b}[31m \"q\")\n; b ) ; ! c\nG1 X5 F60\n";
+    let text = "G21 G90\nG0 X0 Y0 Z0\n(a \u{e4} \"q\")\n; b ) ; ! c\nG1 X5 F60\n";
     for language in [
         MakeLanguage::Krl,
         MakeLanguage::Rapid,
@@ -120,7 +120,10 @@ fn notes_end_no_comment_and_no_line() {
         MakeLanguage::Csv,
         MakeLanguage::Gcode,
     ] {
-        let made = made(text, &cell(), language);
+        let (program, path) = gcode(text);
+        let mut events = events_of_gcode(&program, &path);
+        events[0].text.push_str(" \u{1b}[31m\r\n END ");
+        let made = make(&path, &events, &cell(), language).unwrap();
         assert_eq!(made.kept.motions, 2, "{language:?}");
         assert!(
             text_of(&made, 0)
