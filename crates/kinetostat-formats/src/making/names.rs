@@ -40,7 +40,7 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
             format!(
                 "{what} is `{shown}`, and controllers take letters, digits and _, a letter first"
             ),
-            "name it so",
+            "name it so: a program is called as its output, or as program_name in the template says",
         ));
     }
     if name.len() > most {
@@ -49,7 +49,7 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
                 "{what}, `{shown}`, has {} characters, {most} are allowed here",
                 name.len()
             ),
-            "give a shorter one",
+            "give a shorter one: a program is called as its output, or as program_name in the template says",
         ));
     }
     Ok(())
