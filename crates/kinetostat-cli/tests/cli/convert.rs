@@ -81,8 +81,8 @@ fn g_code_becomes_a_program_for_each_robot() {
             "part.ngc: 5 moves are 5 motions in",
             "Read again and compared with the path: places within ",
             ", feeds equal.",
-            "spindle: 1 lines are notes now, and do nothing there (line 2: S8000 M3)",
-            "coolant: 1 lines are notes now",
+            "spindle: 1 line is a note now, and does nothing there (line 2: S8000 M3)",
+            "coolant: 1 line is a note now",
             &format!("Written {file}"),
         ] {
             assert!(said.contains(needle), "{needle}: {said}");

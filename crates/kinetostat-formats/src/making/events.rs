@@ -149,8 +149,12 @@ fn rest_of(bytes: &[u8]) -> Option<(EventKind, String)> {
         }
         rest = rest.trim_start();
     }
-    let kind = kinds.iter().min()?;
-    Some((*kind, words.join(" ")))
+    let kind = match kinds.iter().min()? {
+        // The machine's switch says whether such a block runs: it is a note.
+        EventKind::Stop if text.trim_start().starts_with('/') => EventKind::Other,
+        kind => *kind,
+    };
+    Some((kind, words.join(" ")))
 }
 
 /// What a word is about; none where it is part of a motion.
@@ -164,6 +168,8 @@ fn kind_of(letter: char, value: f64, dwells: bool) -> Option<EventKind> {
         'P' | 'X' | 'U' if dwells => Some(EventKind::Dwell),
         'X' | 'Y' | 'Z' | 'I' | 'J' | 'K' | 'R' | 'F' | 'N' | 'A' | 'B' | 'C' | 'E' | 'U' | 'V'
         | 'W' => None,
+        // The number of a program.
+        'O' => Some(EventKind::Comment),
         'S' => Some(EventKind::Spindle),
         'T' | 'H' | 'D' => Some(EventKind::Tool),
         'M' => Some(match tenths as i64 / 10 {

@@ -1,16 +1,18 @@
 //! From a path and what stands beside it to the steps of a program.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Path};
+use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::events::{EventKind, SourceEvent};
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::{Limits, MakeLanguage};
 use crate::making::numbers::plain;
-use crate::making::pieces::{Followed, Shape, pieces_of};
+use crate::making::otherwise::{Otherwise, further_axes};
+use crate::making::pieces::{Shape, pieces_of};
 use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::stops::stops;
 use crate::making::template::{PlacesUnknown, Rapids, Template};
 
 /// Steps, and what a person should know of them.
@@ -37,8 +39,7 @@ pub(crate) fn plan(
         steps: Vec::with_capacity(path.moves.len() + events.len()),
         faults: Vec::new(),
         findings: Vec::new(),
-        followed: BTreeMap::new(),
-        lost: BTreeMap::new(),
+        otherwise: Otherwise::default(),
         tool: None,
         begun: false,
     };
@@ -55,10 +56,7 @@ struct Planner<'p> {
     steps: Vec<Step>,
     faults: Vec<MakeError>,
     findings: Vec<MakeFinding>,
-    /// By why: how many arcs are followed by lines, the line of the first, and by how many lines.
-    followed: BTreeMap<Followed, (usize, usize, usize)>,
-    /// By kind: how many events are notes alone, with the first of them.
-    lost: BTreeMap<EventKind, (usize, String)>,
+    otherwise: Otherwise,
     tool: Option<u32>,
     begun: bool,
 }
@@ -153,7 +151,11 @@ impl Planner<'_> {
     }
 
     fn event(&mut self, event: &SourceEvent) {
-        let note = format!("{}: {}", event.place, plain(&event.text));
+        let note = match event.text.contains(COMPENSATED_MARK) {
+            // It is looked for in this very form, and fills the remark of a TP program.
+            true => COMPENSATED_MARK.to_owned(),
+            false => format!("{}: {}", event.place, plain(&event.text)),
+        };
         self.steps.push(Step::Note(note.clone()));
         let robot = matches!(
             self.language,
@@ -171,8 +173,7 @@ impl Planner<'_> {
             }
             _ => {}
         }
-        let lost = self.lost.entry(event.kind).or_insert((0, note));
-        lost.0 += 1;
+        self.otherwise.lose(event.kind, note);
     }
 
     /// A move whose end is not known in the part.
@@ -270,9 +271,8 @@ impl Planner<'_> {
             pieces.followed = None;
         }
         if let Some(followed) = pieces.followed {
-            let entry = self.followed.entry(followed).or_insert((0, motion.line, 0));
-            entry.0 += 1;
-            entry.2 += pieces.ends.len();
+            self.otherwise
+                .follow(followed, motion.line, pieces.ends.len());
         }
         let rapid = motion.kind == MoveKind::Rapid;
         let mut from = 0.0;
@@ -320,48 +320,11 @@ impl Planner<'_> {
             return Err(self.faults);
         }
         stops(&mut self.steps);
-        for (why, (arcs, line, lines)) in &self.followed {
-            let reason = match why {
-                Followed::Helix => "they climb, and circles of robots are flat",
-                Followed::Language => match self.language {
-                    MakeLanguage::Gcode => "they do not lie about the z axis",
-                    _ => "there are no arcs here that all readers take alike",
-                },
-                Followed::Small => "they are too small for a circle of the controller",
-                Followed::Spiral => "their radius is another one at the end than at the start",
-            };
-            self.findings.push(MakeFinding::of(
-                *line,
-                format!(
-                    "{arcs} arcs, here first, are followed by {lines} lines within {} mm: {reason}",
-                    self.template.tolerance_mm
-                ),
-            ));
-        }
-        for (kind, (count, first)) in &self.lost {
-            self.findings.push(MakeFinding::of(
-                None,
-                format!(
-                    "{}: {count} lines are notes now, and do nothing there ({first})",
-                    kind.words()
-                ),
-            ));
-        }
-        let extra = self
-            .path
-            .moves
-            .iter()
-            .find(|motion| !motion.extra.is_empty());
-        if let Some(motion) = extra {
-            let letters: BTreeSet<char> = (self.path.moves.iter())
-                .flat_map(|motion| motion.extra.iter().map(|extra| extra.letter))
-                .collect();
-            let letters: Vec<String> = letters.iter().map(char::to_string).collect();
-            self.findings.push(MakeFinding::of(
-                motion.line,
-                format!("the words of the axes {} are left out", letters.join(", ")),
-            ));
-        }
+        let otherwise = self
+            .otherwise
+            .findings(self.language, self.template.tolerance_mm);
+        self.findings.extend(otherwise);
+        self.findings.extend(further_axes(self.path));
         Ok(Planned {
             steps: self.steps,
             findings: self.findings,
@@ -381,20 +344,5 @@ fn centre(motion: &Move) -> Vector3<f64> {
     match &motion.curve {
         kinetostat_program::Curve::Arc(arc) => arc.centre,
         kinetostat_program::Curve::Line => motion.start,
-    }
-}
-
-/// Motions that stop: before a pause and another tool, where rapids and feeds meet, and at the end.
-fn stops(steps: &mut [Step]) {
-    let mut next: Option<bool> = None;
-    for step in steps.iter_mut().rev() {
-        match step {
-            Step::Motion(motion) => {
-                motion.exact |= next != Some(motion.rapid);
-                next = Some(motion.rapid);
-            }
-            Step::Wait(_) | Step::Stop | Step::Tool(_) => next = None,
-            Step::Note(_) => {}
-        }
     }
 }

@@ -57,6 +57,16 @@ fn of_form(language: Language) -> &'static [&'static str] {
 }
 
 /// The events of a robot's program: statements beside its motions, of the file with the motions.
+///
+/// ```
+/// use kinetostat_formats::{EventKind, ReadOptions, SourceFile, events_of_robot, read_rapid};
+///
+/// let text = "MODULE M\nPROC main()\nSetDO doSpindle,1;\n! groove\n\
+///     MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tool0;\nENDPROC\nENDMODULE";
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+/// let kinds: Vec<_> = events_of_robot(&program).iter().map(|event| (event.line, event.kind)).collect();
+/// assert_eq!(kinds, [(3, EventKind::Other), (4, EventKind::Comment)]);
+/// ```
 #[must_use]
 pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
     let file = program.motions.first().map_or(0, |motion| motion.file);

@@ -75,7 +75,7 @@ fn a_helix_is_followed_by_lines_within_the_tolerance() {
             .unwrap();
         assert!(
             said.message
-                .contains("they climb, and circles of robots are flat"),
+                .contains("circles of robots are flat, and this climbs"),
             "{said:?}"
         );
     }
@@ -104,7 +104,7 @@ fn arcs_in_other_planes_stay_arcs_for_robots() {
     assert!(
         flat.findings
             .iter()
-            .any(|f| f.message.contains("they do not lie about the z axis"))
+            .any(|f| f.message.contains("it does not lie about the z axis"))
     );
 }
 

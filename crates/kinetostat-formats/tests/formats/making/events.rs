@@ -59,14 +59,14 @@ fn what_is_lost_is_named() {
     assert!(said(
         "coolant: 2 lines are notes now, and do nothing there (line 4: M8)"
     ));
-    assert!(said("other statements: 1 lines"));
+    assert!(said("other statements: 1 line "));
     assert!(!said("dwells") && !said("stops: "));
     let table = super::made(TEXT, &cell(), MakeLanguage::Csv);
     assert!(
         table
             .findings
             .iter()
-            .any(|f| f.message.contains("stops: 1 lines"))
+            .any(|f| f.message.contains("stops: 1 line "))
     );
 }
 
@@ -85,7 +85,7 @@ fn a_dwell_of_unknown_unit_is_a_note() {
     assert!(
         made.findings
             .iter()
-            .any(|f| f.message.contains("dwells: 1 lines"))
+            .any(|f| f.message.contains("dwells: 1 line "))
     );
 }
 
@@ -130,5 +130,58 @@ fn notes_end_no_comment_and_no_line() {
                 .bytes()
                 .all(|byte| matches!(byte, b'\n' | b'\t' | b' '..=b'~'))
         );
+    }
+}
+
+#[test]
+fn a_block_that_a_switch_leaves_out_stops_nothing() {
+    let made = made(
+        "O100\nG21 G90\nG0 X0 Y0 Z0\n/M0\nG1 X5 F60\n",
+        &cell(),
+        MakeLanguage::Krl,
+    );
+    let text = text_of(&made, 0);
+    assert!(
+        !text.contains("HALT")
+            && text.contains("; line 4: M0\n")
+            && text.contains("; line 1: O100\n"),
+        "{text}"
+    );
+}
+
+/// What was compensated is known to be so in the other language, too.
+#[test]
+fn the_mark_of_a_compensated_program_stays_whole() {
+    let text = format!(
+        "({})\nG21 G90\nG0 X0 Y0 Z0\nG1 X5 F60\n",
+        kinetostat_program::COMPENSATED_MARK
+    );
+    for (into, language) in super::ROBOTS {
+        let made = made(&text, &cell(), into);
+        assert!(
+            text_of(&made, 0).contains(kinetostat_program::COMPENSATED_MARK),
+            "{}",
+            text_of(&made, 0)
+        );
+        let program = super::read_made(&made, language);
+        let path = path_of(&program, &PathOptions::default()).unwrap();
+        let robot = Correctable {
+            program: &program,
+            path: &path,
+            reading: &ReadOptions::default(),
+            making: &PathOptions::default(),
+            writing: &WriteOptions::default(),
+        };
+        let writing = kinetostat_program::WriteOptions::default();
+        let refused = kinetostat_program::MachineProgram::write(
+            &robot,
+            &kinetostat_program::NoCorrection,
+            &writing,
+            &kinetostat_program::Unwatched,
+        );
+        assert!(matches!(
+            refused,
+            Err(kinetostat_program::WriteError::AlreadyCompensated { .. })
+        ));
     }
 }

@@ -5,6 +5,7 @@ mod arcs;
 mod events;
 mod of_robots;
 mod parts;
+mod properties;
 mod refused;
 mod round_trips;
 

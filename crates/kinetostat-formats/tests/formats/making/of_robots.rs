@@ -50,7 +50,7 @@ fn a_program_of_abb_runs_on_others() {
         assert!(
             made.findings
                 .iter()
-                .any(|f| f.message.starts_with("other statements: 1 lines"))
+                .any(|f| f.message.starts_with("other statements: 1 line "))
         );
     }
 }

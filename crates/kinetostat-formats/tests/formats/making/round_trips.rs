@@ -108,6 +108,8 @@ fn poses_and_configurations_of_the_template_are_written() {
     let mut template = cell();
     template.base.pose = Some(nalgebra::Isometry3::translation(800.0, -20.5, 400.0));
     template.tool.frame.pose = Some(nalgebra::Isometry3::translation(0.0, 0.0, 187.25));
+    template.acceleration_m_per_s2 = Some(2.5);
+    template.rapids = Rapids::Joint;
     template.start_joints_deg = Some(vec![0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     for (into, language, configuration, written) in [
         (MakeLanguage::Krl, Language::Krl, "S 2, T 35", ",S 2, T 35}"),
