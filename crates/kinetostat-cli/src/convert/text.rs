@@ -73,9 +73,13 @@ pub(crate) fn answer(
 
 /// The largest differences.
 fn differences(kept: &Kept) -> String {
+    let within = |what: &str, value: f64, unit: &str| match value == 0.0 {
+        true => format!("{what} equal"),
+        false => format!("{what} within {value:.1e} {unit}"),
+    };
     let mut parts = vec![
-        format!("places within {:.1e} mm", kept.position_mm),
-        format!("orientations within {:.1e} rad", kept.orientation_rad),
+        within("places", kept.position_mm, "mm"),
+        within("orientations", kept.orientation_rad, "rad"),
     ];
     if kept.arc_mm > 0.0 {
         parts.push(format!("arcs within {:.1e} mm", kept.arc_mm));

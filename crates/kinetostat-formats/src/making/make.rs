@@ -9,7 +9,7 @@ use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::checked;
 use crate::making::plan::plan;
-use crate::making::step::{Step, Way};
+use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::template::{Rapids, Template};
 use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
 
@@ -127,6 +127,13 @@ fn taken_for_granted(
             });
         }
         say(zones(template, language));
+        let straight = |motion: &MadeMotion| motion.rapid && motion.way == Way::Line;
+        if steps.iter().filter_map(Step::motion).any(straight) {
+            say(format!(
+                "rapids are straight motions at {} mm/s",
+                template.rapid_speed_mm_per_s
+            ));
+        }
     }
     if template.rapids == Rapids::Joint
         && steps

@@ -40,10 +40,16 @@ pub(crate) fn angles(
         _ => vec![0.0; 3],
     };
     let numbers = text.numbers_of(orientation, &near);
-    numbers
-        .iter()
-        .map(|number| fixed(*number, decimals))
-        .collect()
+    let half_turn = fixed(-180.0, decimals);
+    let of_angle = |number: &f64| {
+        let written = fixed(*number, decimals);
+        // Half a turn backwards is half a turn.
+        match text != OrientationText::Quaternion && written == half_turn {
+            true => half_turn[1..].to_owned(),
+            false => written,
+        }
+    };
+    numbers.iter().map(of_angle).collect()
 }
 
 /// Longest text of a note, in characters.
