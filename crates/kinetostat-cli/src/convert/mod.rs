@@ -4,12 +4,11 @@
 //! compared with the path before it is written, and says what is otherwise.
 
 pub(crate) mod arguments;
+mod file_names;
 mod target_word;
 mod template_file;
 mod template_format;
 mod text;
-
-use std::path::Path;
 
 use kinetostat_formats::{
     Made, MakeError, MakeLanguage, SourceEvent, events_of_gcode, make, make_of_robot,
@@ -134,16 +133,4 @@ fn writing(args: &ConvertArgs) -> WritingFlags<'_> {
         out: Some(&args.out),
         ..WritingFlags::default()
     }
-}
-
-/// The name of a file without its folder and its ending.
-fn stem(path: &Path) -> String {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy());
-    stem.unwrap_or_default().into_owned()
-}
-
-/// The name of a file without its folder.
-fn file_name(path: &Path) -> String {
-    let name = path.file_name().map(|name| name.to_string_lossy());
-    name.unwrap_or_default().into_owned()
 }

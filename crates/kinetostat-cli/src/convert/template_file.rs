@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Vector3};
 use serde_spanned::Spanned;
 
 use crate::convert::arguments::ConvertArgs;
-use crate::convert::stem;
+use crate::convert::file_names::stem;
 use crate::convert::template_format::{
     FrameTable, NumberedToolTable, PlacesWord, RapidsWord, TemplateTable, ToolTable,
 };

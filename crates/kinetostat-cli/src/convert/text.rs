@@ -5,8 +5,8 @@ use std::path::Path;
 use kinetostat_formats::{Kept, Made, MakeLanguage};
 use kinetostat_machining::number::counted;
 
+use crate::convert::file_names::{file_name, stem};
 use crate::convert::template_file::TemplateFile;
-use crate::convert::{file_name, stem};
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::ui::layout::{item, wrapped};
