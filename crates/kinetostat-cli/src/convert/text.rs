@@ -73,7 +73,8 @@ pub(crate) fn answer(
 
 /// The largest differences.
 fn differences(kept: &Kept) -> String {
-    let within = |what: &str, value: f64, unit: &str| match value == 0.0 {
+    // Less than that is the arithmetic's.
+    let within = |what: &str, value: f64, unit: &str| match value < 1e-12 {
         true => format!("{what} equal"),
         false => format!("{what} within {value:.1e} {unit}"),
     };

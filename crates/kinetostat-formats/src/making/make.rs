@@ -47,7 +47,7 @@ const MADE_BY: &str = "made by kinetostat convert";
 /// let made = make(&path, &events_of_gcode(&program, &path), &template, MakeLanguage::Krl).unwrap();
 /// let text = String::from_utf8(made.files[0].1.clone())?;
 /// assert!(text.contains("; line 2: S8000 M3\nPTP {X 0.000000,Y 0.000000,Z 5.000000,A 0.00000000,B 0.00000000,C 180.00000000}\n"));
-/// assert!(text.contains("$VEL.CP=0.005\nLIN {X 0.000000,Y 0.000000,Z -1.000000,"));
+/// assert!(text.contains("$VEL.CP=0.005\n$APO.CDIS=0.3\nLIN {X 0.000000,Y 0.000000,Z -1.000000,"));
 /// assert!(text.contains("CIRC {X 7.071068,Y 2.928932,"));
 /// assert!(made.kept.position_mm < 1e-6 && made.kept.orientation_rad < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
