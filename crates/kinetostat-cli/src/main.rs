@@ -10,6 +10,7 @@ mod assemble;
 mod check;
 mod command_line;
 mod compensate;
+mod convert;
 mod curve;
 mod deflect;
 mod demo;
@@ -84,6 +85,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Force(args) => force::run(&args),
         Command::Engagement(args) => engagement::run(&args),
         Command::Expand(args) => expand::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Dialect(args) => dialect::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),

@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand};
 use crate::assemble::arguments::AssembleArgs;
 use crate::check::arguments::CheckArgs;
 use crate::compensate::arguments::CompensateArgs;
+use crate::convert::arguments::ConvertArgs;
 use crate::curve::arguments::CurveArgs;
 use crate::deflect::arguments::DeflectArgs;
 use crate::demo::arguments::DemoArgs;
@@ -77,6 +78,7 @@ pub(crate) enum Command {
     Force(Box<ForceArgs>),
     Engagement(Box<EngagementArgs>),
     Expand(Box<ExpandArgs>),
+    Convert(Box<ConvertArgs>),
     Dialect(DialectArgs),
     Check(CheckArgs),
     Import(Box<ImportArgs>),

@@ -31,6 +31,22 @@ impl ReadProgram<'_> {
         }
     }
 
+    /// The program in G-code, if it is one.
+    pub(crate) fn gcode(&self) -> Option<(&Program, &ToolPath)> {
+        match self {
+            Self::Gcode(read) => Some((&read.program, &read.path)),
+            Self::Robot(_) => None,
+        }
+    }
+
+    /// The program of a robot, if it is one.
+    pub(crate) fn robot(&self) -> Option<&RobotRead<'_>> {
+        match self {
+            Self::Gcode(_) => None,
+            Self::Robot(read) => Some(read),
+        }
+    }
+
     /// Lines of the program's file.
     pub(crate) fn line_count(&self) -> usize {
         match self {

@@ -12,6 +12,7 @@ mod checks_under_load;
 mod commands;
 mod controller;
 mod controller_poses;
+mod convert;
 mod curves;
 mod curves_of_machines;
 mod curves_refused;

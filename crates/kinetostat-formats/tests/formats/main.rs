@@ -14,6 +14,7 @@ mod harness;
 mod heidenhain;
 mod krl;
 mod ls;
+mod making;
 mod numbers;
 mod orientations;
 mod paths;

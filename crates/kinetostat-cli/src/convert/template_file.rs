@@ -1,0 +1,177 @@
+//! A template file read, options over it.
+
+use std::path::Path;
+
+use kinetostat_formats::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
+use kinetostat_model::schema::Placement as PoseTable;
+use nalgebra::{Isometry3, Vector3};
+use serde_spanned::Spanned;
+
+use crate::convert::arguments::ConvertArgs;
+use crate::convert::file_names::stem;
+use crate::convert::template_format::{
+    FrameTable, NumberedToolTable, PlacesWord, RapidsWord, TemplateTable, ToolTable,
+};
+use crate::files::input_files::InputFiles;
+use crate::job::source::Source;
+use crate::place::orientation;
+use crate::ui::failure::Answer;
+
+/// A template with the name of its file.
+pub(crate) struct TemplateFile {
+    pub(crate) template: Template,
+    /// None where there is no file.
+    pub(crate) name: Option<String>,
+}
+
+/// What is said of a mistake that is not of the usual kinds.
+const HELP: &str = "correct this value; `kinetostat help convert` shows a whole template";
+
+impl TemplateFile {
+    /// Of the options and the file that they name.
+    pub(crate) fn read(files: &InputFiles, args: &ConvertArgs) -> Answer<Self> {
+        let mut file = match &args.template {
+            Some(path) => Self::of_file(files, path)?,
+            None => Self {
+                template: Template::default(),
+                name: None,
+            },
+        };
+        let template = &mut file.template;
+        if file.name.is_none() || template.program_name.is_empty() {
+            template.program_name = stem(&args.out);
+        }
+        if let Some(text) = &args.tool_orientation {
+            template.tool_orientation = Some(orientation::option("--tool-orientation", text)?);
+        }
+        template.tolerance_mm = args.tolerance_mm.unwrap_or(template.tolerance_mm);
+        Ok(file)
+    }
+
+    fn of_file(files: &InputFiles, path: &Path) -> Answer<Self> {
+        let text = files.text("template", path)?;
+        let name = path.display().to_string();
+        let source = Source {
+            file: &name,
+            text: &text,
+        };
+        let table: TemplateTable = source.read_as(HELP)?;
+        if *table.schema.get_ref() != 1 {
+            return Err(source.error(
+                table.schema.span(),
+                &format!("schema {} is not known", table.schema.get_ref()),
+                "write  schema = 1",
+            ));
+        }
+        Ok(Self {
+            template: template(source, table)?,
+            name: Some(name),
+        })
+    }
+}
+
+fn template(source: Source<'_>, table: TemplateTable) -> Answer<Template> {
+    let mut template = Template::default();
+    // Without a name that of the output counts.
+    template.program_name = table.program_name.unwrap_or_default();
+    if let Some(written) = &table.tool_orientation {
+        let turn = pose(source, written)?;
+        if turn.translation.vector.norm() > 0.0 {
+            return Err(source.error(
+                written.span(),
+                "this is an orientation, but a position is given in it",
+                "write the tool's tip as pose under [tool]",
+            ));
+        }
+        template.tool_orientation = Some(turn.rotation);
+    }
+    if table.rapids == Some(RapidsWord::Joint) {
+        template.rapids = Rapids::Joint;
+    }
+    if table.places_unknown == Some(PlacesWord::LeftOut) {
+        template.places_unknown = PlacesUnknown::LeftOut;
+    }
+    let set = |to: &mut f64, value: Option<f64>| *to = value.unwrap_or(*to);
+    set(
+        &mut template.rapid_speed_mm_per_s,
+        table.rapid_speed_mm_per_s,
+    );
+    set(&mut template.joint_speed_percent, table.joint_speed_percent);
+    set(&mut template.tolerance_mm, table.tolerance_mm);
+    template.unstated_feed_mm_per_s = table.unstated_feed_mm_per_s;
+    template.acceleration_m_per_s2 = table.acceleration_m_per_s2;
+    template.configuration = table.configuration;
+    template.start_joints_deg = table.start_joints_deg;
+    template.most_points = table.most_points;
+    template.speed_decimals = table.speed_decimals;
+    let count = |to: &mut usize, value: Option<usize>| *to = value.unwrap_or(*to);
+    count(&mut template.position_decimals, table.position_decimals);
+    count(&mut template.angle_decimals, table.angle_decimals);
+    count(&mut template.quaternion_decimals, table.quaternion_decimals);
+    let usual = Zones::default();
+    template.zones = Zones {
+        rapids_mm: table.zones.rapids_mm.unwrap_or(usual.rapids_mm),
+        feeds_mm: table.zones.feeds_mm.unwrap_or(usual.feeds_mm),
+        rapids_percent: table.zones.rapids_percent.unwrap_or(usual.rapids_percent),
+        feeds_percent: table.zones.feeds_percent.unwrap_or(usual.feeds_percent),
+    };
+    template.base = frame(source, table.base)?;
+    template.tool = tool(source, table.tool)?;
+    for written in table.tools {
+        let span = written.span();
+        let NumberedToolTable {
+            in_program,
+            number,
+            name,
+            pose,
+            mass_kg,
+            centre_of_mass_mm,
+        } = written.into_inner();
+        let table = ToolTable {
+            number,
+            name,
+            pose,
+            mass_kg,
+            centre_of_mass_mm,
+        };
+        let stated = tool(source, table)?;
+        if template.tools.insert(in_program, stated).is_some() {
+            return Err(source.error(
+                span,
+                &format!("the tool {in_program} is stated twice"),
+                "keep one of the two",
+            ));
+        }
+    }
+    Ok(template)
+}
+
+/// A pose in mm.
+fn pose(source: Source<'_>, written: &Spanned<PoseTable>) -> Answer<Isometry3<f64>> {
+    let pose = written.get_ref().pose();
+    let pose = pose.map_err(|(message, help)| source.error(written.span(), &message, &help))?;
+    let in_mm = 1e3 * pose.translation.vector;
+    Ok(Isometry3::from_parts(in_mm.into(), pose.rotation))
+}
+
+fn frame(source: Source<'_>, table: FrameTable) -> Answer<StatedFrame> {
+    let stated = table.pose.as_ref().map(|written| pose(source, written));
+    Ok(StatedFrame {
+        number: table.number,
+        name: table.name,
+        pose: stated.transpose()?,
+    })
+}
+
+fn tool(source: Source<'_>, table: ToolTable) -> Answer<StatedTool> {
+    let frame = FrameTable {
+        number: table.number,
+        name: table.name,
+        pose: table.pose,
+    };
+    Ok(StatedTool {
+        frame: self::frame(source, frame)?,
+        mass_kg: table.mass_kg,
+        centre_of_mass_mm: table.centre_of_mass_mm.map(Vector3::from),
+    })
+}

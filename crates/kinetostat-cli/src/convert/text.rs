@@ -1,0 +1,99 @@
+//! What is said of a program that was made.
+
+use std::path::Path;
+
+use kinetostat_formats::{Kept, Made, MakeLanguage};
+use kinetostat_machining::number::counted;
+
+use crate::convert::file_names::{file_name, stem};
+use crate::convert::template_file::TemplateFile;
+use crate::job::program::ReadProgram;
+use crate::job::setting::Setting;
+use crate::ui::layout::{item, wrapped};
+
+/// The answer in words.
+pub(crate) fn answer(
+    setting: &Setting,
+    read: &ReadProgram<'_>,
+    made: &Made,
+    template: &TemplateFile,
+    (out, language): (&Path, MakeLanguage),
+) -> String {
+    let kept = &made.kept;
+    let mut text = wrapped(
+        &format!(
+            "{}: {} are {} in {}. Read again and compared with the path: {}.",
+            setting.program_name,
+            counted(kept.moves, "move"),
+            counted(kept.motions, "motion"),
+            match made.files.len() {
+                1 => language.title().to_owned(),
+                n => format!("{}, a main program and {} parts", language.title(), n - 1),
+            },
+            differences(kept)
+        ),
+        0,
+    );
+    let mut found: Vec<String> = Vec::new();
+    let own = &template.template.program_name;
+    let by_name = matches!(language, MakeLanguage::Krl | MakeLanguage::FanucLs);
+    if by_name && !own.eq_ignore_ascii_case(&stem(out)) {
+        found.push(format!(
+            "the program is called {own} and its file {}: controllers want one name",
+            file_name(out)
+        ));
+    }
+    for finding in &made.findings {
+        found.push(match finding.line {
+            Some(line) => format!("line {line}: {}", finding.message),
+            None => finding.message.clone(),
+        });
+    }
+    let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
+    // What is said of corrections is not for here.
+    let warnings = read.path().warnings.iter().filter(|warning| {
+        !named(warning.line)
+            && !warning.text.contains("correct")
+            && !warning.text.contains("carried")
+    });
+    for warning in warnings.chain(&setting.expansion_warnings) {
+        found.push(format!("line {}: {}", warning.line, warning.text));
+    }
+    if !found.is_empty() {
+        text.push_str("\nWhat is otherwise, or was taken for granted\n");
+    }
+    for finding in found {
+        text.push_str(&item(&match &setting.flat {
+            Some(flat) => flat.with_sources(&finding),
+            None => finding,
+        }));
+    }
+    text
+}
+
+/// The largest differences.
+fn differences(kept: &Kept) -> String {
+    // Less than that is the arithmetic's.
+    let within = |what: &str, value: f64, unit: &str| match value < 1e-12 {
+        true => format!("{what} equal"),
+        false => format!("{what} within {value:.1e} {unit}"),
+    };
+    let mut parts = vec![
+        within("places", kept.position_mm, "mm"),
+        within("orientations", kept.orientation_rad, "rad"),
+    ];
+    if kept.arc_mm > 0.0 {
+        parts.push(format!("arcs within {:.1e} mm", kept.arc_mm));
+    }
+    if kept.chord_mm > 0.0 {
+        parts.push(format!(
+            "lines within {:.1e} mm of the curves that they follow",
+            kept.chord_mm
+        ));
+    }
+    parts.push(match kept.speed_relative < 1e-9 {
+        true => "feeds equal".to_owned(),
+        false => format!("feeds within {:.2} %", 100.0 * kept.speed_relative),
+    });
+    parts.join(", ")
+}

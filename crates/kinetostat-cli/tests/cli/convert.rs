@@ -1,0 +1,333 @@
+//! `kinetostat convert`: programs of one language in another, from files to files.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use std::path::Path;
+
+use crate::common::{gcode, run};
+
+const PART: &str = "G21 G90 (plate)\nS8000 M3\nG0 X0 Y0 Z5\nM8\nG1 Z-1 F300\nG1 X40 F600\nG3 X50 Y10 I0 J10\nG0 Z5\nM30\n";
+
+const CELL: &str = r#"schema = 1
+tool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }
+rapid_speed_mm_per_s = 150
+[base]
+number = 3
+pose = { position_mm = [1800, 0, 900] }
+[tool]
+number = 2
+pose = { position_mm = [0, 0, 180] }
+mass_kg = 5
+[zones]
+feeds_mm = 0.1
+"#;
+
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+fn read(here: &Path, name: &str) -> String {
+    std::fs::read_to_string(here.join(name)).unwrap()
+}
+
+fn place() -> tempfile::TempDir {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("part.ngc"), PART).unwrap();
+    std::fs::write(here.path().join("cell.toml"), CELL).unwrap();
+    here
+}
+
+#[test]
+fn g_code_becomes_a_program_for_each_robot() {
+    let here = place();
+    for (to, file, needles) in [
+        (
+            "krl",
+            "plate.src",
+            [
+                "DEF plate( )",
+                "$BASE={X 1800.000000,Y 0.000000,Z 900.000000,",
+                "$APO.CDIS=0.1\n",
+            ],
+        ),
+        (
+            "rapid",
+            "plate.mod",
+            [
+                "MODULE plate",
+                "PERS wobjdata wobj3:=",
+                "CONST speeddata vRapid:=[150,",
+            ],
+        ),
+        (
+            "ls",
+            "plate.ls",
+            ["/PROG  PLATE", "UFRAME_NUM=3 ;", "10mm/sec CNT20"],
+        ),
+    ] {
+        let line = format!("convert part.ngc --to {to} --out {file} --template cell.toml");
+        let said = run(here.path(), &words(&line)).answered();
+        let text = read(here.path(), file);
+        for needle in needles {
+            assert!(text.contains(needle), "{needle}: {text}");
+        }
+        assert!(
+            said.out.lines().all(|line| line.chars().count() <= 80),
+            "{}",
+            said.out
+        );
+        let said = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        for needle in [
+            "part.ngc: 5 moves are 5 motions in",
+            "Read again and compared with the path: places equal, orientations ",
+            " mm, feeds equal.",
+            "spindle: 1 line is a note now, and does nothing there (line 2: S8000 M3)",
+            "coolant: 1 line is a note now",
+            &format!("Written {file}"),
+        ] {
+            assert!(said.contains(needle), "{needle}: {said}");
+        }
+    }
+}
+
+#[test]
+fn robots_and_tables_follow_each_other() {
+    let here = place();
+    let here = here.path();
+    for line in [
+        "convert part.ngc --to krl --out a.src --template cell.toml",
+        "convert a.src --to rapid --out b.mod --rapid-from-mm-per-s 150",
+        "convert b.mod --to ls --out c.ls --rapid-from-mm-per-s 200",
+        "convert c.ls --to csv --out d.csv --rapid-from-mm-per-s 200",
+    ] {
+        run(here, &words(line)).answered();
+    }
+    assert!(
+        read(here, "b.mod")
+            .contains("PERS wobjdata wobj1:=[FALSE,TRUE,\"\",[[1800.000000,0.000000,900.000000],")
+    );
+    let table = read(here, "d.csv");
+    let rows: Vec<Vec<f64>> = (table.lines())
+        .filter(|line| !line.starts_with('#') && !line.starts_with('x'))
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    let wanted = [[0.0, 0.0, 5.0], [0.0, 0.0, -1.0], [40.0, 0.0, -1.0]];
+    for (row, wanted) in rows.iter().zip(wanted) {
+        for axis in 0..3 {
+            assert!((row[axis] - wanted[axis]).abs() < 3e-6, "{table}");
+        }
+    }
+    assert!(
+        (rows[2][7] - 10.0).abs() < 1e-9 && rows[2][8] == 0.0 && rows[0][8] == 1.0,
+        "{table}"
+    );
+}
+
+#[test]
+fn a_long_program_is_a_main_one_and_parts() {
+    let here = place();
+    let cell = format!("most_points = 3\n{}", CELL.replace("schema = 1\n", ""));
+    std::fs::write(here.path().join("cell.toml"), format!("schema = 1\n{cell}")).unwrap();
+    let said = run(
+        here.path(),
+        &words("convert part.ngc --to krl --out long.src --template cell.toml"),
+    )
+    .answered();
+    assert!(
+        said.out.contains("a main program and 2 parts"),
+        "{}",
+        said.out
+    );
+    assert!(read(here.path(), "long.src").contains("\nlong_1( )\nlong_2( )\nEND\n"));
+    assert!(read(here.path(), "long_2.src").contains("DEF long_2( )"));
+    // Nothing is overwritten, parts neither.
+    std::fs::remove_file(here.path().join("long.src")).unwrap();
+    let said = run(
+        here.path(),
+        &words("convert part.ngc --to krl --out long.src --template cell.toml"),
+    );
+    assert_eq!(said.code, 1);
+    assert!(
+        said.err.contains("long_1.src") && !here.path().join("long.src").exists(),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn an_expanded_program_names_the_lines_of_its_files() {
+    let here = place();
+    let text = "G21 G90\nG0 X0 Y0 Z5\nO1 repeat [2]\nM8\nG91 G1 X5 F60\nG90\nO1 endrepeat\nM2\n";
+    std::fs::write(here.path().join("macro.ngc"), text).unwrap();
+    run(
+        here.path(),
+        &words("convert macro.ngc --expand --to krl --out m.src --template cell.toml"),
+    )
+    .answered();
+    let text = read(here.path(), "m.src");
+    assert_eq!(
+        text.matches("; macro.ngc, line 4: M8\n").count(),
+        2,
+        "{text}"
+    );
+}
+
+#[test]
+fn what_is_wrong_is_named_and_nothing_is_written() {
+    let here = place();
+    let here = here.path();
+    let lines = [
+        (
+            "--to krl --out new.src",
+            "",
+            "state tool_orientation in the template",
+        ),
+        (
+            "--to krl --out 1.src",
+            CELL,
+            "controllers take letters, digits and _",
+        ),
+        (
+            "--to gcode --out new.ngc",
+            CELL,
+            "the program is in G-code already",
+        ),
+        (
+            "--to krl --out part.ngc --force-overwrite",
+            CELL,
+            "part.ngc",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 2\n",
+            "schema 2 is not known",
+        ),
+        (
+            "--to krl --out new.src",
+            "tool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }\n",
+            "schema = 1",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\nspeed = 3\n",
+            "unknown key 'speed'",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\nrapid_speed = 3\n",
+            "rapid_speed_mm_per_s",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\nrapids = \"fast\"\n",
+            "'fast' is not known here",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\ntool_orientation = { a_b_c_kuka_deg = [0, 180] }\n",
+            "cell.toml",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\ntool_orientation = { position_mm = [0, 0, 1] }\n",
+            "a position is given in it",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\ntool_orientation = { a_b_c_kuka_deg = [0, 0, 180] }\nrapid_speed_mm_per_s = -1\n",
+            "cell.toml: rapid_speed_mm_per_s is -1",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\n[[tools]]\nin_program = 1\n[[tools]]\nin_program = 1\n",
+            "stated twice",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\n[base\n",
+            "this is not TOML",
+        ),
+        (
+            "--to krl --out new.src",
+            "schema = 1\nrapid_speed_mm_per_s = nan\n",
+            "no finite number",
+        ),
+        (
+            "--to krl --out new.src --tool-orientation 0,0,180",
+            CELL,
+            "--tool-orientation",
+        ),
+        (
+            "--to krl --out new.src --tolerance-mm 0",
+            CELL,
+            "tolerance_mm is 0",
+        ),
+    ];
+    for (options, template, needle) in lines {
+        std::fs::write(here.join("cell.toml"), template).unwrap();
+        let template = match template {
+            "" => "",
+            _ => " --template cell.toml",
+        };
+        let said = run(
+            here,
+            &words(&format!("convert part.ngc {options}{template}")),
+        );
+        assert_eq!(said.code, 1, "{options}: {said:?}");
+        let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(needle), "{needle}: {said:?}");
+        assert!(!here.join("new.src").exists() && !here.join("new.ngc").exists());
+    }
+    assert_eq!(read(here, "part.ngc"), PART);
+}
+
+/// A program that nobody here wrote, for an arm with a model, and compensated there.
+#[test]
+fn an_engraving_becomes_a_program_for_each_robot() {
+    let Some(folder) = gcode() else {
+        return;
+    };
+    let text = std::fs::read(folder.join("tball-engrave.gcode")).unwrap();
+    let here = place();
+    let here = here.path();
+    std::fs::write(here.join("engrave.gcode"), text).unwrap();
+    for (to, file, count) in [
+        ("krl", "engrave.src", "LIN {"),
+        ("rapid", "engrave.mod", "MoveL "),
+        ("ls", "engrave.ls", "mm/sec "),
+    ] {
+        let line = format!("convert engrave.gcode --to {to} --out {file} --template cell.toml");
+        let said = run(here, &words(&line)).answered();
+        let motions: usize = said
+            .out
+            .split_whitespace()
+            .skip_while(|word| *word != "are")
+            .nth(1)
+            .unwrap()
+            .parse()
+            .unwrap();
+        assert!(motions > 3000, "{}", said.out);
+        let written = read(here, file).matches(count).count();
+        assert_eq!(
+            written + 1,
+            motions,
+            "the first is a joint motion: {}",
+            said.out
+        );
+    }
+    let line = "compensate --model heavy_6r --program engrave.mod --force 30 0 -20 --correct position --rapid-from-mm-per-s 100000 --tolerance-um 20 --out sent.mod";
+    let said = run(here, &words(line));
+    assert!(said.code == 0 || said.code == 3, "{said:?}");
+    assert!(here.join("sent.mod").exists(), "{said:?}");
+}
+
+#[test]
+fn help_is_narrow() {
+    let here = place();
+    let said = run(here.path(), &["help", "convert"]).answered();
+    let wide: Vec<&str> = said
+        .out
+        .lines()
+        .filter(|line| line.chars().count() > 80)
+        .collect();
+    assert!(wide.is_empty(), "{wide:#?}");
+}

@@ -1,0 +1,57 @@
+//! Programs in APT: places with the tool's axis, where that is not z everywhere.
+
+use nalgebra::Vector3;
+
+use crate::making::numbers::{coordinates, fixed, short};
+use crate::making::step::Step;
+use crate::making::template::Template;
+
+/// Axes nearer to z than this are z.
+const UPRIGHT: f64 = 1e-12;
+
+/// The file of a program.
+pub(crate) fn files(
+    steps: &[Step],
+    name: &str,
+    template: &Template,
+    made_by: &str,
+) -> Vec<(String, Vec<u8>)> {
+    let mut motions = steps.iter().filter_map(Step::motion);
+    let leans = motions.any(|motion| (motion.axis - Vector3::z()).norm() > UPRIGHT);
+    let mut text = format!(
+        "PARTNO/{}\n$$ {made_by}\nUNITS/MM\n",
+        name.to_ascii_uppercase()
+    );
+    if leans {
+        text += "MULTAX/ON\n";
+    }
+    let mut feed = String::new();
+    for step in steps {
+        match step {
+            Step::Note(note) => text += &format!("$$ {note}\n"),
+            Step::Tool(number) => text += &format!("LOADTL/{number}\n"),
+            Step::Wait(_) | Step::Stop => {}
+            Step::Motion(motion) => {
+                let per_minute = short(
+                    60.0 * motion.speed_mm_per_s,
+                    template.speed_decimals.unwrap_or(9),
+                );
+                let wanted = format!("FEDRAT/{per_minute},MMPM\n");
+                if motion.rapid {
+                    text += "RAPID\n";
+                } else if wanted != feed {
+                    text += &wanted;
+                    feed = wanted;
+                }
+                text += &format!("GOTO/{}", coordinates(&motion.end, template).join(","));
+                if leans {
+                    let axis =
+                        [0, 1, 2].map(|i| fixed(motion.axis[i], template.quaternion_decimals));
+                    text += &format!(",{}", axis.join(","));
+                }
+                text.push('\n');
+            }
+        }
+    }
+    vec![(format!("{name}.apt"), (text + "FINI\n").into_bytes())]
+}

@@ -1,0 +1,199 @@
+//! A made program against the path that it was made of.
+
+use kinetostat_program::{Curve, Path};
+use nalgebra::Vector3;
+
+use crate::making::again::{ReadMotion, broken};
+use crate::making::fault::MakeError;
+use crate::making::limits::MakeLanguage;
+use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::template::Template;
+
+/// How far a made program, read again, is from its path.
+///
+/// ```
+/// use kinetostat_formats::{MakeLanguage, Template, make};
+/// use kinetostat_program::{Program, ReadOptions, interpret};
+///
+/// let program = Program::read("G21 G90\nG0 X0 Y0 Z5\nG1 Z-1.2345678 F300\nG1 X10\n")?;
+/// let path = interpret(&program, &ReadOptions::default())?;
+/// let made = make(&path, &[], &Template::default(), MakeLanguage::Csv).unwrap();
+/// assert_eq!((made.kept.moves, made.kept.motions), (3, 3));
+/// assert!(made.kept.position_mm < 1e-6 && made.kept.speed_relative < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Kept {
+    /// Moves of the path that were written.
+    pub moves: usize,
+    /// Motions that they became.
+    pub motions: usize,
+    /// Farthest that the end of a motion is from the path, mm.
+    pub position_mm: f64,
+    /// Farthest that the tool is turned from the path at the end of a motion, rad; of its axis where that alone is written.
+    pub orientation_rad: f64,
+    /// Farthest that an arc is from that of the path, mm.
+    pub arc_mm: f64,
+    /// Farthest that a line is from the arc that it follows, mm.
+    pub chord_mm: f64,
+    /// Largest difference of a speed at feed, relative to it.
+    pub speed_relative: f64,
+}
+
+/// The larger of two; NaN where one of them is.
+fn larger(one: f64, other: f64) -> f64 {
+    match one > other || one.is_nan() {
+        true => one,
+        false => other,
+    }
+}
+
+/// Shares of a piece at which arcs are compared.
+const SHARES: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 0.9];
+
+/// Compares, motion by motion; what is farther than the digits explain is an error.
+pub(crate) fn compare(
+    path: &Path,
+    steps: &[Step],
+    again: &[ReadMotion],
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<Kept, MakeError> {
+    let made = || steps.iter().filter_map(Step::motion);
+    let count = made().count();
+    if count != again.len() {
+        return Err(broken(format!(
+            "it has {} motions, not {count}",
+            again.len()
+        )));
+    }
+    let mut kept = Kept::default();
+    let mut before: Option<(usize, Vector3<f64>)> = None;
+    for (motion, read) in made().zip(again) {
+        let is_new = before.is_none_or(|(source, _)| source != motion.source);
+        kept.moves += usize::from(is_new);
+        kept.motions += 1;
+        let joint = motion.way == Way::Joint
+            && !matches!(
+                language,
+                MakeLanguage::Apt | MakeLanguage::Gcode | MakeLanguage::Csv
+            );
+        if joint != read.is_joint {
+            return Err(broken(format!(
+                "line {} of the source goes another way",
+                motion.line
+            )));
+        }
+        one(
+            path,
+            motion,
+            read,
+            before.map(|(_, place)| place),
+            &mut kept,
+        );
+        before = Some((motion.source, read.place));
+    }
+    within(&kept, made(), template, language)?;
+    Ok(kept)
+}
+
+fn one(
+    path: &Path,
+    motion: &MadeMotion,
+    read: &ReadMotion,
+    before: Option<Vector3<f64>>,
+    kept: &mut Kept,
+) {
+    let source = &path.moves[motion.source];
+    let [from, to] = motion.shares;
+    kept.position_mm = larger(kept.position_mm, (read.place - source.point(to)).norm());
+    let turned = match (read.orientation, read.axis) {
+        (Some(read), _) => motion
+            .orientation
+            .map_or(f64::NAN, |wanted| angle(&read, &wanted)),
+        (None, Some(axis)) => axis
+            .cross(&motion.axis)
+            .norm()
+            .atan2(axis.dot(&motion.axis)),
+        (None, None) => 0.0,
+    };
+    kept.orientation_rad = larger(kept.orientation_rad, turned);
+    if !motion.rapid && !read.is_joint {
+        let apart = read.speed_mm_per_s.map_or(f64::NAN, |speed| {
+            (speed / motion.speed_mm_per_s - 1.0).abs()
+        });
+        kept.speed_relative = larger(kept.speed_relative, apart);
+    }
+    let (Curve::Arc(_), Some(before), false) = (&source.curve, before, motion.first) else {
+        return;
+    };
+    for share in SHARES {
+        let wanted = source.point(from + (to - from) * share);
+        let found = match &read.curve {
+            Curve::Arc(arc) => arc.point(share),
+            Curve::Line => before + (read.place - before) * share,
+        };
+        let apart = (found - wanted).norm();
+        match motion.way {
+            Way::Line => {
+                // To the chord itself: where on it the tool is at a time, is the speed's affair.
+                let along = (read.place - before)
+                    .try_normalize(1e-12)
+                    .unwrap_or_default();
+                let across = (wanted - before) - along * along.dot(&(wanted - before));
+                kept.chord_mm = larger(kept.chord_mm, across.norm());
+            }
+            _ => kept.arc_mm = larger(kept.arc_mm, apart),
+        }
+    }
+}
+
+/// The angle between two orientations, exact for small ones.
+fn angle(one: &nalgebra::UnitQuaternion<f64>, other: &nalgebra::UnitQuaternion<f64>) -> f64 {
+    let between = one.inverse() * other;
+    2.0 * between.imag().norm().atan2(between.scalar().abs())
+}
+
+/// What the digits explain.
+fn within<'m>(
+    kept: &Kept,
+    made: impl Iterator<Item = &'m MadeMotion>,
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<(), MakeError> {
+    let half_mm = 0.5 * 10_f64.powi(-(template.position_decimals as i32));
+    let size = made.map(|motion| motion.end.amax()).fold(1.0, larger);
+    let arithmetic_mm = 1e-9 + 1e-14 * size;
+    let position = 1.8 * half_mm + arithmetic_mm;
+    let angle = 10_f64.powi(-(template.angle_decimals as i32)).to_radians();
+    let quaternion = 2.0 * 10_f64.powi(-(template.quaternion_decimals as i32));
+    let orientation = larger(angle, quaternion) + 1e-14;
+    let slow = match (language, template.speed_decimals) {
+        // Whatever the digits of a speed make of it, is said.
+        (MakeLanguage::FanucLs, _) | (_, Some(_)) => f64::INFINITY,
+        _ => 1e-6,
+    };
+    let arc = template.tolerance_mm + 20.0 * half_mm;
+    let checks = [
+        ("position, mm", kept.position_mm, position),
+        ("orientation, rad", kept.orientation_rad, orientation),
+        ("arcs, mm", kept.arc_mm, arc),
+        (
+            "chords, mm",
+            kept.chord_mm,
+            1.01 * template.tolerance_mm + 4.0 * half_mm,
+        ),
+        ("speed, relative", kept.speed_relative, slow),
+    ];
+    for (what, found, most) in checks {
+        // NaN is no agreement.
+        let agrees = found <= most;
+        if !agrees {
+            return Err(broken(format!(
+                "{what}: {found:e} apart, {most:e} are the digits'"
+            )));
+        }
+    }
+    Ok(())
+}

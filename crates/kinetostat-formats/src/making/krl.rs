@@ -1,0 +1,187 @@
+//! Programs in KRL, with their points in line: no data list is needed.
+//!
+//! Source: KUKA System Software 8.x, Operating and Programming Instructions for System Integrators.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::making::names::of_part;
+use crate::making::numbers::{angles, coordinates, short};
+use crate::making::parts::parts;
+use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::template::{StatedFrame, Template};
+use crate::model::orientation::OrientationText;
+
+/// The files of a program: the main one first.
+pub(crate) fn files(
+    steps: &[Step],
+    name: &str,
+    most: usize,
+    template: &Template,
+    made_by: &str,
+) -> Vec<(String, Vec<u8>)> {
+    let ranges = parts(steps, most);
+    let mut files = Vec::with_capacity(ranges.len() + 1);
+    if ranges.len() > 1 {
+        let mut main = format!("&ACCESS RVP\nDEF {name}( )\n; {made_by}\nBAS(#INITMOV,0)\n");
+        for part in 0..ranges.len() {
+            main += &format!("{}( )\n", of_part(name, part));
+        }
+        files.push((format!("{name}.src"), (main + "END\n").into_bytes()));
+    }
+    let several = ranges.len() > 1;
+    let mut tool = None;
+    for (part, range) in ranges.into_iter().enumerate() {
+        let own = match several {
+            true => of_part(name, part),
+            false => name.to_owned(),
+        };
+        let mut writer = Writer {
+            template,
+            text: format!("&ACCESS RVP\nDEF {own}( )\n"),
+            speed: String::new(),
+            zone: String::new(),
+            tool,
+        };
+        if !several {
+            writer.text += &format!("; {made_by}\nBAS(#INITMOV,0)\n");
+        }
+        writer.begin(part == 0);
+        for step in &steps[range] {
+            writer.step(step);
+        }
+        tool = writer.tool;
+        writer.text += "END\n";
+        files.push((format!("{own}.src"), writer.text.into_bytes()));
+    }
+    files
+}
+
+struct Writer<'t> {
+    template: &'t Template,
+    text: String,
+    /// As written last.
+    speed: String,
+    zone: String,
+    tool: Option<u32>,
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: &str) {
+        self.text += line;
+        self.text.push('\n');
+    }
+
+    fn begin(&mut self, is_first: bool) {
+        let base = self.frame(&self.template.base, "BASE_DATA");
+        self.line(&format!("$BASE={base}"));
+        self.tool_line();
+        self.line("$ORI_TYPE=#VAR");
+        self.line("$CIRC_TYPE=#BASE");
+        self.line("$ADVANCE=3");
+        let percent = short(self.template.joint_speed_percent, 3);
+        self.line(&format!("BAS(#VEL_PTP,{percent})"));
+        if let Some(acceleration) = self.template.acceleration_m_per_s2 {
+            self.line(&format!("$ACC.CP={}", short(acceleration, 6)));
+        }
+        if self.template.zones.rapids_percent > 0.0 {
+            let percent = short(self.template.zones.rapids_percent, 3);
+            self.line(&format!("$APO.CPTP={percent}"));
+        }
+        if let (true, Some(joints)) = (is_first, &self.template.start_joints_deg) {
+            let joints: Vec<String> = (joints.iter().enumerate())
+                .map(|(axis, value)| format!("A{} {}", axis + 1, short(*value, 6)))
+                .collect();
+            self.line(&format!("PTP {{{}}}", joints.join(",")));
+        }
+    }
+
+    fn tool_line(&mut self) {
+        let stated = self
+            .tool
+            .and_then(|number| self.template.tools.get(&number));
+        let stated = stated.unwrap_or(&self.template.tool);
+        let tool = self.frame(&stated.frame, "TOOL_DATA");
+        self.line(&format!("$TOOL={tool}"));
+    }
+
+    fn frame(&self, frame: &StatedFrame, array: &str) -> String {
+        match &frame.pose {
+            Some(pose) => self.pose(&pose.translation.vector, &pose.rotation, ""),
+            None => format!("{array}[{}]", frame.number.unwrap_or(1)),
+        }
+    }
+
+    fn pose(&self, place: &Vector3<f64>, turn: &UnitQuaternion<f64>, behind: &str) -> String {
+        let [x, y, z] = coordinates(place, self.template);
+        let abc = angles(turn, OrientationText::Abc, self.template.angle_decimals);
+        format!(
+            "{{X {x},Y {y},Z {z},A {},B {},C {}{behind}}}",
+            abc[0], abc[1], abc[2]
+        )
+    }
+
+    fn step(&mut self, step: &Step) {
+        match step {
+            Step::Note(text) => self.line(&format!("; {text}")),
+            Step::Wait(seconds) => self.line(&format!("WAIT SEC {}", short(*seconds, 6))),
+            Step::Stop => self.line("HALT"),
+            Step::Tool(number) => {
+                self.tool = Some(*number);
+                self.tool_line();
+            }
+            Step::Motion(motion) => self.motion(motion),
+        }
+    }
+
+    fn motion(&mut self, motion: &MadeMotion) {
+        let orientation = motion.orientation.unwrap_or_default();
+        let configuration = match (&self.template.configuration, motion.first) {
+            (Some(configuration), true) => format!(",{configuration}"),
+            _ => String::new(),
+        };
+        let end = self.pose(&motion.end, &orientation, &configuration);
+        let zones = &self.template.zones;
+        if motion.way == Way::Joint {
+            let zone = match motion.exact || zones.rapids_percent == 0.0 {
+                true => "",
+                false => " C_PTP",
+            };
+            return self.line(&format!("PTP {end}{zone}"));
+        }
+        let decimals = self.template.speed_decimals.unwrap_or(12);
+        let speed = format!(
+            "$VEL.CP={}",
+            short(motion.speed_mm_per_s / 1000.0, decimals)
+        );
+        if speed != self.speed {
+            self.line(&speed);
+            self.speed = speed;
+        }
+        let distance = match motion.rapid {
+            true => zones.rapids_mm,
+            false => zones.feeds_mm,
+        };
+        let passes = !motion.exact && distance > 0.0;
+        if passes {
+            let zone = format!("$APO.CDIS={}", short(distance, 6));
+            if zone != self.zone {
+                self.line(&zone);
+                self.zone = zone;
+            }
+        }
+        let zone = match passes {
+            true => " C_DIS",
+            false => "",
+        };
+        match motion.way {
+            Way::Circle {
+                via,
+                via_orientation,
+            } => {
+                let via = self.pose(&via, &via_orientation.unwrap_or(orientation), "");
+                self.line(&format!("CIRC {via},{end}{zone}"));
+            }
+            _ => self.line(&format!("LIN {end}{zone}")),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The languages that programs are made in, and what each of them takes.
+
+/// A language that a program is made in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MakeLanguage {
+    /// KUKA KRL.
+    Krl,
+    /// ABB RAPID.
+    Rapid,
+    /// FANUC TP programs as text.
+    FanucLs,
+    /// APT.
+    Apt,
+    /// G-code of three axes.
+    Gcode,
+    /// A table of poses (CSV).
+    Csv,
+}
+
+/// Which arcs a language has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Arcs {
+    None,
+    /// Flat, through a place.
+    Through,
+    /// About the z axis, rising where asked.
+    AboutZ,
+}
+
+/// What a language takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Limits {
+    pub arcs: Arcs,
+    /// Least way between the places of an arc, mm.
+    pub least_chord_mm: f64,
+    /// Least sweep of an arc, rad.
+    pub least_sweep_rad: f64,
+    /// It states how the tool stands.
+    pub orientation: bool,
+    /// Most characters of the program's name.
+    pub name: usize,
+    /// Most places in a file where the caller states none, and at all; none where a program is one file.
+    pub points: Option<(usize, usize)>,
+    /// Most decimals of a speed where the caller states none.
+    pub speed_decimals: usize,
+}
+
+/// RAPID reference manual, `MoveC`: start, circle point and end at least 0.1 mm apart, circle point and end at least 1 degree
+/// apart as seen from the start, which is a quarter of the sweep where the circle point lies in the middle.
+const RAPID_CHORD_MM: f64 = 0.1;
+const RAPID_SWEEP_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
+
+/// Numbers of positions in a TP program have 16 bits: InstitutMaupertuis, fanuc_post_processor, issue 43.
+const LS_MOST_POINTS: usize = 32_766;
+
+impl MakeLanguage {
+    pub(crate) fn limits(self) -> Limits {
+        let robot = Limits {
+            arcs: Arcs::Through,
+            least_chord_mm: 1e-3,
+            least_sweep_rad: 0.0,
+            orientation: true,
+            name: 24,
+            points: Some((10_000, 1_000_000)),
+            speed_decimals: 9,
+        };
+        match self {
+            Self::Krl => robot,
+            Self::Rapid => Limits {
+                least_chord_mm: RAPID_CHORD_MM,
+                least_sweep_rad: RAPID_SWEEP_RAD,
+                name: 32,
+                ..robot
+            },
+            Self::FanucLs => Limits {
+                name: 32,
+                points: Some((5_000, LS_MOST_POINTS)),
+                // Teach pendants take tenths of mm/s.
+                speed_decimals: 1,
+                ..robot
+            },
+            Self::Apt => Limits {
+                arcs: Arcs::None,
+                name: 64,
+                points: None,
+                ..robot
+            },
+            Self::Csv => Limits {
+                arcs: Arcs::None,
+                name: 64,
+                points: None,
+                ..robot
+            },
+            Self::Gcode => Limits {
+                arcs: Arcs::AboutZ,
+                orientation: false,
+                name: 64,
+                points: None,
+                ..robot
+            },
+        }
+    }
+
+    /// How the name of its files ends.
+    ///
+    /// ```
+    /// assert_eq!(kinetostat_formats::MakeLanguage::Krl.ending(), "src");
+    /// ```
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Krl => "src",
+            Self::Rapid => "mod",
+            Self::FanucLs => "ls",
+            Self::Apt => "apt",
+            Self::Gcode => "ngc",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// Its name in sentences.
+    ///
+    /// ```
+    /// assert_eq!(kinetostat_formats::MakeLanguage::FanucLs.title(), "a TP program");
+    /// ```
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Krl => "KRL",
+            Self::Rapid => "RAPID",
+            Self::FanucLs => "a TP program",
+            Self::Apt => "APT",
+            Self::Gcode => "G-code",
+            Self::Csv => "a table of poses",
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! The whole way: from a path to files that were read again.
+
+use kinetostat_program::Path;
+
+use crate::making::again::read_again;
+use crate::making::compare::{Kept, compare};
+use crate::making::events::SourceEvent;
+use crate::making::fault::{MakeError, MakeFinding};
+use crate::making::limits::MakeLanguage;
+use crate::making::names::checked;
+use crate::making::plan::plan;
+use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::template::{Rapids, Template};
+use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
+
+/// A made program.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Made {
+    /// Names and bytes; the first is the main program.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What is otherwise than in the source, or was taken for granted; those without a line at the end.
+    pub findings: Vec<MakeFinding>,
+    /// How far it is from the path, measured on what its own reader reads.
+    pub kept: Kept,
+}
+
+/// What stands at the head of made programs.
+const MADE_BY: &str = "made by kinetostat convert";
+
+/// A program in another language that goes along a path.
+///
+/// Lines stay lines and arcs stay arcs where the language has them; helices, and what the controller takes for no circle, are
+/// followed by lines within [`Template::tolerance_mm`]. The first motion is a joint motion to its end: where the arm is before,
+/// nobody knows. Events of the source become notes, pauses that both sides have stay. What was made is read again by the
+/// reader of its language and compared with the path: [`Made::kept`].
+///
+/// ```
+/// use kinetostat_formats::*;
+/// use kinetostat_program::{Program, ReadOptions as Reading, interpret};
+/// use nalgebra::{UnitQuaternion, Vector3};
+///
+/// let program = Program::read("G21 G90\nS8000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG3 X10 Y10 I0 J10\n")?;
+/// let path = interpret(&program, &Reading::default())?;
+/// let mut template = Template::default();
+/// template.tool_orientation = Some(UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+/// let made = make(&path, &events_of_gcode(&program, &path), &template, MakeLanguage::Krl).unwrap();
+/// let text = String::from_utf8(made.files[0].1.clone())?;
+/// assert!(text.contains("; line 2: S8000 M3\nPTP {X 0.000000,Y 0.000000,Z 5.000000,A 0.00000000,B 0.00000000,C 180.00000000}\n"));
+/// assert!(text.contains("$VEL.CP=0.005\n$APO.CDIS=0.3\nLIN {X 0.000000,Y 0.000000,Z -1.000000,"));
+/// assert!(text.contains("CIRC {X 7.071068,Y 2.928932,"));
+/// assert!(made.kept.position_mm < 1e-6 && made.kept.orientation_rad < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// All that cannot be written, in the order of lines of the source; nothing is made then.
+pub fn make(
+    path: &Path,
+    events: &[SourceEvent],
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<Made, Vec<MakeError>> {
+    let mut faults = stated::faults(template, language);
+    let name = checked(&template.program_name, language).map_err(|fault| faults.push(fault));
+    let planned = match plan(path, events, template, language) {
+        Ok(planned) => Some(planned),
+        Err(further) => {
+            faults.extend(further);
+            None
+        }
+    };
+    if let (Some(planned), MakeLanguage::Gcode) = (&planned, language) {
+        faults.extend(gcode::faults(&planned.steps));
+    }
+    let (Ok(name), Some(planned), true) = (name, planned, faults.is_empty()) else {
+        return Err(faults);
+    };
+    let steps = &planned.steps;
+    let most = language.limits().points.map_or(usize::MAX, |(usual, _)| {
+        template.most_points.unwrap_or(usual)
+    });
+    let files = match language {
+        MakeLanguage::Krl => krl::files(steps, &name, most, template, MADE_BY),
+        MakeLanguage::Rapid => rapid::files(steps, &name, most, template, MADE_BY),
+        MakeLanguage::FanucLs => ls::files(steps, &name, most, template, MADE_BY),
+        MakeLanguage::Apt => apt::files(steps, &name, template, MADE_BY),
+        MakeLanguage::Gcode => gcode::files(steps, &name, template, MADE_BY),
+        MakeLanguage::Csv => csv::files(steps, &name, template, MADE_BY),
+    };
+    let again = read_again(&files, language).map_err(|fault| vec![fault])?;
+    let kept = compare(path, steps, &again, template, language).map_err(|fault| vec![fault])?;
+    let mut findings = planned.findings;
+    taken_for_granted(steps, template, language, &kept, &mut findings);
+    findings.sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
+    Ok(Made {
+        files,
+        findings,
+        kept,
+    })
+}
+
+/// What nobody stated, and what the digits of the template cost.
+fn taken_for_granted(
+    steps: &[Step],
+    template: &Template,
+    language: MakeLanguage,
+    kept: &Kept,
+    findings: &mut Vec<MakeFinding>,
+) {
+    let mut say = |message: String| findings.push(MakeFinding::of(None, message));
+    let robot = matches!(
+        language,
+        MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
+    );
+    if robot {
+        say("the first motion is a joint motion: on which way the arm comes there, the controller decides".to_owned());
+        of_frames(template, language, &mut say);
+        if template.configuration.is_none() {
+            say(match language {
+                MakeLanguage::FanucLs => format!(
+                    "the configuration is not stated: every position has '{}'",
+                    ls::CONFIGURATION
+                ),
+                _ => "the configuration is not stated: the arm keeps the one that it comes with"
+                    .to_owned(),
+            });
+        }
+        say(zones(template, language));
+        let straight = |motion: &MadeMotion| motion.rapid && motion.way == Way::Line;
+        if steps.iter().filter_map(Step::motion).any(straight) {
+            say(format!(
+                "rapids are straight motions at {} mm/s",
+                template.rapid_speed_mm_per_s
+            ));
+        }
+    }
+    if template.rapids == Rapids::Joint
+        && steps
+            .iter()
+            .filter_map(Step::motion)
+            .any(|m| m.way == Way::Joint && !m.first)
+    {
+        say("rapids are joint motions: their way is not that of the source".to_owned());
+    }
+    if kept.position_mm > 1e-6 {
+        say(format!(
+            "{} decimals of lengths move places by up to {:.1e} mm",
+            template.position_decimals, kept.position_mm
+        ));
+    }
+    if kept.orientation_rad > 1e-9 {
+        say(format!(
+            "the decimals of orientations turn the tool by up to {:.1e} rad",
+            kept.orientation_rad
+        ));
+    }
+    if kept.speed_relative > 1e-6 {
+        say(format!(
+            "feeds are rounded by up to {:.2} %: {}",
+            100.0 * kept.speed_relative,
+            match language {
+                MakeLanguage::FanucLs => "pendants take tenths of mm/s (speed_decimals)",
+                _ => "the template states the decimals of speeds",
+            }
+        ));
+    }
+    if language == MakeLanguage::Gcode {
+        say(
+            "G-code of three axes says nothing of the turn of the tool about its own axis"
+                .to_owned(),
+        );
+    }
+}
+
+fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(String)) {
+    let base_number = template.base.number.unwrap_or(1);
+    let tool = &template.tool.frame;
+    let several = !template.tools.is_empty();
+    match language {
+        MakeLanguage::FanucLs => {
+            say(format!(
+                "user frame {base_number} and the tool frame are those of the controller: set them there to where part and tip are"
+            ));
+        }
+        _ => {
+            if template.base.pose.is_none() {
+                let name = match (language, &template.base.name) {
+                    (_, Some(name)) => name.clone(),
+                    (MakeLanguage::Rapid, None) => format!("wobj{base_number}"),
+                    _ => format!("BASE_DATA[{base_number}]"),
+                };
+                say(format!(
+                    "where the part is, is not stated: {name} of the controller counts"
+                ));
+            }
+            if tool.pose.is_none() && !several {
+                let number = tool.number.unwrap_or(1);
+                let name = match (language, &tool.name) {
+                    (_, Some(name)) => name.clone(),
+                    (MakeLanguage::Rapid, None) => format!("tool{number}"),
+                    _ => format!("TOOL_DATA[{number}]"),
+                };
+                say(format!(
+                    "where the tool's tip is, is not stated: {name} of the controller counts"
+                ));
+            }
+        }
+    }
+    if language == MakeLanguage::Rapid && tool.pose.is_some() && template.tool.mass_kg.is_none() {
+        say("the mass of the tool is not stated: 1 kg is written".to_owned());
+    }
+}
+
+fn zones(template: &Template, language: MakeLanguage) -> String {
+    let zones = &template.zones;
+    match language {
+        MakeLanguage::FanucLs => format!(
+            "corners are rounded: CNT{} at feed, CNT{} of rapids; the tool stops where rapids and feeds meet",
+            zones.feeds_percent, zones.rapids_percent
+        ),
+        _ => format!(
+            "corners are rounded: within {} mm at feed, {} mm of rapids; the tool stops where rapids and feeds meet",
+            zones.feeds_mm, zones.rapids_mm
+        ),
+    }
+}

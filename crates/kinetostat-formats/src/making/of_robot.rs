@@ -1,0 +1,123 @@
+//! A program of one robot written for another.
+
+use crate::making::fault::MakeError;
+use crate::making::limits::MakeLanguage;
+use crate::making::make::{Made, make};
+use crate::making::robot_events::events_of_robot;
+use crate::making::template::{StatedFrame, StatedTool, Template};
+use crate::model::frame::FrameUse;
+use crate::model::motion::Runs;
+use crate::model::program::RobotProgram;
+use crate::path::of_program::RobotPath;
+use crate::path::tools::tool_number;
+
+/// A robot's program in another language, with its work object and its tools where the template states none.
+///
+/// ```
+/// use kinetostat_formats::*;
+///
+/// let text = "MODULE M\nPROC main()\n\
+///     MoveJ [[0,0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0;\n\
+///     MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+///     ENDPROC\nENDMODULE\n";
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+/// let robot = path_of(&program, &PathOptions::default()).unwrap();
+/// let made = make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Krl).unwrap();
+/// let text = String::from_utf8(made.files[0].1.clone()).unwrap();
+/// assert!(text.contains("$VEL.CP=0.02\nLIN {X 0.000000,Y 0.000000,Z 0.000000,A 0.00000000,B 0.00000000,C 180.00000000}\n"));
+/// ```
+///
+/// # Errors
+/// Those of [`make`]; and motions in loops and branches, which run not once.
+pub fn make_of_robot(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<Made, Vec<MakeError>> {
+    let faults = not_once(program);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let mut template = template.clone();
+    if template.base == StatedFrame::default() {
+        template.base = match &robot.work_object {
+            Some(frame) => stated(frame, None, language),
+            // Of several work objects the path is in the axes of the robot's base.
+            None => StatedFrame {
+                number: Some(0),
+                pose: Some(nalgebra::Isometry3::identity()),
+                ..StatedFrame::default()
+            },
+        };
+    }
+    if template.tools.is_empty() && template.tool == StatedTool::default() {
+        let tool = |index: usize, frame: &FrameUse| {
+            let number = tool_number(&robot.tools, index);
+            let tool = StatedTool {
+                frame: stated(frame, Some(number), language),
+                ..StatedTool::default()
+            };
+            (number, tool)
+        };
+        let tools: Vec<_> = (robot.tools.iter().enumerate())
+            .map(|(index, frame)| tool(index, frame))
+            .collect();
+        match tools.as_slice() {
+            [(_, only)] => {
+                let number = number_in(&robot.tools[0].name);
+                template.tool = only.clone();
+                template.tool.frame.number = number;
+            }
+            _ => template.tools = tools.into_iter().collect(),
+        }
+    }
+    make(&robot.path, &events_of_robot(program), &template, language)
+}
+
+/// Motions that do not run exactly once.
+fn not_once(program: &RobotProgram) -> Vec<MakeError> {
+    let others = program
+        .motions
+        .iter()
+        .filter(|motion| motion.runs != Runs::Once);
+    others
+        .map(|motion| {
+            let reason = match motion.runs {
+                Runs::OnCondition => "the motion is in a branch: whether it runs is not known",
+                Runs::Elsewhere => "nothing in these files calls the routine of this motion",
+                _ => "the motion is in a loop, or in a routine that is called more than once",
+            };
+            MakeError::at(
+                motion.line,
+                reason,
+                "write its motions one after another, or take them out",
+            )
+        })
+        .collect()
+}
+
+/// A frame of the source by its pose, its number, and its name where the language has names.
+fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLanguage) -> StatedFrame {
+    let own = frame.name.as_str();
+    let is_name = own.starts_with(|c: char| c.is_ascii_alphabetic())
+        && own.len() <= 32
+        && own.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    // The names of what a controller holds by itself are declared by none.
+    let is_system = own.eq_ignore_ascii_case("tool0") || own.eq_ignore_ascii_case("wobj0");
+    let is_named = language == MakeLanguage::Rapid && is_name && !is_system;
+    StatedFrame {
+        number: number.or(number_in(own)).filter(|number| *number <= 255),
+        name: is_named.then(|| own.to_owned()),
+        pose: frame.known().copied(),
+    }
+}
+
+/// The number in a name: `UF:3`, `BASE_DATA[3]`, `wobj3`.
+fn number_in(name: &str) -> Option<u32> {
+    let digits = name.trim_end_matches(']');
+    let start = digits
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |at| at + 1);
+    digits[start..].parse().ok()
+}

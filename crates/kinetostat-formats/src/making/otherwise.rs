@@ -1,0 +1,74 @@
+//! What a made program has otherwise than its source: curves followed by lines, events that are notes, axes that are left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use kinetostat_program::Path;
+
+use crate::making::events::EventKind;
+use crate::making::fault::MakeFinding;
+use crate::making::limits::MakeLanguage;
+use crate::making::pieces::Followed;
+
+/// What is otherwise, counted.
+#[derive(Default)]
+pub(crate) struct Otherwise {
+    /// By why: how many arcs are followed by lines, the line of the first, and by how many lines.
+    followed: BTreeMap<Followed, (usize, usize, usize)>,
+    /// By kind: how many events are notes alone, with the first of them.
+    lost: BTreeMap<EventKind, (usize, String)>,
+}
+
+impl Otherwise {
+    /// An arc of a line of the source is followed by so many lines.
+    pub(crate) fn follow(&mut self, why: Followed, line: usize, lines: usize) {
+        let entry = self.followed.entry(why).or_insert((0, line, 0));
+        entry.0 += 1;
+        entry.2 += lines;
+    }
+
+    /// An event is a note alone.
+    pub(crate) fn lose(&mut self, kind: EventKind, note: String) {
+        self.lost.entry(kind).or_insert((0, note)).0 += 1;
+    }
+
+    /// All of it in words.
+    pub(crate) fn findings(&self, language: MakeLanguage, tolerance_mm: f64) -> Vec<MakeFinding> {
+        let followed = self.followed.iter().map(|(why, (arcs, line, lines))| {
+            let reason = match why {
+                Followed::Helix => "circles of robots are flat, and this climbs",
+                Followed::Language => match language {
+                    MakeLanguage::Gcode => "it does not lie about the z axis",
+                    _ => "there is no arc here that all readers take alike",
+                },
+                Followed::Small => "it is too small for a circle of the controller",
+                Followed::Spiral => "its radius is another one at the end than at the start",
+            };
+            let arcs = match arcs {
+                1 => "the arc is".to_owned(),
+                n => format!("{n} arcs, here first, are"),
+            };
+            let message =
+                format!("{arcs} followed by {lines} lines within {tolerance_mm} mm: {reason}");
+            MakeFinding::of(*line, message)
+        });
+        let lost = self.lost.iter().map(|(kind, (count, first))| {
+            let lines = match count {
+                1 => "1 line is a note now, and does nothing there".to_owned(),
+                n => format!("{n} lines are notes now, and do nothing there"),
+            };
+            MakeFinding::of(None, format!("{}: {lines} ({first})", kind.words()))
+        });
+        followed.chain(lost).collect()
+    }
+}
+
+/// Axes that the source moves beside X, Y and Z.
+pub(crate) fn further_axes(path: &Path) -> Option<MakeFinding> {
+    let motion = path.moves.iter().find(|motion| !motion.extra.is_empty())?;
+    let letters: BTreeSet<char> = (path.moves.iter())
+        .flat_map(|motion| motion.extra.iter().map(|extra| extra.letter))
+        .collect();
+    let letters: Vec<String> = letters.iter().map(char::to_string).collect();
+    let message = format!("the words of the axes {} are left out", letters.join(", "));
+    Some(MakeFinding::of(motion.line, message))
+}

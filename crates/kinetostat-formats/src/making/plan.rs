@@ -1,0 +1,348 @@
+//! From a path and what stands beside it to the steps of a program.
+
+use std::collections::BTreeSet;
+
+use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::making::events::{EventKind, SourceEvent};
+use crate::making::fault::{MakeError, MakeFinding};
+use crate::making::limits::{Limits, MakeLanguage};
+use crate::making::numbers::plain;
+use crate::making::otherwise::{Otherwise, further_axes};
+use crate::making::pieces::{Shape, pieces_of};
+use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::stops::stops;
+use crate::making::template::{PlacesUnknown, Rapids, Template};
+
+/// Steps, and what a person should know of them.
+pub(crate) struct Planned {
+    pub steps: Vec<Step>,
+    pub findings: Vec<MakeFinding>,
+}
+
+/// Most motions of a made program.
+const MOST_MOTIONS: usize = 20_000_000;
+
+/// The steps of a path.
+pub(crate) fn plan(
+    path: &Path,
+    events: &[SourceEvent],
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<Planned, Vec<MakeError>> {
+    let mut planner = Planner {
+        path,
+        template,
+        language,
+        limits: language.limits(),
+        steps: Vec::with_capacity(path.moves.len() + events.len()),
+        faults: Vec::new(),
+        findings: Vec::new(),
+        otherwise: Otherwise::default(),
+        tool: None,
+        begun: false,
+    };
+    planner.tools();
+    planner.walk(events);
+    planner.end()
+}
+
+struct Planner<'p> {
+    path: &'p Path,
+    template: &'p Template,
+    language: MakeLanguage,
+    limits: Limits,
+    steps: Vec<Step>,
+    faults: Vec<MakeError>,
+    findings: Vec<MakeFinding>,
+    otherwise: Otherwise,
+    tool: Option<u32>,
+    begun: bool,
+}
+
+impl Planner<'_> {
+    fn fault(&mut self, line: usize, reason: impl Into<String>, remedy: impl Into<String>) {
+        self.faults.push(MakeError::at(line, reason, remedy));
+    }
+
+    /// Several tools need to be stated.
+    fn tools(&mut self) {
+        let used: BTreeSet<u32> = (self.path.moves.iter())
+            .filter_map(|motion| self.path.tool_on(motion.line))
+            .collect();
+        if used.len() < 2 {
+            return;
+        }
+        for number in used
+            .iter()
+            .filter(|number| !self.template.tools.contains_key(number))
+        {
+            let line = self
+                .path
+                .tool_changes
+                .iter()
+                .find(|change| change.number == *number);
+            let line = line.map_or(1, |change| change.line);
+            self.fault(
+                line,
+                format!("the program takes the tool {number}, one of several, and where its tip is, is not stated"),
+                "state each of them in the template under [[tools]], or write one program for each tool",
+            );
+        }
+    }
+
+    fn walk(&mut self, events: &[SourceEvent]) {
+        let moves = &self.path.moves;
+        let in_order = moves.windows(2).all(|pair| pair[0].line <= pair[1].line);
+        let mut events = match in_order {
+            true => events.iter().peekable(),
+            false => {
+                if let Some(first) = events.first() {
+                    self.findings.push(MakeFinding::of(
+                        first.line,
+                        "the routines do not run in the order of their lines: comments and other statements of the source are left out",
+                    ));
+                }
+                [].iter().peekable()
+            }
+        };
+        let last_known = moves
+            .iter()
+            .rposition(|motion| motion.known != Knowledge::Nothing);
+        for (index, motion) in moves.iter().enumerate() {
+            while let Some(event) = events.next_if(|event| is_before(event, motion.line)) {
+                self.event(event);
+            }
+            self.change_tool(motion.line);
+            match motion.known {
+                Knowledge::Nothing => self.without_place(index, last_known),
+                _ => self.made(index),
+            }
+            if self.steps.len() > MOST_MOTIONS {
+                self.fault(
+                    motion.line,
+                    "the program would have more than 20 million motions",
+                    "state a larger tolerance_mm",
+                );
+                return;
+            }
+        }
+        for event in events {
+            self.event(event);
+        }
+        if !self.begun && self.faults.is_empty() {
+            self.faults.push(MakeError::of(
+                "the program has no move to a place that is known",
+                "give a program that moves the tool",
+            ));
+        }
+    }
+
+    fn change_tool(&mut self, line: usize) {
+        let number = self.path.tool_on(line);
+        if number == self.tool {
+            return;
+        }
+        self.tool = number;
+        if let (Some(number), false) = (number, self.template.tools.is_empty()) {
+            self.steps.push(Step::Tool(number));
+        }
+    }
+
+    fn event(&mut self, event: &SourceEvent) {
+        let note = match event.text.contains(COMPENSATED_MARK) {
+            // It is looked for in this very form, and fills the remark of a TP program.
+            true => COMPENSATED_MARK.to_owned(),
+            false => format!("{}: {}", event.place, plain(&event.text)),
+        };
+        self.steps.push(Step::Note(note.clone()));
+        let robot = matches!(
+            self.language,
+            MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
+        );
+        match (event.kind, event.seconds) {
+            (EventKind::Comment | EventKind::End, _) => return,
+            (EventKind::Dwell, Some(seconds)) if robot && (0.0..1e6).contains(&seconds) => {
+                self.steps.push(Step::Wait(seconds));
+                return;
+            }
+            (EventKind::Stop, _) if robot => {
+                self.steps.push(Step::Stop);
+                return;
+            }
+            _ => {}
+        }
+        self.otherwise.lose(event.kind, note);
+    }
+
+    /// A move whose end is not known in the part.
+    fn without_place(&mut self, index: usize, last_known: Option<usize>) {
+        let motion = &self.path.moves[index];
+        let line = motion.line;
+        let outside = !self.begun || last_known.is_none_or(|last| index > last);
+        if outside || self.template.places_unknown == PlacesUnknown::LeftOut {
+            let why = match motion.words.is_to_machine() {
+                true => "it goes to a place of the machine",
+                false => "where it ends is not known in the part",
+            };
+            let message = match self.begun {
+                false => format!("{why}: it is left out, the program begins behind it"),
+                true => format!("{why}: it is left out"),
+            };
+            let known = self
+                .findings
+                .last()
+                .is_some_and(|last| last.message == message);
+            if !known {
+                self.findings.push(MakeFinding::of(line, message));
+            }
+            self.steps
+                .push(Step::Note(format!("line {line}: a move is left out here")));
+            return;
+        }
+        self.fault(
+            line,
+            "the move goes to a place of the machine, or to one that is not known in the part",
+            "take it out, or let it be left out (places_unknown = \"left_out\"): the tool goes straight on then",
+        );
+    }
+
+    fn speed(&mut self, motion: &Move) -> Option<f64> {
+        if motion.kind == MoveKind::Rapid {
+            return Some(self.template.rapid_speed_mm_per_s);
+        }
+        let rpm = self.path.spindle_on(motion.line).rpm().unwrap_or(f64::NAN);
+        let stated = motion.feed_mm_per_minute(rpm).map(|feed| feed / 60.0);
+        let found = stated.or(self.template.unstated_feed_mm_per_s);
+        if let Some(speed) = found.filter(|speed| *speed > 0.0 && speed.is_finite()) {
+            return Some(speed);
+        }
+        self.fault(
+            motion.line,
+            "the speed of this motion at feed is not known",
+            "write an F above zero (with G95 the speed of the spindle, too), or state unstated_feed_mm_per_s in the template",
+        );
+        None
+    }
+
+    fn orientation(&self, motion: &Move, share: f64) -> Option<UnitQuaternion<f64>> {
+        motion.orientation(share).or(self.template.tool_orientation)
+    }
+
+    fn made(&mut self, index: usize) {
+        let path = self.path;
+        let motion = &path.moves[index];
+        if self.begun && !motion.has_length() && !motion.turns_in_place() {
+            return;
+        }
+        if self.limits.orientation
+            && self.language != MakeLanguage::Csv
+            && self.language != MakeLanguage::Apt
+            && self.orientation(motion, 1.0).is_none()
+        {
+            if !self
+                .faults
+                .iter()
+                .any(|fault| fault.remedy.contains("tool_orientation"))
+            {
+                self.fault(
+                    motion.line,
+                    "the program does not say how the tool stands, and a robot needs to know it",
+                    "state tool_orientation in the template: the part's axes turned into the tool's (an angle of 180 deg about x where the tool's z points down)",
+                );
+            }
+            return;
+        }
+        let Some(speed_mm_per_s) = self.speed(motion) else {
+            return;
+        };
+        let Some(mut pieces) = pieces_of(motion, &self.limits, self.template.tolerance_mm) else {
+            return self.fault(
+                motion.line,
+                "the arc would become more than a million lines",
+                "state a larger tolerance_mm",
+            );
+        };
+        if !self.begun {
+            // From wherever the arm is, straight to its end.
+            pieces.ends = vec![1.0];
+            pieces.shape = Shape::Line;
+            pieces.followed = None;
+        }
+        if let Some(followed) = pieces.followed {
+            self.otherwise
+                .follow(followed, motion.line, pieces.ends.len());
+        }
+        let rapid = motion.kind == MoveKind::Rapid;
+        let mut from = 0.0;
+        for to in pieces.ends {
+            let via = 0.5 * (from + to);
+            let way = match pieces.shape {
+                Shape::Circle => Way::Circle {
+                    via: motion.point(via),
+                    via_orientation: self.orientation(motion, via),
+                },
+                Shape::AboutZ { clockwise } => Way::AboutZ {
+                    centre: centre(motion),
+                    clockwise,
+                },
+                Shape::Line if !self.begun || (rapid && self.template.rapids == Rapids::Joint) => {
+                    Way::Joint
+                }
+                Shape::Line => Way::Line,
+            };
+            let axis = match motion.orientation(to) {
+                Some(orientation) => orientation * path.tool_axis,
+                None => Vector3::z(),
+            };
+            self.steps.push(Step::Motion(MadeMotion {
+                source: index,
+                shares: [from, to],
+                line: motion.line,
+                way,
+                end: motion.point(to),
+                orientation: self.orientation(motion, to),
+                axis,
+                speed_mm_per_s,
+                rapid,
+                first: !self.begun,
+                exact: !self.begun,
+            }));
+            self.begun = true;
+            from = to;
+        }
+    }
+
+    fn end(mut self) -> Result<Planned, Vec<MakeError>> {
+        if !self.faults.is_empty() {
+            self.faults.sort_by_key(|fault| fault.line);
+            return Err(self.faults);
+        }
+        stops(&mut self.steps);
+        let otherwise = self
+            .otherwise
+            .findings(self.language, self.template.tolerance_mm);
+        self.findings.extend(otherwise);
+        self.findings.extend(further_axes(self.path));
+        Ok(Planned {
+            steps: self.steps,
+            findings: self.findings,
+        })
+    }
+}
+
+fn is_before(event: &SourceEvent, line: usize) -> bool {
+    match event.kind {
+        // What stands beside a motion acts before it, but for stops and the end.
+        EventKind::Stop | EventKind::End => event.line < line,
+        _ => event.line <= line,
+    }
+}
+
+fn centre(motion: &Move) -> Vector3<f64> {
+    match &motion.curve {
+        kinetostat_program::Curve::Arc(arc) => arc.centre,
+        kinetostat_program::Curve::Line => motion.start,
+    }
+}

@@ -1,0 +1,272 @@
+//! Programs in RAPID: one module with its tool, work object, speeds and motions; of a long one further modules.
+//!
+//! Source: ABB, Technical reference manual, RAPID Instructions, Functions and Data types (3HAC050917).
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use crate::making::names::of_part;
+use crate::making::numbers::{angles, coordinates, fixed, short};
+use crate::making::parts::parts;
+use crate::making::step::{MadeMotion, Step, Way};
+use crate::making::template::{StatedTool, Template};
+use crate::model::orientation::OrientationText;
+
+/// Most speeds that get a name; further ones stand in line.
+const MOST_NAMED_SPEEDS: usize = 200;
+
+/// Zones that controllers know by name, mm.
+const ZONES: [f64; 14] = [
+    0.3, 1.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0, 80.0, 100.0, 150.0, 200.0,
+];
+
+/// External axes that are not there.
+const NO_AXES: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+
+/// The files of a program: the main one first.
+pub(crate) fn files(
+    steps: &[Step],
+    name: &str,
+    most: usize,
+    template: &Template,
+    made_by: &str,
+) -> Vec<(String, Vec<u8>)> {
+    let ranges = parts(steps, most);
+    let mut writer = Writer::of(steps, template);
+    let mut text = format!("MODULE {name}\n  ! {made_by}\n{}", writer.declarations());
+    let mut files = Vec::with_capacity(ranges.len());
+    let several = ranges.len() > 1;
+    text += "  PROC main()\n    ConfJ\\Off;\n    ConfL\\Off;\n";
+    if let Some(acceleration) = template.acceleration_m_per_s2 {
+        text += &format!(
+            "    PathAccLim TRUE\\AccMax:={},TRUE\\DecelMax:={};\n",
+            short(acceleration, 6),
+            short(acceleration, 6)
+        );
+    }
+    if let Some(joints) = &template.start_joints_deg {
+        let joints: Vec<String> = joints.iter().map(|value| short(*value, 6)).collect();
+        let tool = writer.tool_name();
+        text += &format!(
+            "    MoveAbsJ [[{}],{NO_AXES}],vJoint,fine,{tool};\n",
+            joints.join(",")
+        );
+    }
+    if several {
+        for part in 0..ranges.len() {
+            text += &format!("    {};\n", of_part(name, part));
+        }
+        text += "  ENDPROC\nENDMODULE\n";
+        files.push((format!("{name}.mod"), text.into_bytes()));
+        for (part, range) in ranges.into_iter().enumerate() {
+            let own = of_part(name, part);
+            // The name of the module is that of its file; that of the routine is called.
+            let mut text = format!("MODULE m{own}\n  PROC {own}()\n");
+            for step in &steps[range] {
+                writer.step(step, &mut text);
+            }
+            text += "  ENDPROC\nENDMODULE\n";
+            files.push((format!("{own}.mod"), text.into_bytes()));
+        }
+        return files;
+    }
+    for step in steps {
+        writer.step(step, &mut text);
+    }
+    text += "  ENDPROC\nENDMODULE\n";
+    files.push((format!("{name}.mod"), text.into_bytes()));
+    files
+}
+
+struct Writer<'t> {
+    template: &'t Template,
+    /// Names of speeds by their numbers as written.
+    speeds: BTreeMap<String, String>,
+    tool: Option<u32>,
+}
+
+impl<'t> Writer<'t> {
+    fn of(steps: &[Step], template: &'t Template) -> Self {
+        let mut writer = Self {
+            template,
+            speeds: BTreeMap::new(),
+            tool: None,
+        };
+        let rapid = writer.speed_number(template.rapid_speed_mm_per_s);
+        writer.speeds.insert(rapid, "vRapid".to_owned());
+        for motion in steps.iter().filter_map(Step::motion) {
+            let number = writer.speed_number(motion.speed_mm_per_s);
+            let count = writer.speeds.len();
+            if count < MOST_NAMED_SPEEDS {
+                let name = || format!("vFeed{count}");
+                writer.speeds.entry(number).or_insert_with(name);
+            }
+        }
+        writer
+    }
+
+    fn speed_number(&self, mm_per_s: f64) -> String {
+        short(mm_per_s, self.template.speed_decimals.unwrap_or(9))
+    }
+
+    fn declarations(&self) -> String {
+        let mut text = String::new();
+        let mut tools: Vec<(Option<u32>, &StatedTool)> = vec![(None, &self.template.tool)];
+        if !self.template.tools.is_empty() {
+            tools = (self.template.tools.iter())
+                .map(|(number, tool)| (Some(*number), tool))
+                .collect();
+        }
+        for (number, tool) in tools {
+            let Some(pose) = &tool.frame.pose else {
+                continue;
+            };
+            let mass = short(tool.mass_kg.unwrap_or(1.0), 6);
+            // A centre of mass at the flange itself is refused by controllers.
+            let centre = tool
+                .centre_of_mass_mm
+                .unwrap_or_else(|| Vector3::new(0.0, 0.0, 1.0));
+            let [x, y, z] = coordinates(&centre, self.template);
+            text += &format!(
+                "  PERS tooldata {}:=[TRUE,{},[{mass},[{x},{y},{z}],[1,0,0,0],0,0,0]];\n",
+                name_of_tool(number, tool),
+                self.pose(pose)
+            );
+        }
+        if let Some(pose) = &self.template.base.pose {
+            text += &format!(
+                "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];\n",
+                self.base_name(),
+                self.pose(pose)
+            );
+        }
+        let slow = short(self.template.joint_speed_percent * 10.0, 3);
+        text += &format!("  CONST speeddata vJoint:=[{slow},500,5000,1000];\n");
+        for (number, name) in &self.speeds {
+            text += &format!("  CONST speeddata {name}:=[{number},500,5000,1000];\n");
+        }
+        text
+    }
+
+    fn base_name(&self) -> String {
+        let base = &self.template.base;
+        let numbered = || format!("wobj{}", base.number.unwrap_or(1));
+        base.name.clone().unwrap_or_else(numbered)
+    }
+
+    fn tool_name(&self) -> String {
+        let stated = self
+            .tool
+            .and_then(|number| Some((number, self.template.tools.get(&number)?)));
+        match stated {
+            Some((number, tool)) => name_of_tool(Some(number), tool),
+            None => name_of_tool(None, &self.template.tool),
+        }
+    }
+
+    fn quaternion(&self, turn: &UnitQuaternion<f64>) -> String {
+        angles(
+            turn,
+            OrientationText::Quaternion,
+            self.template.quaternion_decimals,
+        )
+        .join(",")
+    }
+
+    fn pose(&self, pose: &Isometry3<f64>) -> String {
+        let [x, y, z] = coordinates(&pose.translation.vector, self.template);
+        format!("[[{x},{y},{z}],[{}]]", self.quaternion(&pose.rotation))
+    }
+
+    fn target(
+        &self,
+        place: &Vector3<f64>,
+        turn: &UnitQuaternion<f64>,
+        configuration: &str,
+    ) -> String {
+        let [x, y, z] = coordinates(place, self.template);
+        format!(
+            "[[{x},{y},{z}],[{}],{configuration},{NO_AXES}]",
+            self.quaternion(turn)
+        )
+    }
+
+    fn step(&mut self, step: &Step, text: &mut String) {
+        let line = match step {
+            Step::Note(note) => format!("! {note}"),
+            Step::Wait(seconds) => format!("WaitTime {};", short(*seconds, 6)),
+            Step::Stop => "Stop;".to_owned(),
+            Step::Tool(number) => {
+                self.tool = Some(*number);
+                return;
+            }
+            Step::Motion(motion) => self.motion(motion),
+        };
+        *text += "    ";
+        *text += &line;
+        text.push('\n');
+    }
+
+    fn motion(&self, motion: &MadeMotion) -> String {
+        let turn = motion.orientation.unwrap_or_default();
+        let unknown = "[0,0,0,0]";
+        let configuration = match (motion.first, &self.template.configuration) {
+            (true, Some(configuration)) => configuration,
+            _ => unknown,
+        };
+        let end = self.target(&motion.end, &turn, configuration);
+        let number = self.speed_number(motion.speed_mm_per_s);
+        let speed = match (motion.way, self.speeds.get(&number)) {
+            (Way::Joint, _) => "vJoint".to_owned(),
+            (_, Some(name)) => name.clone(),
+            (_, None) => format!("[{number},500,5000,1000]"),
+        };
+        let radius = match motion.rapid {
+            true => self.template.zones.rapids_mm,
+            false => self.template.zones.feeds_mm,
+        };
+        let zone = match motion.exact {
+            true => "fine".to_owned(),
+            false => zone(radius),
+        };
+        let rest = format!(
+            "{speed},{zone},{}\\WObj:={};",
+            self.tool_name(),
+            self.base_name()
+        );
+        match motion.way {
+            Way::Joint => format!("MoveJ {end},{rest}"),
+            Way::Circle {
+                via,
+                via_orientation,
+            } => {
+                let via = self.target(&via, &via_orientation.unwrap_or(turn), unknown);
+                format!("MoveC {via},{end},{rest}")
+            }
+            _ => format!("MoveL {end},{rest}"),
+        }
+    }
+}
+
+fn name_of_tool(number: Option<u32>, tool: &StatedTool) -> String {
+    let number = number.or(tool.frame.number).unwrap_or(1);
+    tool.frame
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("tool{number}"))
+}
+
+/// A zone by its name, or in line as the named ones are made.
+fn zone(radius: f64) -> String {
+    match ZONES.iter().find(|zone| **zone == radius) {
+        _ if radius == 0.0 => "fine".to_owned(),
+        Some(named) if *named < 1.0 => "z0".to_owned(),
+        Some(named) => format!("z{}", fixed(*named, 0)),
+        None => {
+            let [path, half, tenth] =
+                [radius, 1.5 * radius, 0.15 * radius].map(|size| short(size, 3));
+            format!("[FALSE,{path},{half},{half},{tenth},{half},{tenth}]")
+        }
+    }
+}

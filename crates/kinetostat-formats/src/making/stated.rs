@@ -1,0 +1,176 @@
+//! Whether a template can be written: numbers in their ranges, an orientation where one is needed.
+
+use crate::making::fault::MakeError;
+use crate::making::limits::MakeLanguage;
+use crate::making::names::is_identifier;
+use crate::making::template::{StatedFrame, StatedTool, Template};
+
+/// Everything that is wrong with a template.
+pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeError> {
+    let mut faults = Vec::new();
+    let mut within = |name: &str, value: f64, least: f64, most: f64| {
+        if !(least..=most).contains(&value) {
+            faults.push(MakeError::of(
+                format!("{name} is {value}"),
+                format!("{least} to {most} are allowed"),
+            ));
+        }
+    };
+    within(
+        "rapid_speed_mm_per_s",
+        template.rapid_speed_mm_per_s,
+        0.001,
+        10_000.0,
+    );
+    within(
+        "joint_speed_percent",
+        template.joint_speed_percent,
+        0.1,
+        100.0,
+    );
+    within("tolerance_mm", template.tolerance_mm, 1e-6, 10.0);
+    if let Some(speed) = template.unstated_feed_mm_per_s {
+        within("unstated_feed_mm_per_s", speed, 0.001, 10_000.0);
+    }
+    if let Some(acceleration) = template.acceleration_m_per_s2 {
+        within("acceleration_m_per_s2", acceleration, 0.001, 100.0);
+    }
+    let zones = &template.zones;
+    within("zones: rapids_mm", zones.rapids_mm, 0.0, 200.0);
+    within("zones: feeds_mm", zones.feeds_mm, 0.0, 200.0);
+    within("zones: rapids_percent", zones.rapids_percent, 0.0, 100.0);
+    within("zones: feeds_percent", zones.feeds_percent, 0.0, 100.0);
+    within(
+        "position_decimals",
+        template.position_decimals as f64,
+        1.0,
+        12.0,
+    );
+    within("angle_decimals", template.angle_decimals as f64, 1.0, 12.0);
+    within(
+        "quaternion_decimals",
+        template.quaternion_decimals as f64,
+        3.0,
+        15.0,
+    );
+    if let Some(decimals) = template.speed_decimals {
+        within("speed_decimals", decimals as f64, 0.0, 12.0);
+    }
+    if let (Some(stated), Some((_, most))) = (template.most_points, language.limits().points) {
+        within("most_points", stated as f64, 2.0, most as f64);
+    }
+    for joint in template.start_joints_deg.iter().flatten() {
+        within("start_joints_deg", *joint, -10_000.0, 10_000.0);
+    }
+    if template
+        .start_joints_deg
+        .as_ref()
+        .is_some_and(|joints| joints.len() != 6)
+    {
+        faults.push(MakeError::of(
+            "start_joints_deg has not six values",
+            "state six joints; further axes are not written",
+        ));
+    }
+    let tools = template.tools.values().chain([&template.tool]);
+    for tool in tools {
+        faults.extend(of_tool(tool, language));
+    }
+    faults.extend(of_frame(&template.base, "base", language));
+    faults.extend(of_configuration(template, language));
+    faults
+}
+
+fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeError> {
+    let mut faults = of_frame(&tool.frame, "tool", language);
+    if tool
+        .mass_kg
+        .is_some_and(|mass| !(1e-3..=5000.0).contains(&mass))
+    {
+        faults.push(MakeError::of(
+            "mass_kg of a tool is not from 0.001 to 5000",
+            "state the mass in kg",
+        ));
+    }
+    faults
+}
+
+fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<MakeError> {
+    let mut faults = Vec::new();
+    if let Some(name) = &frame.name {
+        faults.extend(is_identifier(name, 32, &format!("the name of the {what}")).err());
+        if language != MakeLanguage::Rapid {
+            faults.push(MakeError::of(
+                format!("the {what} has a name, which RAPID alone has"),
+                "state its number, or its pose",
+            ));
+        }
+    }
+    let most = match (language, what) {
+        (MakeLanguage::FanucLs, "tool") => 29,
+        (MakeLanguage::FanucLs, _) => 61,
+        _ => 255,
+    };
+    if frame.number.is_some_and(|number| number > most) {
+        faults.push(MakeError::of(
+            format!("the number of the {what} is above {most}"),
+            "state that of the controller",
+        ));
+    }
+    faults
+}
+
+/// A configuration stands in the program as it is stated.
+fn of_configuration(template: &Template, language: MakeLanguage) -> Option<MakeError> {
+    let text = template.configuration.as_ref()?;
+    let (form, right) = match language {
+        MakeLanguage::Krl => ("S 2, T 35", is_status_and_turn(text)),
+        MakeLanguage::Rapid => ("[0,-1,0,0]", is_four_numbers(text)),
+        MakeLanguage::FanucLs => ("N U T, 0, 0, 0", is_fanuc(text)),
+        _ => return None,
+    };
+    (!right).then(|| {
+        let shown: String = text.chars().take(40).filter(|c| !c.is_control()).collect();
+        MakeError::of(
+            format!("the configuration is `{shown}`"),
+            format!("it is written as \"{form}\" here"),
+        )
+    })
+}
+
+fn is_status_and_turn(text: &str) -> bool {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let number = |part: &str, letter: char| {
+        let rest = part.strip_prefix(letter).map(str::trim);
+        rest.is_some_and(|rest| {
+            !rest.is_empty() && rest.len() <= 3 && rest.bytes().all(|b| b.is_ascii_digit())
+        })
+    };
+    matches!(parts[..], [s, t] if number(s, 'S') && number(t, 'T'))
+}
+
+fn is_four_numbers(text: &str) -> bool {
+    let inside = text
+        .trim()
+        .strip_prefix('[')
+        .and_then(|text| text.strip_suffix(']'));
+    let numbers = inside.map(|inside| {
+        inside
+            .split(',')
+            .map(|part| part.trim().parse::<i32>().ok())
+            .collect()
+    });
+    numbers.is_some_and(|numbers: Vec<Option<i32>>| {
+        numbers.len() == 4 && numbers.iter().all(Option::is_some)
+    })
+}
+
+fn is_fanuc(text: &str) -> bool {
+    let mut parts = text.split(',').map(str::trim);
+    let letters = parts.next().unwrap_or_default();
+    let turns: Vec<&str> = parts.collect();
+    let letters_right = letters
+        .split(' ')
+        .all(|letter| matches!(letter, "N" | "F" | "U" | "D" | "T" | "B"));
+    letters_right && turns.len() == 3 && turns.iter().all(|turn| turn.parse::<i8>().is_ok())
+}

@@ -1,0 +1,73 @@
+//! What a made program does, one step after another.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// On which way a made motion goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Way {
+    Joint,
+    Line,
+    /// Through a place, with the tool as it stands there.
+    Circle {
+        via: Vector3<f64>,
+        via_orientation: Option<UnitQuaternion<f64>>,
+    },
+    /// About the z axis of the part, with a centre; it may rise.
+    AboutZ {
+        centre: Vector3<f64>,
+        clockwise: bool,
+    },
+}
+
+/// One motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MadeMotion {
+    /// The move of the path that it is of, and which part of it: shares of its length.
+    pub source: usize,
+    pub shares: [f64; 2],
+    pub line: usize,
+    pub way: Way,
+    pub end: Vector3<f64>,
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// Direction from the tool's tip to its holder.
+    pub axis: Vector3<f64>,
+    pub speed_mm_per_s: f64,
+    pub rapid: bool,
+    /// The first of the program: from wherever the arm is.
+    pub first: bool,
+    /// It stops at its end.
+    pub exact: bool,
+}
+
+impl MadeMotion {
+    /// Places that a program needs for it.
+    pub(crate) fn places(&self) -> usize {
+        match self.way {
+            Way::Circle { .. } => 2,
+            _ => 1,
+        }
+    }
+}
+
+/// One step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Step {
+    /// Text of the source.
+    Note(String),
+    /// The tool stands still for so many seconds.
+    Wait(f64),
+    /// Until somebody starts again.
+    Stop,
+    /// Another tool, by its number.
+    Tool(u32),
+    Motion(MadeMotion),
+}
+
+impl Step {
+    pub(crate) fn motion(&self) -> Option<&MadeMotion> {
+        match self {
+            Self::Motion(motion) => Some(motion),
+            _ => None,
+        }
+    }
+}

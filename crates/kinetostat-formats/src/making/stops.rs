@@ -1,0 +1,18 @@
+//! Where the tool stops exactly.
+
+use crate::making::step::Step;
+
+/// Motions that stop: before a pause and another tool, where rapids and feeds meet, and at the end.
+pub(crate) fn stops(steps: &mut [Step]) {
+    let mut next: Option<bool> = None;
+    for step in steps.iter_mut().rev() {
+        match step {
+            Step::Motion(motion) => {
+                motion.exact |= next != Some(motion.rapid);
+                next = Some(motion.rapid);
+            }
+            Step::Wait(_) | Step::Stop | Step::Tool(_) => next = None,
+            Step::Note(_) => {}
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! What the caller states of the cell that a made program is for.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+/// A base or a tool as the controller knows it, and where it is.
+///
+/// Without a pose the controller's own one of that number or name is used, whatever it is there.
+///
+/// ```
+/// use kinetostat_formats::StatedFrame;
+/// use nalgebra::Isometry3;
+///
+/// let base = StatedFrame { number: Some(3), pose: Some(Isometry3::translation(800.0, 0.0, 400.0)), ..StatedFrame::default() };
+/// assert_eq!(base.name, None);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StatedFrame {
+    /// Its number (`BASE_DATA[3]`, `UF : 3`); 1 where nothing is stated.
+    pub number: Option<u32>,
+    /// Its name (RAPID).
+    pub name: Option<String>,
+    /// A base in the axes of the robot's base, a tool in those of the flange; mm.
+    pub pose: Option<Isometry3<f64>>,
+}
+
+/// A tool with its load, which RAPID declares together.
+///
+/// ```
+/// assert_eq!(kinetostat_formats::StatedTool::default().mass_kg, None);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StatedTool {
+    /// Number, name and tip.
+    pub frame: StatedFrame,
+    /// Its mass in kg; 1 is written where nothing is stated.
+    pub mass_kg: Option<f64>,
+    /// Its centre of mass in axes of the flange, mm.
+    pub centre_of_mass_mm: Option<Vector3<f64>>,
+}
+
+/// What rapids become.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rapids {
+    /// Straight motions at the rapid speed: the way is that of the source.
+    #[default]
+    Linear,
+    /// Joint motions: faster, on a way that is the controller's.
+    Joint,
+}
+
+/// What becomes of moves to places of the machine (G28, G53) and to joint values, which have no place in the part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PlacesUnknown {
+    /// They are refused by line between moves; before the first and behind the last place that is known they are left out.
+    #[default]
+    Refused,
+    /// They are left out everywhere: the tool goes straight from the place before to the one behind.
+    LeftOut,
+}
+
+/// How near the tool comes to the ends of motions that others follow.
+///
+/// ```
+/// let zones = kinetostat_formats::Zones::default();
+/// assert_eq!((zones.rapids_mm, zones.feeds_mm), (1.0, 0.3));
+/// assert_eq!((zones.rapids_percent, zones.feeds_percent), (50.0, 20.0));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Zones {
+    /// Of rapids, mm; 0 stops at each end. KRL: `$APO.CDIS`; RAPID: the path zone.
+    pub rapids_mm: f64,
+    /// Of motions at feed, mm.
+    pub feeds_mm: f64,
+    /// Of rapids where the controller takes percent (FANUC: `CNT50`, KRL: `$APO.CPTP` of joint motions); 0 stops at each end.
+    pub rapids_percent: f64,
+    /// Of motions at feed where the controller takes percent.
+    pub feeds_percent: f64,
+}
+
+impl Default for Zones {
+    fn default() -> Self {
+        Self {
+            rapids_mm: 1.0,
+            feeds_mm: 0.3,
+            rapids_percent: 50.0,
+            feeds_percent: 20.0,
+        }
+    }
+}
+
+/// What a made program is for: names, frames, speeds, zones, digits.
+///
+/// ```
+/// use kinetostat_formats::{Rapids, Template};
+/// use nalgebra::{UnitQuaternion, Vector3};
+///
+/// let mut template = Template::default();
+/// assert_eq!((template.rapids, template.rapid_speed_mm_per_s), (Rapids::Linear, 200.0));
+/// assert_eq!((template.position_decimals, template.tolerance_mm), (6, 0.001));
+/// // The tool's z points down, as is usual at ABB and FANUC.
+/// template.tool_orientation = Some(UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Template {
+    /// Name of the program, and of its file.
+    pub program_name: String,
+    /// In whose axes the places are: the part.
+    pub base: StatedFrame,
+    /// The tool of a program with one tool.
+    pub tool: StatedTool,
+    /// Tools by the numbers of the source, of a program with several.
+    pub tools: BTreeMap<u32, StatedTool>,
+    /// Turns the part's axes into the tool's, for moves that state no orientation.
+    pub tool_orientation: Option<UnitQuaternion<f64>>,
+    /// What rapids become.
+    pub rapids: Rapids,
+    /// Speed of straight rapids, mm/s.
+    pub rapid_speed_mm_per_s: f64,
+    /// Speed of joint motions, percent of the largest.
+    pub joint_speed_percent: f64,
+    /// Speed of motions at feed whose source states none, mm/s; they are refused without it.
+    pub unstated_feed_mm_per_s: Option<f64>,
+    /// Acceleration along the path, m/s^2, where the language states one.
+    pub acceleration_m_per_s2: Option<f64>,
+    /// Rounding of corners.
+    pub zones: Zones,
+    /// How the arm reaches the first pose (KRL: `S 2, T 35`; FANUC: `N U T, 0, 0, 0`; RAPID: `[0,-1,0,0]`).
+    pub configuration: Option<String>,
+    /// Where the program begins, in joints, degrees.
+    pub start_joints_deg: Option<Vec<f64>>,
+    /// What becomes of moves without a place in the part.
+    pub places_unknown: PlacesUnknown,
+    /// Decimals of lengths in mm.
+    pub position_decimals: usize,
+    /// Decimals of angles in degrees.
+    pub angle_decimals: usize,
+    /// Decimals of parts of quaternions and directions.
+    pub quaternion_decimals: usize,
+    /// Most decimals of speeds; that of the language where nothing is stated.
+    pub speed_decimals: Option<usize>,
+    /// Most places in a file; that of the language where nothing is stated.
+    pub most_points: Option<usize>,
+    /// How far lines may leave the curves that the other side has not, mm.
+    pub tolerance_mm: f64,
+}
+
+impl Default for Template {
+    fn default() -> Self {
+        Self {
+            program_name: "part".to_owned(),
+            base: StatedFrame::default(),
+            tool: StatedTool::default(),
+            tools: BTreeMap::new(),
+            tool_orientation: None,
+            rapids: Rapids::Linear,
+            rapid_speed_mm_per_s: 200.0,
+            joint_speed_percent: 10.0,
+            unstated_feed_mm_per_s: None,
+            acceleration_m_per_s2: None,
+            zones: Zones::default(),
+            configuration: None,
+            start_joints_deg: None,
+            places_unknown: PlacesUnknown::Refused,
+            position_decimals: 6,
+            angle_decimals: 8,
+            quaternion_decimals: 10,
+            speed_decimals: None,
+            most_points: None,
+            tolerance_mm: 0.001,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! From the language of one robot to that of another.
+
+use kinetostat_formats::*;
+use kinetostat_testing::Worst;
+use nalgebra::Vector3;
+
+use super::{ROBOTS, read_made, text_of};
+
+const RAPID: &str = "MODULE M\nPERS wobjdata table:=[FALSE,TRUE,\"\",[[500,0,300],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nPROC main()\n\
+    MoveJ [[0,0,50],[0.02,0.8,-0.59,0.1],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0\\WObj:=table;\n\
+    SetDO doSpindle,1;\n! groove\n\
+    MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0\\WObj:=table;\n\
+    MoveC [[5,5,0],[0,0.9961947,0,0.0871557],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],\
+    [[10,0,0],[0,0.9848078,0,0.1736482],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0\\WObj:=table;\nENDPROC\nENDMODULE\n";
+
+#[test]
+fn a_program_of_abb_runs_on_others() {
+    let text = RAPID.replace("[0.02,0.8,-0.59,0.1]", "[0,0.8,-0.6,0]");
+    let program = read_rapid(
+        vec![SourceFile::new("m.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    for (into, language) in ROBOTS {
+        let made = make_of_robot(&program, &robot, &Template::default(), into).unwrap();
+        assert!(
+            made.kept.orientation_rad < 1e-9 && made.kept.position_mm < 1e-6,
+            "{into:?} {:?}",
+            made.kept
+        );
+        let again = read_made(&made, language);
+        assert_eq!(again.motions.len(), 3);
+        let (mut places, mut turns) = (Worst::default(), Worst::default());
+        for (one, other) in program.motions.iter().zip(&again.motions) {
+            let [one, other] = [one, other].map(|motion| motion.target.pose().unwrap());
+            places.add((one.position_mm - other.position_mm).norm());
+            turns.add(one.orientation.angle_to(&other.orientation));
+        }
+        assert!(places.value() < 1e-6 && turns.value() < 3e-8);
+        let MotionKind::Circular { via } = &again.motions[2].kind else {
+            panic!("{:?}", again.motions[2]);
+        };
+        assert!((via.pose().unwrap().position_mm - Vector3::new(5.0, 5.0, 0.0)).norm() < 1e-6);
+        let text = text_of(&made, 0);
+        assert!(
+            text.contains("line 5: SetDO doSpindle,1") && text.contains("line 6: ! groove"),
+            "{text}"
+        );
+        assert!(
+            made.findings
+                .iter()
+                .any(|f| f.message.starts_with("other statements: 1 line "))
+        );
+    }
+}
+
+#[test]
+fn work_object_and_tool_keep_pose_number_and_name() {
+    let text = RAPID.replace("[0.02,0.8,-0.59,0.1]", "[0,0.8,-0.6,0]");
+    let program = read_rapid(
+        vec![SourceFile::new("m.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let text = |into| {
+        text_of(
+            &make_of_robot(&program, &robot, &Template::default(), into).unwrap(),
+            0,
+        )
+    };
+    assert!(text(MakeLanguage::Krl).contains("$BASE={X 500.000000,Y 0.000000,Z 300.000000,"));
+    assert!(
+        text(MakeLanguage::Rapid)
+            .contains("PERS wobjdata table:=[FALSE,TRUE,\"\",[[500.000000,0.000000,300.000000],")
+    );
+    let ls = "/PROG  PART\n/ATTR\nLINE_COUNT\t= 4;\n/MN\n   1:  UFRAME_NUM=3 ;\n   2:  UTOOL_NUM=2 ;\n   3:J P[1] 10% FINE ;\n   4:L P[2] 20mm/sec FINE ;\n\
+        /POS\nP[1]{\n   GP1:\n\tUF : 3, UT : 2,\t\tCONFIG : 'N U T, 0, 0, 0',\n\tX = 1 mm,\tY = 2 mm,\tZ = 3 mm,\n\tW = 180 deg,\tP = 0 deg,\tR = 0 deg\n};\n\
+        P[2]{\n   GP1:\n\tUF : 3, UT : 2,\t\tCONFIG : 'N U T, 0, 0, 0',\n\tX = 9 mm,\tY = 2 mm,\tZ = 3 mm,\n\tW = 180 deg,\tP = 0 deg,\tR = 0 deg\n};\n/END\n";
+    let program = read_ls(
+        vec![SourceFile::new("part.ls", ls)],
+        &ReadOptions::default(),
+    )
+    .unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let krl = text_of(
+        &make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Krl).unwrap(),
+        0,
+    );
+    assert!(
+        krl.contains("$BASE=BASE_DATA[3]\n$TOOL=TOOL_DATA[2]\n"),
+        "{krl}"
+    );
+}
+
+#[test]
+fn what_does_not_run_once_is_refused() {
+    let text = RAPID
+        .replace("[0.02,0.8,-0.59,0.1]", "[0,0.8,-0.6,0]")
+        .replace("! groove\n", "! groove\nFOR i FROM 1 TO 2 DO\n")
+        .replace("ENDPROC", "ENDFOR\nENDPROC");
+    let program = read_rapid(
+        vec![SourceFile::new("m.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let found =
+        make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Krl).unwrap_err();
+    assert_eq!(
+        found.iter().map(|fault| fault.line).collect::<Vec<_>>(),
+        [Some(8), Some(9)]
+    );
+    assert!(found[0].to_string().starts_with(
+        "line 8: the motion is in a loop, or in a routine that is called more than once; write"
+    ));
+}

@@ -1,0 +1,95 @@
+//! Long programs: a main program and numbered parts.
+
+use kinetostat_formats::*;
+use kinetostat_testing::Worst;
+use nalgebra::Vector3;
+
+use super::{ROBOTS, cell, gcode, read_made, text_of};
+
+#[test]
+fn parts_go_on_where_the_part_before_ended() {
+    let mut text = String::from("G21 G90\nG0 X0 Y0 Z0\n");
+    for index in 0..50 {
+        let x = f64::from(index) * 10.0;
+        text += &format!("G1 X{} Y0 F600\nG3 X{} Y0 I2.5 J0\n", x + 5.0, x + 10.0);
+    }
+    let (_, path) = gcode(&text);
+    let mut template = cell();
+    template.most_points = Some(20);
+    template.program_name = "long".into();
+    for (into, language) in ROBOTS {
+        let made = make(&path, &[], &template, into).unwrap();
+        // 151 places, an arc has two.
+        assert_eq!(
+            made.files.len(),
+            9,
+            "{:?}",
+            made.files.iter().map(|f| &f.0).collect::<Vec<_>>()
+        );
+        let ending = into.ending();
+        assert_eq!(made.files[0].0, format!("long.{ending}"));
+        assert_eq!(made.files[8].0, format!("long_8.{ending}"));
+        let main = text_of(&made, 0);
+        let calls = main.matches("long_").count() + main.matches("LONG_").count();
+        assert_eq!(calls, 8, "{main}");
+        let program = read_made(&made, language);
+        assert_eq!(program.motions.len(), 101);
+        let mut worst = Worst::default();
+        for (index, (motion, wanted)) in program.motions.iter().zip(&path.moves).enumerate() {
+            assert_eq!(motion.follows, index.checked_sub(1));
+            worst.add((motion.target.pose().unwrap().position_mm - wanted.end).norm());
+        }
+        assert!(worst.value() < 1e-6);
+        let file = text_of(&made, 3);
+        let places =
+            file.matches("{X ").count() + file.matches("[[").count() + file.matches("\nP[").count();
+        assert!(places <= 21, "{file}"); // with the one of a frame
+    }
+}
+
+#[test]
+fn tools_of_several_are_taken_in_their_parts() {
+    let text = "G21 G90\nT1 M6\nG0 X0 Y0 Z0\nG1 X5 F60\nT2 M6\nG0 X0\nG1 X5\nG1 X6\n";
+    let (program, path) = gcode(text);
+    let events = events_of_gcode(&program, &path);
+    let mut template = cell();
+    let refused = make(&path, &events, &template, MakeLanguage::Krl).unwrap_err();
+    assert_eq!(refused[0].line, Some(2));
+    assert!(
+        refused[1]
+            .to_string()
+            .contains("line 5: the program takes the tool 2, one of several"),
+        "{refused:?}"
+    );
+    for number in [1, 2] {
+        let mut tool = StatedTool::default();
+        tool.frame.number = Some(number);
+        tool.frame.pose = Some(nalgebra::Isometry3::translation(
+            0.0,
+            0.0,
+            100.0 * f64::from(number),
+        ));
+        template.tools.insert(number, tool);
+    }
+    template.most_points = Some(4);
+    for (into, language) in ROBOTS {
+        let made = make(&path, &events, &template, into).unwrap();
+        let program = read_made(&made, language);
+        assert_eq!(program.motions.len(), 5);
+        for (index, motion) in program.motions.iter().enumerate() {
+            let length = match index {
+                0 | 1 => 100.0,
+                _ => 200.0,
+            };
+            match into {
+                MakeLanguage::FanucLs => {
+                    assert_eq!(motion.tool.name, format!("UT:{}", length / 100.0))
+                }
+                _ => assert_eq!(
+                    motion.tool.known().unwrap().translation.vector,
+                    Vector3::z() * length
+                ),
+            }
+        }
+    }
+}
