@@ -97,6 +97,8 @@ pub struct TurnChoice {
     pub cost: f64,
     /// The fastest turn between two stations, deg/mm.
     pub largest_rate_deg_per_mm: f64,
+    /// By what velocities are divided in singular values, m: the mean of upper arm and forearm (to the centre of the wrist).
+    pub length_m: f64,
     /// Smallest singular value at stations and between them.
     pub smallest_singular_value: f64,
     /// Line where that is.

@@ -89,6 +89,7 @@ fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
         configuration,
         cost: found.cost,
         largest_rate_deg_per_mm: rate.fold(0.0, larger),
+        length_m: problem.postures.arm.serial.length,
         smallest_singular_value: least.0,
         smallest_singular_value_line: least.1,
         nearest_limit: limit,

@@ -52,16 +52,24 @@ impl SixAxisArm {
     /// The arm that a machine is; none if it is another machine.
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let flags = Arm::of(mechanism)?;
-        let serial = SerialArm::of(mechanism)?;
+        let mut serial = SerialArm::of(mechanism)?;
         let (directions, points, tool) = serial.at_home();
         let [first, second, third, fourth, fifth, sixth] = directions;
+        let wrist = points[3] + fourth * (points[4] - points[3]).dot(&fourth);
+        // Square to axis 2, where links are as long whatever points of the axes are known.
+        let links = [points[2] - points[1], wrist - points[2]];
+        serial.length = 0.5
+            * links
+                .map(|link| link.cross(&second).norm())
+                .iter()
+                .sum::<f64>();
         Some(Self {
             serial,
             flags,
             directions: directions.map(Unit::new_normalize),
             points,
             tool,
-            wrist: points[3] + fourth * (points[4] - points[3]).dot(&fourth),
+            wrist,
             out: second.cross(&first),
             third: second.dot(&third).signum(),
             bend: about(&fifth, &fourth, &sixth),

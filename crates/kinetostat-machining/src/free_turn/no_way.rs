@@ -1,12 +1,14 @@
 //! Where all sequences of turns end, why, and what helps.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 use crate::free_turn::constant::constant_parts;
 use crate::free_turn::error::{NoWay, TurnBarrier, TurnPart};
-use crate::free_turn::nodes::Refused;
+use crate::free_turn::nodes::{Node, Refused};
 use crate::free_turn::search::{Found, Problem};
-use crate::free_turn::shortest::{Barrier, Progress};
+use crate::free_turn::shortest::{Barrier, Progress, joint_turns};
+use crate::free_turn::stations::Gap;
 use crate::free_turn::task::{TurnBand, TurnTask};
 
 /// Most parts into which a program is said to be divided.
@@ -16,7 +18,9 @@ const MOST_PARTS: usize = 1000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum End {
     Refused(Refused),
-    Between(Barrier),
+    Flip,
+    Rate,
+    JointStep(usize),
 }
 
 /// What stands in the way to a station that no sequence reaches, and what helps.
@@ -34,6 +38,36 @@ pub(crate) fn no_way(problem: &Problem<'_, '_>, station: usize, progress: &Progr
     }
 }
 
+/// What is reached at the station before, and what the rate lets follow.
+struct Before<'n> {
+    nodes: Vec<&'n Node>,
+    /// Configuration and turn.
+    next: BTreeSet<(u8, u32)>,
+}
+
+impl<'n> Before<'n> {
+    fn of(problem: &'n Problem<'_, '_>, station: usize, progress: &Progress) -> Option<Self> {
+        let before = station.checked_sub(1)?;
+        let gap = problem.stations[station].gap?;
+        let values = &progress.stages.get(before)?.values;
+        let nodes = problem.nodes[before].iter().zip(values);
+        let nodes = nodes.filter(|(_, value)| value.is_finite());
+        let nodes: Vec<&Node> = nodes.map(|(node, _)| node).collect();
+        let reached: BTreeSet<(u8, u32)> =
+            nodes.iter().map(|n| (n.configuration, n.turn)).collect();
+        let mut next = BTreeSet::new();
+        for turn in 0..problem.turns.count as u32 {
+            for (configuration, from) in &reached {
+                let turned = problem.turns.steps(*from, turn).abs() as f64 * problem.turns.step_deg;
+                if !gap.known || turned <= gap.turn_deg * (1.0 + 1e-9) {
+                    next.insert((*configuration, turn));
+                }
+            }
+        }
+        Some(Self { nodes, next })
+    }
+}
+
 /// Everything that ends at a station, the most frequent first.
 fn barriers(
     problem: &Problem<'_, '_>,
@@ -41,40 +75,39 @@ fn barriers(
     progress: &Progress,
 ) -> Vec<(TurnBarrier, f64)> {
     let mut ends: BTreeMap<End, usize> = BTreeMap::new();
-    // Configurations in which the station before is reached.
-    let before = station.checked_sub(1);
-    let alive: BTreeSet<u8> = before.map_or_else(BTreeSet::new, |before| {
-        let values = progress.stages.get(before).map(|stage| &stage.values);
-        let nodes = problem.nodes[before]
-            .iter()
-            .zip(values.into_iter().flatten());
-        let reached = nodes.filter(|(_, value)| value.is_finite());
-        reached.map(|(node, _)| node.configuration).collect()
-    });
-    let counts = |number: u8| match before {
-        None => problem
-            .task
-            .bounds
-            .configuration
-            .is_none_or(|only| only == number),
-        Some(_) => alive.contains(&number),
-    };
+    let before = Before::of(problem, station, progress);
+    let only = problem.task.bounds.configuration;
     for turn in 0..problem.turns.count as u32 {
         let pose = &problem.stations[station].place.pose;
         let pose = problem.way.turned(pose, problem.turns.deg(turn));
-        for (number, found) in problem.postures.refusals(&pose) {
-            match (found, number) {
-                (Err(why), Some(number)) if counts(number) => {
-                    *ends.entry(End::Refused(why)).or_default() += 1;
-                }
-                (Err(why), None) => *ends.entry(End::Refused(why)).or_default() += 1,
-                _ => {}
+        let ways = problem.postures.refusals(&pose);
+        for number in 0..8 {
+            let counts = match &before {
+                None => only.is_none_or(|only| only == number),
+                Some(before) => before.next.contains(&(number, turn)),
+            };
+            let own = ways.iter().find(|way| way.0 == Some(number));
+            let unknown = (None, Err(Refused::Singular));
+            let why = match own.map(|way| way.1) {
+                Some(Ok(())) => continue,
+                Some(Err(why)) => why,
+                None if ways.contains(&unknown) => Refused::Singular,
+                None => Refused::OutOfReach,
+            };
+            if counts {
+                *ends.entry(End::Refused(why)).or_default() += 1;
             }
         }
     }
-    for end in between(problem, station, progress, &alive) {
+    let links = before.map_or_else(Vec::new, |before| between(problem, station, &before));
+    for end in links {
         *ends.entry(end).or_default() += 1;
     }
+    in_words(problem, ends)
+}
+
+/// Barriers with their shares, the most frequent first.
+fn in_words(problem: &Problem<'_, '_>, ends: BTreeMap<End, usize>) -> Vec<(TurnBarrier, f64)> {
     let all: usize = ends.values().sum();
     let mut listed: Vec<(End, usize)> = ends.into_iter().collect();
     listed.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
@@ -87,11 +120,9 @@ fn barriers(
                 End::Refused(Refused::OutOfReach) => TurnBarrier::OutOfReach,
                 End::Refused(Refused::Limit(joint)) => TurnBarrier::Limit { joint: name(joint) },
                 End::Refused(Refused::Singular) => TurnBarrier::Singular,
-                End::Between(Barrier::Configuration) => TurnBarrier::Flip,
-                End::Between(Barrier::Rate) => TurnBarrier::Rate,
-                End::Between(Barrier::JointStep(joint)) => {
-                    TurnBarrier::JointStep { joint: name(joint) }
-                }
+                End::Flip => TurnBarrier::Flip,
+                End::Rate => TurnBarrier::Rate,
+                End::JointStep(joint) => TurnBarrier::JointStep { joint: name(joint) },
             };
             (barrier, count as f64 / all as f64)
         })
@@ -99,44 +130,50 @@ fn barriers(
 }
 
 /// Why the postures that the station has are not reached from those before.
-fn between(
-    problem: &Problem<'_, '_>,
-    station: usize,
-    progress: &Progress,
-    alive: &BTreeSet<u8>,
-) -> Vec<End> {
-    let Some(before) = station.checked_sub(1) else {
+fn between(problem: &Problem<'_, '_>, station: usize, before: &Before<'_>) -> Vec<End> {
+    let Some(gap) = problem.stations[station].gap else {
         return Vec::new();
     };
-    let (Some(gap), Some(stage)) = (problem.stations[station].gap, progress.stages.get(before))
-    else {
-        return Vec::new();
-    };
-    let from = problem.nodes[before].iter().zip(&stage.values);
-    let from: Vec<_> = from
-        .filter(|(_, value)| value.is_finite())
-        .map(|(node, _)| node)
-        .collect();
-    let nodes = problem.nodes[station].iter();
-    nodes
-        .filter_map(|node| {
-            if !alive.contains(&node.configuration) {
-                return Some(End::Between(Barrier::Configuration));
-            }
-            // What is least in the way: a link that was broken between its stations, a joint, the rate.
-            let links = from
-                .iter()
-                .map(|other| problem.links.cost(&gap, other, node));
-            let mut least: Option<Barrier> = None;
-            for link in links {
-                match link {
-                    Ok(_) => return Some(End::Refused(Refused::Singular)),
-                    Err(barrier) => least = least.max(Some(barrier)),
+    let links = &problem.links;
+    let ends = problem.nodes[station].iter().filter_map(|node| {
+        if !before.next.contains(&(node.configuration, node.turn)) {
+            let anywhere = Gap {
+                turn_deg: f64::INFINITY,
+                ..gap
+            };
+            let faster = before.nodes.iter();
+            let faster = faster.map(|other| links.cost(&anywhere, other, node));
+            let flips = before.next.iter().any(|next| next.1 == node.turn);
+            return match (faster.into_iter().any(|cost| cost.is_ok()), flips) {
+                (true, _) => Some(End::Rate),
+                (false, true) => Some(End::Flip),
+                (false, false) => None,
+            };
+        }
+        // The posture before from which the joints have least to turn.
+        let nearest = before
+            .nodes
+            .iter()
+            .filter_map(|other| match links.cost(&gap, other, node) {
+                Ok(_) => Some((0.0, 0)),
+                Err(Barrier::JointStep(_)) => {
+                    let turns = joint_turns(&links.free, &other.joints, &node.joints);
+                    let turns = turns.iter().map(|turn| turn.abs()).enumerate();
+                    let farthest = turns.max_by(|a, b| a.1.total_cmp(&b.1));
+                    farthest.map(|(joint, turn)| (turn, joint))
                 }
-            }
-            least.map(End::Between)
+                Err(Barrier::Configuration | Barrier::Rate) => None,
+            });
+        let (turn, joint) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(match turn {
+            // A link that does not hold between the stations.
+            0.0 => End::Refused(Refused::Singular),
+            // Only a whole turn back: the joint has come to its limit.
+            turn if turn > PI => End::Refused(Refused::Limit(joint)),
+            _ => End::JointStep(joint),
         })
-        .collect()
+    });
+    ends.collect()
 }
 
 /// Turns from and to, deg, of a way that is found on the whole circle.

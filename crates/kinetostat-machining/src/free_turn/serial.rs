@@ -31,7 +31,7 @@ pub(crate) struct SerialArm {
     base: Pose,
     pub home: Joints,
     pub limits: [Option<(f64, f64)>; 6],
-    /// What translations are divided by, m.
+    /// By what translations are divided, m.
     pub length: f64,
 }
 

@@ -94,9 +94,9 @@ pub struct TurnBounds {
     pub rate: TurnRate,
     /// Joints stay so far inside their limits, deg.
     pub limit_margin_deg: f64,
-    /// The smallest singular value of the Jacobian stays above it. Its rows are the velocity of the tip by the natural length of the
-    /// machine ([`natural_length`](crate::natural_length)) and the angular velocity: a joint that turns by 1 rad makes the tool move by
-    /// so much at least.
+    /// The smallest singular value of the Jacobian stays above it. Its rows are the velocity of the tip by half the reach of the arm
+    /// ([`TurnChoice::length_m`](crate::TurnChoice::length_m)) and the angular velocity: joints that turn by 1 rad in all move the tool
+    /// by so much at least.
     pub least_singular_value: f64,
     /// No joint turns farther between two stations, deg.
     pub joint_step_deg: f64,

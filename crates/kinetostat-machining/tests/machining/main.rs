@@ -11,6 +11,7 @@
 mod again;
 mod cut_forces;
 mod force_band;
+mod free_turn;
 mod internal;
 mod joints;
 mod load;
