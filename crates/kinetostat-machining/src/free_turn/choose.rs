@@ -4,7 +4,7 @@ use crate::free_turn::checked::checked;
 use crate::free_turn::choice::{TurnCell, TurnChoice, TurnMap, TurnStation};
 use crate::free_turn::constant::constant_turns;
 use crate::free_turn::error::TurnError;
-use crate::free_turn::no_way::{no_way, turns_deg};
+use crate::free_turn::no_way::no_way;
 use crate::free_turn::search::{Failed, Found, Problem};
 use crate::free_turn::serial::Joints;
 use crate::free_turn::task::TurnTask;
@@ -55,7 +55,7 @@ pub fn choose_turns(task: &TurnTask<'_>) -> Result<TurnChoice, TurnError> {
 }
 
 fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
-    let turns = turns_deg(problem, &found.chosen);
+    let turns = problem.turns_deg(&found.chosen);
     let listed: Vec<TurnStation> = (0..problem.stations.len())
         .map(|index| station(problem, index, found.chosen[index], turns[index]))
         .collect();
@@ -106,7 +106,7 @@ fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
 }
 
 fn nearest_limit(problem: &Problem<'_, '_>, joints: &Joints) -> Option<(usize, f64)> {
-    let (joint, far) = problem.postures.nearest_limit(joints)?;
+    let (joint, far) = problem.postures.ranges.nearest_limit(joints)?;
     Some((joint, far.to_degrees()))
 }
 

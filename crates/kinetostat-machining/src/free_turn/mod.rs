@@ -16,6 +16,7 @@ pub(crate) mod constant;
 pub(crate) mod error;
 pub(crate) mod no_way;
 pub(crate) mod nodes;
+pub(crate) mod ranges;
 pub(crate) mod search;
 pub(crate) mod serial;
 pub(crate) mod shortest;

@@ -189,7 +189,7 @@ fn wider_band(task: &TurnTask<'_>) -> Option<[f64; 2]> {
     };
     let mut problem = Problem::of(&wider).ok()?;
     let found = problem.search().ok()?;
-    let turns = turns_deg(&problem, &found.chosen);
+    let turns = problem.turns_deg(&found.chosen);
     let low = turns
         .iter()
         .copied()
@@ -210,26 +210,6 @@ fn other_configuration(task: &TurnTask<'_>) -> Option<u8> {
     let mut problem = Problem::of(&any).ok()?;
     let Found { chosen, .. } = problem.search().ok()?;
     Some(problem.node(0, *chosen.first()?).configuration)
-}
-
-/// Turns along a sequence, deg, without jumps of 360.
-pub(crate) fn turns_deg(problem: &Problem<'_, '_>, chosen: &[u32]) -> Vec<f64> {
-    let mut turn = None;
-    let mut last = 0;
-    chosen
-        .iter()
-        .enumerate()
-        .map(|(station, number)| {
-            let own = problem.node(station, *number).turn;
-            let steps = problem.turns.steps(last, own) as f64;
-            let now = match turn {
-                None => problem.turns.deg(own),
-                Some(before) => before + steps * problem.turns.step_deg,
-            };
-            (turn, last) = (Some(now), own);
-            now
-        })
-        .collect()
 }
 
 /// Parts into which the program can be divided, each as long as can be.

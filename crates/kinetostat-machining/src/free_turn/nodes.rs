@@ -1,7 +1,5 @@
 //! What an arm can do at a station: its joint values at every turn of the band, in every configuration and on every turn of its joints.
 
-use std::f64::consts::{PI, TAU};
-
 use kinetostat::machine::LimbPosture;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, Pose, PostureRequest};
@@ -9,13 +7,11 @@ use nalgebra::Vector3;
 
 use crate::free_turn::closed_form::{NoWayThere, SixAxisArm};
 use crate::free_turn::error::TurnError;
+use crate::free_turn::ranges::JointRanges;
 use crate::free_turn::serial::Joints;
 use crate::free_turn::stations::{Station, Turns};
 use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
 use crate::free_turn::way::Way;
-
-/// Values of a joint that are whole turns apart are tried so far from the middle of its range, rad.
-const MOST_TURNS: f64 = 3.0 * TAU;
 
 /// One posture at one station.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +76,7 @@ pub(crate) struct Postures<'a> {
     pub arm: SixAxisArm,
     pub weights: Weights,
     least_singular_value: f64,
-    margin: f64,
+    pub ranges: JointRanges,
     configuration: Option<u8>,
     /// Direction of a compliance, base axes.
     along: Vector3<f64>,
@@ -91,6 +87,10 @@ impl<'a> Postures<'a> {
         let arm =
             SixAxisArm::of(task.mechanism).ok_or_else(|| TurnError::no_freedom(task.mechanism))?;
         let weights = Weights::of(&task.criteria);
+        let ranges = JointRanges {
+            limits: arm.serial.limits,
+            margin: task.bounds.limit_margin_deg.to_radians(),
+        };
         let along = match weights.of {
             Some(TipCompliance::Along(direction)) => {
                 task.placement.to_base_axes(&direction).normalize()
@@ -102,7 +102,7 @@ impl<'a> Postures<'a> {
             arm,
             weights,
             least_singular_value: task.bounds.least_singular_value,
-            margin: task.bounds.limit_margin_deg.to_radians(),
+            ranges,
             configuration: task.bounds.configuration,
             along,
         })
@@ -124,7 +124,7 @@ impl<'a> Postures<'a> {
                 };
                 let mut compliance = None;
                 let mut failed = Ok(());
-                let _ = self.on_turns(&joints, |joints| {
+                self.ranges.on_turns(&joints, |joints| {
                     let compliance = *compliance.get_or_insert_with(|| {
                         self.compliance(&pose, &joints).unwrap_or_else(|error| {
                             failed = Err(TurnError::Point {
@@ -138,7 +138,7 @@ impl<'a> Postures<'a> {
                         turn,
                         configuration,
                         joints,
-                        share_of_range: self.share_of_range(&joints),
+                        share_of_range: self.ranges.share_of_range(&joints),
                         singular_value,
                         compliance,
                         cost: 0.0,
@@ -161,10 +161,9 @@ impl<'a> Postures<'a> {
         if self.configuration.is_some_and(|only| only != number) {
             return Err(Refused::OutOfReach);
         }
-        for joint in 0..6 {
-            if self.values_of(joint, joints[joint]).next().is_none() {
-                return Err(Refused::Limit(joint));
-            }
+        let mut all = (0..6).zip(joints);
+        if let Some((joint, _)) = all.find(|(joint, angle)| !self.ranges.reaches(*joint, *angle)) {
+            return Err(Refused::Limit(joint));
         }
         let least = self.arm.serial.smallest_singular_value(&joints);
         match least >= self.least_singular_value {
@@ -193,86 +192,14 @@ impl<'a> Postures<'a> {
 
     /// Whether joint values are inside the limits and far enough from singular; the smallest singular value then.
     pub fn allowed(&self, joints: &Joints) -> Result<f64, Refused> {
-        for joint in 0..6 {
-            let (low, high) = self.range(joint);
-            if !(low..=high).contains(&joints[joint]) {
-                return Err(Refused::Limit(joint));
-            }
+        if let Some(joint) = self.ranges.left_by(joints) {
+            return Err(Refused::Limit(joint));
         }
         let least = self.arm.serial.smallest_singular_value(joints);
         match least >= self.least_singular_value {
             true => Ok(least),
             false => Err(Refused::Singular),
         }
-    }
-
-    /// Limits of a joint less what is kept from them, rad.
-    fn range(&self, joint: usize) -> (f64, f64) {
-        self.arm.serial.limits[joint].map_or((f64::NEG_INFINITY, f64::INFINITY), |(low, high)| {
-            (low + self.margin, high - self.margin)
-        })
-    }
-
-    /// A joint without limits turns on and on.
-    pub fn is_free(&self, joint: usize) -> bool {
-        self.arm.serial.limits[joint].is_none()
-    }
-
-    /// Values of a joint, rad: those inside its limits that are whole turns apart, or the one within half a turn of zero.
-    fn values_of(&self, joint: usize, angle: f64) -> impl Iterator<Item = f64> + use<> {
-        let (low, high) = match self.is_free(joint) {
-            true => (-PI, PI),
-            false => self.range(joint),
-        };
-        // Of a joint that turns very far, the turns around the middle of its range.
-        let middle = 0.5 * (low + high);
-        let (low, high) = (low.max(middle - MOST_TURNS), high.min(middle + MOST_TURNS));
-        let first = angle + TAU * ((low - angle) / TAU).ceil();
-        let free = self.is_free(joint);
-        (0..)
-            .map(move |turn| first + TAU * f64::from(turn))
-            .take_while(move |value| *value <= high)
-            .take(match free {
-                true => 1,
-                false => usize::MAX,
-            })
-    }
-
-    /// All combinations of whole turns.
-    fn on_turns(&self, joints: &Joints, mut each: impl FnMut(Joints)) {
-        let values: Vec<Vec<f64>> = (0..6)
-            .map(|joint| self.values_of(joint, joints[joint]).collect())
-            .collect();
-        let count: usize = values.iter().map(Vec::len).product();
-        for number in 0..count {
-            let mut rest = number;
-            let mut on = *joints;
-            for joint in 0..6 {
-                on[joint] = values[joint][rest % values[joint].len()];
-                rest /= values[joint].len();
-            }
-            each(on);
-        }
-    }
-
-    /// Share of half its range by which the joint nearest to a limit is off the middle.
-    pub fn share_of_range(&self, joints: &Joints) -> f64 {
-        let limits = self.arm.serial.limits.iter().zip(joints);
-        let shares = limits.filter_map(|(limits, angle)| {
-            let (low, high) = (*limits)?;
-            Some((angle - 0.5 * (low + high)).abs() / (0.5 * (high - low)))
-        });
-        shares.fold(0.0, larger)
-    }
-
-    /// The joint nearest to a limit and how far it is from it, rad.
-    pub fn nearest_limit(&self, joints: &Joints) -> Option<(usize, f64)> {
-        let limits = self.arm.serial.limits.iter().zip(joints).enumerate();
-        let far = limits.filter_map(|(joint, (limits, angle))| {
-            let (low, high) = (*limits)?;
-            Some((joint, (angle - low).min(high - angle)))
-        });
-        far.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The compliance that a criterion asks for, m/N.

@@ -13,8 +13,12 @@ use crate::free_turn::stations::{Station, Turns, lets_turn, stations};
 use crate::free_turn::task::TurnTask;
 use crate::free_turn::way::Way;
 
-/// Rounds of searching again without the links that do not hold.
+/// Rounds of searching again without the links that do not hold, ...
 const ROUNDS: usize = 2000;
+
+/// ... and how often all stations, or so many, are gone through again in all.
+const TIMES: usize = 50;
+const AT_LEAST: usize = 10_000;
 
 /// Everything that a search goes through.
 pub(crate) struct Problem<'t, 'a> {
@@ -73,7 +77,7 @@ impl<'t, 'a> Problem<'t, 'a> {
             .collect();
         let mut nodes = nodes?;
         postures.put_costs(&mut nodes);
-        let free = [0, 1, 2, 3, 4, 5].map(|joint| postures.is_free(joint));
+        let free = [0, 1, 2, 3, 4, 5].map(|joint| postures.ranges.is_free(joint));
         let links = Links {
             turns,
             free,
@@ -98,11 +102,29 @@ impl<'t, 'a> Problem<'t, 'a> {
         &self.nodes[station][number as usize]
     }
 
+    /// Turns along a sequence, deg, without jumps of 360.
+    pub fn turns_deg(&self, chosen: &[u32]) -> Vec<f64> {
+        let mut before: Option<(f64, u32)> = None;
+        let turns = chosen.iter().enumerate().map(|(station, number)| {
+            let own = self.node(station, *number).turn;
+            let turn = match before {
+                None => self.turns.deg(own),
+                Some((turn, last)) => {
+                    turn + self.turns.step_deg * self.turns.steps(last, own) as f64
+                }
+            };
+            before = Some((turn, own));
+            turn
+        });
+        turns.collect()
+    }
+
     /// The cheapest sequence that holds also between its stations: where it does not, it is looked for again without those links.
     pub fn search(&mut self) -> Result<Found, Failed> {
         let mut progress = Progress::default();
         let mut seen: Vec<(Link, Vec<Looked>)> =
             vec![((0, u32::MAX, u32::MAX), Vec::new()); self.stations.len()];
+        let mut again = 0;
         for _ in 0..ROUNDS {
             if let Err(station) = progress.go_on(&self.links, &self.stations, &self.nodes, 0) {
                 return Err(Failed::At(station, progress));
@@ -117,6 +139,10 @@ impl<'t, 'a> Problem<'t, 'a> {
             };
             self.links.broken.extend(broken);
             progress.forget_from(first);
+            again += self.stations.len() - first;
+            if again > AT_LEAST.max(TIMES * self.stations.len()) {
+                break;
+            }
         }
         Err(Failed::Error(TurnError::Input {
             what: format!(

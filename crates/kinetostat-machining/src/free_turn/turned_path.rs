@@ -50,7 +50,7 @@ pub fn with_turns(task: &TurnTask<'_>, choice: &TurnChoice) -> Result<TurnedPath
     checked(task)?;
     let way = Way::of(task)?;
     let own = choice.stations.last().map_or(f64::NAN, |s| s.way_mm);
-    if !((own - way.length).abs() <= 1e-9 * way.length) {
+    if own.is_nan() || (own - way.length).abs() > 1e-9 * way.length {
         return Err(TurnError::Input {
             what: format!(
                 "the turns were chosen along {own:.4} mm, and the path has {:.4} mm: choose them for this path",
