@@ -55,7 +55,7 @@ pub(crate) fn draw(choice: &TurnChoice) -> String {
         })
     });
     Section {
-        title: choice.description(),
+        title: title(choice),
         x_label: "way along the path, mm".to_owned(),
         y_label: "turn about the tool's axis, deg".to_owned(),
         value_label: "distance of the nearest joint to its limit, % of half its range".to_owned(),
@@ -67,6 +67,12 @@ pub(crate) fn draw(choice: &TurnChoice) -> String {
         ..Section::default()
     }
     .filled_svg()
+}
+
+/// The first sentence of what was chosen.
+fn title(choice: &TurnChoice) -> String {
+    let all = choice.description();
+    all.split(". ").next().unwrap_or_default().to_owned()
 }
 
 /// The turn that was chosen, inside the band: on a whole circle the line goes on at its other end.

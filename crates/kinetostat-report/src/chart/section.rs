@@ -25,6 +25,9 @@ const STYLE: &str = concat!(
 /// Style of grey cells and of lines over the cells.
 const OVER: &str = include_str!("../template/map.css");
 
+/// A line that is the subject of the picture.
+const BOLD: &str = "svg path.way{stroke-width:2;stroke-opacity:1}svg path.way-ground{stroke-width:5;stroke-opacity:.8}";
+
 /// Colours of the style sheet, from low to high.
 const COLOURS: usize = 11;
 /// A span of more than this ratio is divided by ratios.
@@ -97,7 +100,7 @@ impl Section {
 
     /// The section of two quantities that are not compared: both axes fill the picture.
     pub(crate) fn filled_svg(&self) -> String {
-        let style = [STYLE, OVER].concat();
+        let style = [STYLE, OVER, BOLD].concat();
         self.draw(SIZE.1, Shape::Filled)
             .document(SIZE, &self.title, &style)
     }
