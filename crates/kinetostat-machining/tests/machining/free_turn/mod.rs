@@ -1,5 +1,6 @@
 //! The free turn of a round tool along a path, against plain geometry, brute force and the mechanism's own kinematics.
 
+mod anything;
 mod closed_form;
 mod moved;
 mod no_way;

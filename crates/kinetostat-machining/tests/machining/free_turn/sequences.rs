@@ -134,7 +134,9 @@ fn the_choice_is_the_best_of_all_sequences() {
             let stations = turn_postures(&task).expect("postures");
             assert_eq!(stations.len(), 5);
             let all = stations.iter().flat_map(|s| &s.1);
-            let least = all.map(|p| p.compliance).fold(f64::INFINITY, f64::min);
+            let least = all
+                .map(|p| p.compliance)
+                .fold(f64::INFINITY, kinetostat::number::smaller);
             let mut brute = AllSequences {
                 stations: &stations,
                 rate: 4.0,
