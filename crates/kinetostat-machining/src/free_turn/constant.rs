@@ -1,5 +1,7 @@
 //! Turns that stay the same: how far each of them goes, and what it costs.
 
+use rayon::prelude::*;
+
 use crate::free_turn::choice::ConstantTurn;
 use crate::free_turn::error::TurnPart;
 use crate::free_turn::nodes::Node;
@@ -22,13 +24,23 @@ struct Reached<'n> {
     singular_value: f64,
 }
 
+/// Postures with a turn, of those of a station, which are in order by configuration and turn.
+fn with_turn(nodes: &[Node], turn: u32) -> impl Iterator<Item = &Node> {
+    (0..8).flat_map(move |configuration| {
+        let own = (configuration, turn);
+        let first = nodes.partition_point(|node| (node.configuration, node.turn) < own);
+        let rest = nodes[first..].iter();
+        rest.take_while(move |node| (node.configuration, node.turn) == own)
+    })
+}
+
 /// Where a turn goes from station to station, and from where it breaks off again, at the stations alone.
 fn runs(problem: &Problem<'_, '_>, turn: u32) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let mut reached: Vec<Reached<'_>> = Vec::new();
     for (index, nodes) in problem.nodes.iter().enumerate() {
         let station = &problem.stations[index];
-        let own = || nodes.iter().filter(|node| node.turn == turn);
+        let own = || with_turn(nodes, turn);
         let at = |node: &Node| station.share * node.cost;
         let mut next: Vec<Reached<'_>> = Vec::new();
         if let Some(gap) = station.gap {
@@ -110,8 +122,8 @@ pub(crate) fn constant_turn(problem: &Problem<'_, '_>, turn: u32) -> ConstantTur
 
 /// The turn that is nearest to none, and the best one.
 pub(crate) fn constant_turns(problem: &Problem<'_, '_>) -> [Option<ConstantTurn>; 2] {
-    let all = (0..problem.turns.count as u32).map(|turn| constant_turn(problem, turn));
-    let all: Vec<ConstantTurn> = all.collect();
+    let turns = (0..problem.turns.count as u32).into_par_iter();
+    let all: Vec<ConstantTurn> = turns.map(|turn| constant_turn(problem, turn)).collect();
     let from_none = |turn: &ConstantTurn| turn.turn_deg.abs();
     let as_programmed = all
         .iter()
@@ -130,6 +142,7 @@ pub(crate) fn constant_turns(problem: &Problem<'_, '_>) -> [Option<ConstantTurn>
 pub(crate) fn constant_parts(problem: &Problem<'_, '_>) -> Vec<TurnPart> {
     let stations = &problem.stations;
     let mut parts: Vec<TurnPart> = (0..problem.turns.count as u32)
+        .into_par_iter()
         .filter_map(|turn| {
             let length = |run: &Run| stations[run.last].at - stations[run.first].at;
             let runs = runs(problem, turn).into_iter();
