@@ -1,8 +1,12 @@
 //! What this crate's own tests reach inside it, in `tests/machining/internal`. It is no part of the interface and changes
 //! without a word.
 
-use kinetostat::Mechanism;
+use kinetostat::{Mechanism, Pose};
 
+use crate::free_turn::closed_form::SixAxisArm;
+use crate::free_turn::error::TurnError;
+use crate::free_turn::search::Problem;
+use crate::free_turn::task::TurnTask;
 use crate::joints::arm::Arm;
 use crate::limits::{Limit, apart};
 use crate::profile::limited::{Begins, Place, SinceRapid, limited};
@@ -48,4 +52,50 @@ pub fn limited_values(
     };
     let found = limited(&places, &[rate], begins)?.into_iter();
     Some(found.map(|p| (p.place.at_mm, p.value[0])).collect())
+}
+
+/// Joint values, rad, of the ways of an arm to a pose of its tool that its closed form finds, each somewhere on its circle; none if it is
+/// no arm of six axes with a wrist in one point.
+#[must_use]
+pub fn ways_of_arm(mechanism: &Mechanism, pose: &Pose) -> Option<Vec<[f64; 6]>> {
+    let arm = SixAxisArm::of(mechanism)?;
+    Some(arm.ways(pose).into_iter().flatten().collect())
+}
+
+/// A posture among those that the free turn of a tool is chosen from.
+#[derive(Clone, Copy, Debug)]
+pub struct TurnPosture {
+    /// Number of the turn in the band.
+    pub turn: u32,
+    /// Number of the configuration.
+    pub configuration: u8,
+    /// Joint values, rad.
+    pub joints: [f64; 6],
+    /// Share of half its range by which the joint nearest to a limit is off the middle.
+    pub share_of_range: f64,
+    /// Smallest singular value.
+    pub singular_value: f64,
+    /// m/N.
+    pub compliance: f64,
+}
+
+/// Way in mm and all postures of every station of a task.
+///
+/// # Errors
+/// As [`choose_turns`](crate::choose_turns).
+pub fn turn_postures(task: &TurnTask<'_>) -> Result<Vec<(f64, Vec<TurnPosture>)>, TurnError> {
+    let problem = Problem::of(task)?;
+    let stations = problem.stations.iter().zip(&problem.nodes);
+    let listed = stations.map(|(station, nodes)| {
+        let nodes = nodes.iter().map(|node| TurnPosture {
+            turn: node.turn,
+            configuration: node.configuration,
+            joints: node.joints,
+            share_of_range: node.share_of_range,
+            singular_value: node.singular_value,
+            compliance: node.compliance,
+        });
+        (station.at, nodes.collect())
+    });
+    Ok(listed.collect())
 }

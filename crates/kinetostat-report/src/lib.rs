@@ -13,6 +13,7 @@
 //! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
 //!   length of a path. They share `axis`, `outline`, `label` and `title`.
 //! - `drawing`: a machine in space, as lines on paper.
+//! - `turns`: the free turn of a round tool along a path, over all turns that were tried.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -37,8 +38,9 @@ mod number;
 mod run;
 mod svg;
 mod text;
+mod turns;
 
-use kinetostat_machining::{CuttingResult, Run, RunResult};
+use kinetostat_machining::{CuttingResult, Run, RunResult, TurnChoice};
 
 use run::shown::Shown;
 use run::{page, preview};
@@ -100,4 +102,14 @@ pub fn engagement_svg(cutting: &CuttingResult, map: Option<&Section>, title: &st
 #[must_use]
 pub fn plot_preview_svg(result: &RunResult) -> String {
     preview::draw(&Shown::of_result(result))
+}
+
+/// The turns of a round tool about its own axis that were chosen along a path, as one picture, 760 by 560: every turn of the band over the
+/// length of the path, coloured by how far the joints are from their limits in the configuration that was chosen, and the chosen one as
+/// a line. Turns that are not allowed (near a limit, near a singular posture, out of reach) are marked as such.
+///
+/// It is a complete SVG document with its own style.
+#[must_use]
+pub fn turns_svg(choice: &TurnChoice) -> String {
+    turns::draw(choice)
 }

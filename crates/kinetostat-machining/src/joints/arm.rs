@@ -172,7 +172,7 @@ fn angle_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f
 type Joint = (Pose, Unit<Vector3<f64>>);
 
 /// Offsets and axes of a chain of six commanded turns and nothing else that moves but springs.
-fn six_turning(chain: &Chain) -> Option<[Joint; 6]> {
+pub(crate) fn six_turning(chain: &Chain) -> Option<[Joint; 6]> {
     let passive =
         |index: usize| chain.coordinates().get(index).map(|c| c.role) != Some(Role::Spring);
     let mut joints: Vec<Joint> = Vec::new();

@@ -12,6 +12,7 @@ mod again;
 mod cut_forces;
 mod five_axes;
 mod force_band;
+mod free_turn;
 mod internal;
 mod joints;
 mod load;

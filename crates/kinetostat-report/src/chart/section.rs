@@ -25,6 +25,9 @@ const STYLE: &str = concat!(
 /// Style of grey cells and of lines over the cells.
 const OVER: &str = include_str!("../template/map.css");
 
+/// A line that is the subject of the picture.
+const BOLD: &str = "svg path.way{stroke-width:2;stroke-opacity:1}svg path.way-ground{stroke-width:5;stroke-opacity:.8}";
+
 /// Colours of the style sheet, from low to high.
 const COLOURS: usize = 11;
 /// A span of more than this ratio is divided by ratios.
@@ -63,6 +66,15 @@ pub struct Section {
     pub marks: Vec<PlotMark>,
 }
 
+/// How long the units of the two axes are.
+#[derive(Clone, Copy)]
+enum Shape {
+    /// As long on both.
+    True,
+    /// As they come when both axes fill the picture.
+    Filled,
+}
+
 /// What is known at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
@@ -82,7 +94,15 @@ impl Section {
             true => STYLE.to_owned(),
             false => [STYLE, OVER].concat(),
         };
-        self.draw(SIZE.1).document(SIZE, &self.title, &style)
+        self.draw(SIZE.1, Shape::True)
+            .document(SIZE, &self.title, &style)
+    }
+
+    /// The section of two quantities that are not compared: both axes fill the picture.
+    pub(crate) fn filled_svg(&self) -> String {
+        let style = [STYLE, OVER, BOLD].concat();
+        self.draw(SIZE.1, Shape::Filled)
+            .document(SIZE, &self.title, &style)
     }
 
     /// What its cells and lines need beside the style of plots.
@@ -100,10 +120,10 @@ impl Section {
             _ => SIZE.1,
         };
         let height = height.clamp(330.0, 720.0);
-        (self.draw(height), (SIZE.0, height))
+        (self.draw(height, Shape::True), (SIZE.0, height))
     }
 
-    fn draw(&self, height: f64) -> Svg {
+    fn draw(&self, height: f64, shape: Shape) -> Svg {
         let mut svg = Svg::default();
         let size = (SIZE.0, height);
         svg.rectangle("card", (0.5, 0.5), (size.0 - 1.0, size.1 - 1.0), 10.0);
@@ -138,7 +158,10 @@ impl Section {
             height: size.1 - top - 54.0,
         };
         let unit = (room.width / x_span.length()).min(room.height / y_span.length());
-        let (width, height) = (unit * x_span.length(), unit * y_span.length());
+        let (width, height) = match shape {
+            Shape::True => (unit * x_span.length(), unit * y_span.length()),
+            Shape::Filled => (room.width, room.height),
+        };
         let frame = Frame {
             x: room.x + 0.5 * (room.width - width),
             y: room.y + 0.5 * (room.height - height),

@@ -1,0 +1,154 @@
+//! The turns of a task.
+
+use crate::free_turn::checked::checked;
+use crate::free_turn::choice::{TurnCell, TurnChoice, TurnMap, TurnStation};
+use crate::free_turn::constant::constant_turns;
+use crate::free_turn::error::TurnError;
+use crate::free_turn::no_way::no_way;
+use crate::free_turn::search::{Failed, Found, Problem};
+use crate::free_turn::serial::Joints;
+use crate::free_turn::task::TurnTask;
+use crate::number::larger;
+
+/// Chooses the free turn of a round tool about its own axis along a whole path: at stations along it the turns of a band, in any of the
+/// configurations of the arm, that cost least together and keep what is asked. Of all that is looked at it is the cheapest.
+///
+/// # Errors
+/// [`TurnError::Input`] for numbers and paths that make no sense, [`TurnError::NoFreedom`] for another machine than an arm of six
+/// joints with a wrist in one point, [`TurnError::NoWay`] where every sequence of turns ends, with line, reasons and what helps,
+/// [`TurnError::TooMany`] beyond the bounds of memory.
+///
+/// ```
+/// use kinetostat_machining::{Placement, TurnTask, choose_turns, with_turns};
+/// use kinetostat_program::{Program, ReadOptions, interpret};
+/// use nalgebra::{UnitQuaternion, Vector3, vector};
+///
+/// // A spindle at a right angle to the flange of an arm, vertical where the arm is at home.
+/// let arm = kinetostat_model::Model::preset("heavy_6r")?.mechanism;
+/// let upright = UnitQuaternion::from_euler_angles(0.0, 0.5 * std::f64::consts::PI, 0.0);
+/// let tool = kinetostat::Pose::from_parts(vector![0.2, 0.0, 0.1].into(), upright); // m
+/// let arm = arm.with_tool(&tool);
+/// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F600\nG1 Y50\n")?;
+/// let path = interpret(&program, &ReadOptions::default())?;
+/// let mut placement = Placement::at(vector![1.3, -0.2, 0.8]);
+/// placement.tool_orientation = UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0); // z downwards
+/// let task = TurnTask::new(&arm, &path, placement);
+///
+/// let choice = choose_turns(&task)?;
+/// assert!(choice.smallest_singular_value >= task.bounds.least_singular_value);
+/// assert!(choice.largest_rate_deg_per_mm <= 2.0 + 1e-9);
+/// let turned = with_turns(&task, &choice)?;
+/// let tool = turned.path.moves[1].orientation(0.5).ok_or("an orientation")?;
+/// assert!((tool * Vector3::z() + Vector3::z()).norm() < 1e-9, "still downwards");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn choose_turns(task: &TurnTask<'_>) -> Result<TurnChoice, TurnError> {
+    checked(task)?;
+    let mut problem = Problem::of(task)?;
+    match problem.search() {
+        Ok(found) => Ok(choice(&problem, &found)),
+        Err(Failed::Error(error)) => Err(error),
+        Err(Failed::At(station, progress)) => Err(TurnError::NoWay(Box::new(no_way(
+            &problem, station, &progress,
+        )))),
+    }
+}
+
+fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
+    let turns = problem.turns_deg(&found.chosen);
+    let listed: Vec<TurnStation> = (0..problem.stations.len())
+        .map(|index| station(problem, index, found.chosen[index], turns[index]))
+        .collect();
+    let rate = listed.windows(2).map(|pair| match pair[1].after_break {
+        true => 0.0,
+        false => (pair[1].turn_deg - pair[0].turn_deg).abs() / (pair[1].way_mm - pair[0].way_mm),
+    });
+    // At stations and between them.
+    let seen = found.seen.iter().flatten();
+    let between = seen.map(|seen| (seen.line, &seen.joints, seen.singular_value));
+    let at = found.chosen.iter().enumerate().map(|(index, number)| {
+        let node = problem.node(index, *number);
+        let line = problem.stations[index].place.line;
+        (line, &node.joints, node.singular_value)
+    });
+    let mut least = (f64::INFINITY, 0);
+    let mut limit: Option<(usize, f64, usize)> = None;
+    for (line, joints, singular_value) in at.chain(between) {
+        if singular_value < least.0 {
+            least = (singular_value, line);
+        }
+        if let Some((joint, far)) = nearest_limit(problem, joints)
+            && limit.is_none_or(|nearest| far < nearest.1)
+        {
+            limit = Some((joint, far, line));
+        }
+    }
+    let configuration = problem.node(0, found.chosen[0]).configuration;
+    let [as_programmed, best_constant] = constant_turns(problem);
+    TurnChoice {
+        configuration,
+        cost: found.cost,
+        largest_rate_deg_per_mm: rate.fold(0.0, larger),
+        length_m: problem.postures.arm.serial.length,
+        smallest_singular_value: least.0,
+        smallest_singular_value_line: least.1,
+        nearest_limit: limit,
+        broken_links: problem.links.broken.len(),
+        tried: (
+            problem.turns.count,
+            problem.nodes.iter().map(Vec::len).sum(),
+        ),
+        as_programmed,
+        best_constant,
+        map: map(problem, configuration),
+        stations: listed,
+    }
+}
+
+fn nearest_limit(problem: &Problem<'_, '_>, joints: &Joints) -> Option<(usize, f64)> {
+    let (joint, far) = problem.postures.ranges.nearest_limit(joints)?;
+    Some((joint, far.to_degrees()))
+}
+
+fn station(problem: &Problem<'_, '_>, index: usize, number: u32, turn_deg: f64) -> TurnStation {
+    let station = &problem.stations[index];
+    let node = problem.node(index, number);
+    TurnStation {
+        line: station.place.line,
+        position_mm: station.place.position_mm.into(),
+        way_mm: station.at,
+        turn_deg,
+        joints_deg: node.joints.map(f64::to_degrees),
+        nearest_limit: nearest_limit(problem, &node.joints),
+        smallest_singular_value: node.singular_value,
+        compliance_m_per_n: node.compliance,
+        after_break: station.gap.is_some_and(|gap| !gap.known),
+    }
+}
+
+/// All turns at all stations, in one configuration: where joints may be on several turns, those farthest from their limits.
+fn map(problem: &Problem<'_, '_>, configuration: u8) -> TurnMap {
+    let count = problem.turns.count;
+    let cells = problem.nodes.iter().map(|nodes| {
+        let mut cells: Vec<Option<TurnCell>> = vec![None; count];
+        for node in nodes
+            .iter()
+            .filter(|node| node.configuration == configuration)
+        {
+            let cell = &mut cells[node.turn as usize];
+            if cell.is_none_or(|other| node.share_of_range < other.share_of_range) {
+                *cell = Some(TurnCell {
+                    smallest_singular_value: node.singular_value,
+                    share_of_range: node.share_of_range,
+                });
+            }
+        }
+        cells
+    });
+    TurnMap {
+        turns_deg: (0..count as u32)
+            .map(|turn| problem.turns.deg(turn))
+            .collect(),
+        cells: cells.collect(),
+    }
+}

@@ -1,0 +1,248 @@
+//! What an arm can do at a station: its joint values at every turn of the band, in every configuration and on every turn of its joints.
+
+use kinetostat::machine::LimbPosture;
+use kinetostat::number::larger;
+use kinetostat::{Mechanism, Pose, PostureRequest};
+use nalgebra::Vector3;
+
+use crate::free_turn::closed_form::{NoWayThere, SixAxisArm};
+use crate::free_turn::error::TurnError;
+use crate::free_turn::ranges::JointRanges;
+use crate::free_turn::serial::Joints;
+use crate::free_turn::stations::{Station, Turns};
+use crate::free_turn::task::{TipCompliance, TurnCriterion, TurnTask};
+use crate::free_turn::way::Way;
+
+/// One posture at one station.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    /// Number of the turn in the band.
+    pub turn: u32,
+    /// Number of the configuration.
+    pub configuration: u8,
+    /// Joint values, rad, on the turn of each joint on which it is.
+    pub joints: Joints,
+    /// Share of half its range by which the joint nearest to a limit is off the middle; 0 without limits.
+    pub share_of_range: f64,
+    /// Smallest singular value.
+    pub singular_value: f64,
+    /// m/N; 0 where nothing asks for it.
+    pub compliance: f64,
+    /// What it costs by share of the way.
+    pub cost: f64,
+}
+
+/// Why there is no posture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Refused {
+    OutOfReach,
+    Limit(usize),
+    Singular,
+}
+
+/// The criteria of a task, added up by kind.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Weights {
+    limits: f64,
+    singularity: f64,
+    pub turning: f64,
+    compliance: f64,
+    of: Option<TipCompliance>,
+}
+
+impl Weights {
+    /// Of criteria whose weights have been looked at.
+    pub fn of(criteria: &[TurnCriterion]) -> Self {
+        let mut own = Self::default();
+        for criterion in criteria {
+            match criterion {
+                TurnCriterion::Limits { weight } => own.limits += weight,
+                TurnCriterion::Singularity { weight } => own.singularity += weight,
+                TurnCriterion::Turning { weight } => own.turning += weight,
+                TurnCriterion::Compliance { weight, of } => {
+                    own.compliance += weight;
+                    own.of = Some(*of);
+                }
+            }
+        }
+        own
+    }
+}
+
+/// An arm with what its postures are held against.
+#[derive(Clone, Debug)]
+pub(crate) struct Postures<'a> {
+    mechanism: &'a Mechanism,
+    pub arm: SixAxisArm,
+    pub weights: Weights,
+    least_singular_value: f64,
+    pub ranges: JointRanges,
+    configuration: Option<u8>,
+    /// Direction of a compliance, base axes.
+    along: Vector3<f64>,
+}
+
+impl<'a> Postures<'a> {
+    pub fn of(task: &TurnTask<'a>) -> Result<Self, TurnError> {
+        let arm =
+            SixAxisArm::of(task.mechanism).ok_or_else(|| TurnError::no_freedom(task.mechanism))?;
+        let weights = Weights::of(&task.criteria);
+        let ranges = JointRanges {
+            limits: arm.serial.limits,
+            margin: task.bounds.limit_margin_deg.to_radians(),
+        };
+        let along = match weights.of {
+            Some(TipCompliance::Along(direction)) => {
+                task.placement.to_base_axes(&direction).normalize()
+            }
+            _ => Vector3::zeros(),
+        };
+        Ok(Self {
+            mechanism: task.mechanism,
+            arm,
+            weights,
+            least_singular_value: task.bounds.least_singular_value,
+            ranges,
+            configuration: task.bounds.configuration,
+            along,
+        })
+    }
+
+    /// All postures at a station, by configuration, then by turn.
+    pub fn at(
+        &self,
+        station: &Station,
+        way: &Way<'_>,
+        turns: &Turns,
+    ) -> Result<Vec<Node>, TurnError> {
+        let mut nodes = Vec::new();
+        for turn in 0..turns.count as u32 {
+            let pose = way.turned(&station.place.pose, turns.deg(turn));
+            for way in self.arm.ways(&pose) {
+                let Ok((configuration, joints, singular_value)) = self.held(way) else {
+                    continue;
+                };
+                let mut compliance = None;
+                let mut failed = Ok(());
+                self.ranges.on_turns(&joints, |joints| {
+                    let compliance = *compliance.get_or_insert_with(|| {
+                        self.compliance(&pose, &joints).unwrap_or_else(|error| {
+                            failed = Err(TurnError::Point {
+                                line: station.place.line,
+                                message: error.to_string(),
+                            });
+                            f64::NAN
+                        })
+                    });
+                    nodes.push(Node {
+                        turn,
+                        configuration,
+                        joints,
+                        share_of_range: self.ranges.share_of_range(&joints),
+                        singular_value,
+                        compliance,
+                        cost: 0.0,
+                    });
+                });
+                failed?;
+            }
+        }
+        nodes.sort_by_key(|node| (node.configuration, node.turn));
+        Ok(nodes)
+    }
+
+    /// Configuration, joint values and smallest singular value of a way that may be gone, but for limits.
+    fn held(&self, way: Result<Joints, NoWayThere>) -> Result<(u8, Joints, f64), Refused> {
+        let joints = way.map_err(|why| match why {
+            NoWayThere::OutOfReach => Refused::OutOfReach,
+            NoWayThere::Singular => Refused::Singular,
+        })?;
+        let number = self.configuration_of(&joints).ok_or(Refused::Singular)?;
+        if self.configuration.is_some_and(|only| only != number) {
+            return Err(Refused::OutOfReach);
+        }
+        let mut all = (0..6).zip(joints);
+        if let Some((joint, _)) = all.find(|(joint, angle)| !self.ranges.reaches(*joint, *angle)) {
+            return Err(Refused::Limit(joint));
+        }
+        let least = self.arm.serial.smallest_singular_value(&joints);
+        match least >= self.least_singular_value {
+            true => Ok((number, joints, least)),
+            false => Err(Refused::Singular),
+        }
+    }
+
+    /// Every way to a pose, with why it may not be gone.
+    pub fn refusals(&self, pose: &Pose) -> Vec<(Option<u8>, Result<(), Refused>)> {
+        let ways = self.arm.ways(pose).into_iter();
+        ways.map(|way| {
+            let number = way.ok().and_then(|joints| self.configuration_of(&joints));
+            (number, self.held(way).map(|_| ()))
+        })
+        .collect()
+    }
+
+    /// The number of the configuration at joint values.
+    pub fn configuration_of(&self, joints: &Joints) -> Option<u8> {
+        self.arm
+            .flags
+            .configuration(joints)
+            .map(|found| found.number)
+    }
+
+    /// Whether joint values are inside the limits and far enough from singular; the smallest singular value then.
+    pub fn allowed(&self, joints: &Joints) -> Result<f64, Refused> {
+        if let Some(joint) = self.ranges.left_by(joints) {
+            return Err(Refused::Limit(joint));
+        }
+        let least = self.arm.serial.smallest_singular_value(joints);
+        match least >= self.least_singular_value {
+            true => Ok(least),
+            false => Err(Refused::Singular),
+        }
+    }
+
+    /// The compliance that a criterion asks for, m/N.
+    fn compliance(&self, pose: &Pose, joints: &Joints) -> kinetostat::Result<f64> {
+        let Some(of) = self.weights.of else {
+            return Ok(0.0);
+        };
+        let limbs = self.mechanism.limbs().iter();
+        let limbs = limbs.map(|limb| LimbPosture {
+            commands: joints.to_vec(),
+            coordinates: limb.nominal.home_coordinates(),
+        });
+        let posture = self
+            .mechanism
+            .posture(PostureRequest::joints(pose, limbs.collect()))?;
+        let compliance = posture.stiffness()?.compliance().springs;
+        let of_force = compliance.fixed_view::<3, 3>(0, 0).into_owned();
+        Ok(match of {
+            TipCompliance::Along(_) => self.along.dot(&(of_force * self.along)),
+            TipCompliance::Worst => {
+                let even = 0.5 * (of_force + of_force.transpose());
+                even.symmetric_eigenvalues()
+                    .iter()
+                    .copied()
+                    .fold(0.0, larger)
+            }
+        })
+    }
+
+    /// Puts what every posture costs beside it; compliances are compared with the least one of all.
+    pub fn put_costs(&self, nodes: &mut [Vec<Node>]) {
+        let weights = &self.weights;
+        let all = || nodes.iter().flatten().map(|node| node.compliance);
+        let least = all().fold(f64::INFINITY, kinetostat::number::smaller);
+        for node in nodes.iter_mut().flatten() {
+            let singular = self.least_singular_value / node.singular_value;
+            let soft = match weights.of.is_some() && least > 0.0 {
+                true => node.compliance / least,
+                false => 0.0,
+            };
+            node.cost = weights.limits * node.share_of_range.powi(2)
+                + weights.singularity * singular * singular
+                + weights.compliance * soft;
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! The cheapest sequence of postures that holds also between its stations.
+
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::free_turn::between::{Between, Looked};
+use crate::free_turn::error::TurnError;
+use crate::free_turn::nodes::{Node, Postures};
+use crate::free_turn::shortest::{Link, Links, Progress};
+use crate::free_turn::stations::{Station, Turns, lets_turn, stations};
+use crate::free_turn::task::TurnTask;
+use crate::free_turn::way::Way;
+
+/// Rounds of searching again without the links that do not hold, ...
+const ROUNDS: usize = 2000;
+
+/// ... and how often all stations, or so many, are gone through again in all.
+const TIMES: usize = 50;
+const AT_LEAST: usize = 10_000;
+
+/// Everything that a search goes through.
+pub(crate) struct Problem<'t, 'a> {
+    pub task: &'t TurnTask<'a>,
+    pub way: Way<'a>,
+    pub turns: Turns,
+    pub stations: Vec<Station>,
+    pub postures: Postures<'a>,
+    pub nodes: Vec<Vec<Node>>,
+    pub links: Links,
+}
+
+/// A sequence that holds.
+pub(crate) struct Found {
+    pub cost: f64,
+    /// The number of the posture at every station.
+    pub chosen: Vec<u32>,
+    /// Seen between every station and the one before.
+    pub seen: Vec<Vec<Looked>>,
+}
+
+/// Why there is none.
+pub(crate) enum Failed {
+    /// No posture of a station is reached.
+    At(usize, Progress),
+    Error(TurnError),
+}
+
+impl<'t, 'a> Problem<'t, 'a> {
+    /// Of a task whose numbers have been looked at.
+    pub fn of(task: &'t TurnTask<'a>) -> Result<Self, TurnError> {
+        let postures = Postures::of(task)?;
+        let way = Way::of(task)?;
+        let turns = Turns::of(&task.band);
+        let stations = stations(task, &way)?;
+        lets_turn(task, &stations, &turns)?;
+        let most = task.bounds.most_postures;
+        let kept = AtomicUsize::new(0);
+        let nodes: Result<Vec<Vec<Node>>, TurnError> = stations
+            .par_iter()
+            .map(|station| {
+                let nodes = postures.at(station, &way, &turns)?;
+                let before = kept.fetch_add(nodes.len(), Ordering::Relaxed);
+                match before + nodes.len() > most {
+                    true => Err(TurnError::TooMany {
+                        what: format!(
+                            "{} turns at {} stations have too many postures",
+                            turns.count,
+                            stations.len()
+                        ),
+                        most,
+                    }),
+                    false => Ok(nodes),
+                }
+            })
+            .collect();
+        let mut nodes = nodes?;
+        postures.put_costs(&mut nodes);
+        let free = [0, 1, 2, 3, 4, 5].map(|joint| postures.ranges.is_free(joint));
+        let links = Links {
+            turns,
+            free,
+            joint_step: task.bounds.joint_step_deg.to_radians(),
+            weight: postures.weights.turning,
+            length: way.length,
+            broken: BTreeSet::new(),
+        };
+        Ok(Self {
+            task,
+            way,
+            turns,
+            stations,
+            postures,
+            nodes,
+            links,
+        })
+    }
+
+    /// The posture of a number at a station.
+    pub fn node(&self, station: usize, number: u32) -> &Node {
+        &self.nodes[station][number as usize]
+    }
+
+    /// Turns along a sequence, deg, without jumps of 360.
+    pub fn turns_deg(&self, chosen: &[u32]) -> Vec<f64> {
+        let mut before: Option<(f64, u32)> = None;
+        let turns = chosen.iter().enumerate().map(|(station, number)| {
+            let own = self.node(station, *number).turn;
+            let turn = match before {
+                None => self.turns.deg(own),
+                Some((turn, last)) => {
+                    turn + self.turns.step_deg * self.turns.steps(last, own) as f64
+                }
+            };
+            before = Some((turn, own));
+            turn
+        });
+        turns.collect()
+    }
+
+    /// The cheapest sequence that holds also between its stations: where it does not, it is looked for again without those links.
+    pub fn search(&mut self) -> Result<Found, Failed> {
+        let mut progress = Progress::default();
+        let mut seen: Vec<(Link, Vec<Looked>)> =
+            vec![((0, u32::MAX, u32::MAX), Vec::new()); self.stations.len()];
+        let mut again = 0;
+        for _ in 0..ROUNDS {
+            if let Err(station) = progress.go_on(&self.links, &self.stations, &self.nodes, 0) {
+                return Err(Failed::At(station, progress));
+            }
+            let Some((cost, chosen)) = progress.best() else {
+                return Err(Failed::At(0, progress));
+            };
+            let broken = self.look_between(&chosen, &mut seen);
+            let Some(first) = broken.iter().map(|link| link.0).min() else {
+                let seen = seen.into_iter().map(|(_, looked)| looked).collect();
+                return Ok(Found { cost, chosen, seen });
+            };
+            self.links.broken.extend(broken);
+            progress.forget_from(first);
+            again += self.stations.len() - first;
+            if again > AT_LEAST.max(TIMES * self.stations.len()) {
+                break;
+            }
+        }
+        Err(Failed::Error(TurnError::Input {
+            what: format!(
+                "stations of {} mm are too far apart for this path: whatever is chosen at them leaves what is allowed between them. Take \
+                 stations that are closer together (station_mm), and a smaller step of the band",
+                self.task.station_mm
+            ),
+        }))
+    }
+
+    /// Looks at the links of a sequence that were not looked at before; those that do not hold.
+    fn look_between(&self, chosen: &[u32], seen: &mut [(Link, Vec<Looked>)]) -> Vec<Link> {
+        let between = Between {
+            way: &self.way,
+            turns: &self.turns,
+            postures: &self.postures,
+            free: self.links.free,
+            joint_step: self.links.joint_step,
+            checks: self.task.bounds.checks_between,
+        };
+        let found = seen.par_iter_mut().enumerate().skip(1).map(|(to, known)| {
+            let link = (to, chosen[to - 1], chosen[to]);
+            if known.0 == link {
+                return None;
+            }
+            let a = (&self.stations[to - 1], self.node(to - 1, link.1));
+            let b = (&self.stations[to], self.node(to, link.2));
+            match between.look(a, b) {
+                Ok(looked) => {
+                    *known = (link, looked);
+                    None
+                }
+                Err(_) => Some(link),
+            }
+        });
+        found.flatten_iter().collect()
+    }
+}

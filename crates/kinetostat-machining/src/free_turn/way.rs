@@ -1,0 +1,193 @@
+//! A path as one way: where the tool is after so many millimetres, and where nobody knows how it got there.
+
+use kinetostat::Pose;
+use kinetostat_program::{FeedMode, Knowledge, Move, MoveKind, Path};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+
+use crate::free_turn::error::TurnError;
+use crate::free_turn::task::{TurnRate, TurnTask};
+use crate::placement::Placement;
+
+/// A move that turns the tool's axis counts at least so long by degree, mm: it has stations also where it has no length.
+const MM_PER_DEG: f64 = 1.0;
+
+/// A move on the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Section {
+    /// Where it begins, mm of the way.
+    pub from: f64,
+    /// How long it is there, mm; nothing where the program does not say from where it starts.
+    pub length: f64,
+    /// Most turn by way, deg/mm.
+    pub rate: f64,
+    /// The program changes the orientation of the tool on it.
+    pub turns: bool,
+}
+
+/// A path with its length counted through.
+#[derive(Clone, Debug)]
+pub(crate) struct Way<'a> {
+    path: &'a Path,
+    placement: Placement,
+    /// One for every move.
+    pub sections: Vec<Section>,
+    /// First and last section of every stretch that is known without a break.
+    pub stretches: Vec<[usize; 2]>,
+    /// Length in all, mm.
+    pub length: f64,
+    /// The axis of the tool, axes of the tool.
+    pub axis: Unit<Vector3<f64>>,
+}
+
+/// A place on the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WayPlace {
+    pub move_index: usize,
+    pub line: usize,
+    pub position_mm: Vector3<f64>,
+    /// Tool at the turn that the program states, base from tool.
+    pub pose: Pose,
+}
+
+/// Whether the moves of a path state the orientation of the tool.
+fn states_orientation(path: &Path) -> bool {
+    path.moves.iter().any(|motion| motion.tool_turn.is_some())
+}
+
+/// The axis of the tool, axes of the tool, unit vector: of the path where its moves state orientations, else z.
+pub(crate) fn tool_axis(path: &Path) -> Option<Unit<Vector3<f64>>> {
+    match states_orientation(path) {
+        true => Unit::try_new(path.tool_axis, 1e-6),
+        false => Some(Vector3::z_axis()),
+    }
+}
+
+impl<'a> Way<'a> {
+    /// Of a task whose numbers have been looked at.
+    pub fn of(task: &TurnTask<'a>) -> Result<Self, TurnError> {
+        let axis = tool_axis(task.path).ok_or_else(|| TurnError::Input {
+            what:
+                "the path states no axis of the tool: a unit vector in axes of the tool is needed"
+                    .to_owned(),
+        })?;
+        let mut way = Self {
+            path: task.path,
+            placement: task.placement,
+            sections: Vec::with_capacity(task.path.moves.len()),
+            stretches: Vec::new(),
+            length: 0.0,
+            axis,
+        };
+        let mut broken = true;
+        for (index, motion) in task.path.moves.iter().enumerate() {
+            let turn_deg = turn_deg(motion);
+            let length = match motion.known {
+                Knowledge::Whole => motion.length_mm().max(MM_PER_DEG * turn_deg),
+                Knowledge::End | Knowledge::Nothing => 0.0,
+            };
+            if !length.is_finite() || length < 0.0 {
+                return Err(TurnError::Input {
+                    what: format!("line {}: the move has no finite length", motion.line),
+                });
+            }
+            way.sections.push(Section {
+                from: way.length,
+                length,
+                rate: rate(task, motion, length)?,
+                turns: turn_deg > 1e-6,
+            });
+            way.length += length;
+            match (motion.known, way.stretches.last_mut()) {
+                (Knowledge::Whole, Some(stretch)) if !broken => stretch[1] = index,
+                (Knowledge::Whole, _) => way.stretches.push([index, index]),
+                _ => {}
+            }
+            broken = motion.known != Knowledge::Whole;
+        }
+        way.stretches.retain(|[first, last]| {
+            let sections = &way.sections;
+            sections[*last].from + sections[*last].length > sections[*first].from
+        });
+        if way.stretches.is_empty() {
+            return Err(TurnError::Input {
+                what: "the path has no length: no move goes from a known place to another"
+                    .to_owned(),
+            });
+        }
+        Ok(way)
+    }
+
+    /// The section in which a place of the way is: the last one that begins there or before and has a length.
+    pub fn section_at(&self, at: f64) -> usize {
+        let after = self.sections.partition_point(|section| section.from <= at);
+        let mut before = self.sections[..after].iter();
+        before
+            .rposition(|section| section.length > 0.0)
+            .or_else(|| {
+                self.sections
+                    .iter()
+                    .position(|section| section.length > 0.0)
+            })
+            .unwrap_or(0)
+    }
+
+    /// Where the tool is after `at` mm, in the section where it is.
+    pub fn place(&self, section: usize, at: f64) -> WayPlace {
+        let motion = &self.path.moves[section];
+        let Section { from, length, .. } = self.sections[section];
+        let share = match length > 0.0 {
+            true => ((at - from) / length).clamp(0.0, 1.0),
+            false => 1.0,
+        };
+        let position_mm = motion.point(share);
+        let orientation = self.placement.orientation_on(motion, share);
+        WayPlace {
+            move_index: section,
+            line: motion.line,
+            position_mm,
+            pose: self.placement.pose(&position_mm, orientation),
+        }
+    }
+
+    /// The tool turned about its axis by an angle, deg.
+    pub fn turned(&self, pose: &Pose, turn_deg: f64) -> Pose {
+        pose * UnitQuaternion::from_axis_angle(&self.axis, turn_deg.to_radians())
+    }
+}
+
+/// By how much the program turns the tool on a move, deg.
+fn turn_deg(motion: &Move) -> f64 {
+    let turn = motion.tool_turn.as_ref();
+    turn.map_or(0.0, |turn| turn.start.angle_to(&turn.end).to_degrees())
+}
+
+/// The largest turn by way on a move, deg/mm.
+fn rate(task: &TurnTask<'_>, motion: &Move, length: f64) -> Result<f64, TurnError> {
+    let per_second = match task.bounds.rate {
+        TurnRate::PerLength(rate) => return Ok(rate),
+        TurnRate::PerTime(rate) => rate,
+    };
+    if motion.kind == MoveKind::Rapid || motion.known != Knowledge::Whole || length <= 0.0 {
+        return Ok(f64::INFINITY);
+    }
+    let refused = |what: &str| TurnError::Input {
+        what: format!(
+            "line {}: {what}, so a rate of turning in deg/s says nothing here: give it in deg/mm (TurnRate::PerLength)",
+            motion.line
+        ),
+    };
+    let seconds = match motion.feed {
+        Some(feed) if !(feed.value.is_finite() && feed.value > 0.0) => {
+            return Err(refused("the feed is not a positive number"));
+        }
+        Some(feed) => match feed.mode {
+            FeedMode::PerMinute => 60.0 * motion.length_mm() / feed.value,
+            FeedMode::InverseTime => 60.0 / feed.value,
+            FeedMode::PerRevolution => {
+                return Err(refused("the feed counts by turns of the spindle"));
+            }
+        },
+        None => return Err(refused("the move has no feed")),
+    };
+    Ok(per_second * seconds / length)
+}
