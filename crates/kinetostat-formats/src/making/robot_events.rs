@@ -53,6 +53,13 @@ fn of_form(language: Language) -> &'static [&'static str] {
         Language::Apt => &[
             "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "PARTNO", "TRNTYP", "FINI", "END",
         ],
+        Language::Heidenhain => &["BEGIN PGM", "END PGM", "BLK FORM", "CC ", "L ", "LBL "],
+        Language::Siemens => &[
+            "%", ";$PATH", "DEF ", "PROC ", "G0", "G1", "G2", "G3", "G5", "G6", "G7", "G9", "F",
+            "M30", "M17", "RET",
+        ],
+        // Rows and keys state poses; the rest of a list goes with its pose.
+        Language::Poses => &[""],
     }
 }
 
@@ -125,6 +132,15 @@ fn body(language: Language, text: &str) -> &str {
             });
             behind.trim().trim_end_matches(';').trim()
         }
+        Language::Heidenhain => text.trim_start_matches(|c: char| c.is_ascii_digit()).trim(),
+        Language::Siemens => {
+            let numbered = text.strip_prefix(['N', 'n', ':']);
+            let behind = numbered.map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+            behind
+                .filter(|rest| Some(*rest) != numbered)
+                .unwrap_or(text)
+                .trim()
+        }
         _ => text,
     }
 }
@@ -133,11 +149,14 @@ fn kind_of(language: Language, upper: &str) -> EventKind {
     let has = |words: &[&str]| words.iter().any(|word| upper.starts_with(word));
     let comment = match language {
         Language::Rapid | Language::FanucLs => "!",
-        Language::Krl => ";",
+        Language::Krl | Language::Siemens | Language::Heidenhain => ";",
+        Language::Poses => "#",
         Language::Apt => "$$",
     };
     match () {
         () if upper.starts_with(comment) || has(&["PPRINT", "REMARK"]) => EventKind::Comment,
+        () if language == Language::Heidenhain && upper.starts_with('*') => EventKind::Comment,
+        () if has(&["TOOL CALL", "TOOL DEF"]) => EventKind::Tool,
         () if has(&["SPINDL"]) => EventKind::Spindle,
         () if has(&["COOLNT"]) => EventKind::Coolant,
         () if has(&["LOAD", "TOOLNO", "TOOL PATH", "TLDATA"]) => EventKind::Tool,

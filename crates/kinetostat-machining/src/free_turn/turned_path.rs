@@ -189,10 +189,10 @@ fn piece(
         ),
     };
     let about = |degrees: f64| UnitQuaternion::from_axis_angle(axis, degrees.to_radians());
-    let turn = ToolTurn {
-        start: program(from) * about(start_deg),
-        end: program(to) * about(end_deg),
-    };
+    let turn = ToolTurn::shortest(
+        program(from) * about(start_deg),
+        program(to) * about(end_deg),
+    );
     let middle = program(0.5 * (from + to)) * axis.into_inner();
     let off = match section.length > 0.0 {
         true => (turn.at(0.5) * axis.into_inner())

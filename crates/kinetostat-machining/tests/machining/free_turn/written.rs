@@ -85,10 +85,7 @@ fn the_axis_of_the_program_is_kept() {
     let count = path.moves.len();
     for (index, motion) in path.moves.iter_mut().enumerate() {
         let start = tilts[index.saturating_sub(1)];
-        motion.tool_turn = Some(Box::new(ToolTurn {
-            start,
-            end: tilts[index],
-        }));
+        motion.tool_turn = Some(Box::new(ToolTurn::shortest(start, tilts[index])));
     }
     assert_eq!(count, tilts.len());
     path.tool_axis = -Vector3::z();
