@@ -6,20 +6,29 @@ pub(crate) mod arguments;
 
 use std::io::Write;
 
+use kinetostat_formats::{Language, SourceFile, language_of};
 use kinetostat_machining::number::counted;
+use nalgebra::Vector3;
 
 use crate::expand::arguments::ExpandArgs;
 use crate::files::input_files::InputFiles;
-use crate::files::outputs::{Existing, Outputs};
+use crate::files::outputs::{Existing, Outputs, written};
 use crate::job::expansion::flat::{Flattened, flattened};
 use crate::job::expansion::settings::settings;
 use crate::job::reading::reading;
+use crate::job::robot::flat::flat_text;
+use crate::job::robot::settings::settings as robot_settings;
+use crate::job::robot::source::RobotSource;
+use crate::job::robot_arguments::RobotArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
 
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
     let name = args.program.display().to_string();
+    if let Some(language) = language_of(&name, &bytes) {
+        return of_control(args, language, bytes);
+    }
     let settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
     let done = flattened(bytes, (&args.program, &name), &settings)?;
     let mut inputs = vec![args.program.clone()];
@@ -34,10 +43,10 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     match claimed {
         Some((mut outputs, index)) => {
             outputs.fill(index, flat)?;
-            let written = outputs.commit()?;
+            let paths = outputs.commit()?;
             let mut text = summary(&name, &done);
             text.push_str("\nWritten\n");
-            for path in written {
+            for path in paths {
                 let path = path.display().to_string();
                 text.push_str(&format!("  {}\n", crate::ui::safe_text::safe(&path)));
             }
@@ -45,6 +54,39 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
         }
         None => print(flat),
     }
+}
+
+/// A program of SINUMERIK or Heidenhain.
+fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<()> {
+    if let Some(option) = args.with.given() {
+        return Err(Failure::input(format!(
+            "{option} is for programs in G-code; leave it out"
+        )));
+    }
+    let name = args.program.file_name().unwrap_or_default();
+    let source = RobotSource {
+        language,
+        files: vec![SourceFile::new(name.to_string_lossy(), bytes)],
+        paths: Vec::new(),
+        settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
+    };
+    let (text, flat) = flat_text(&source)?;
+    let Some(out) = &args.out else {
+        return print(text.file.bytes());
+    };
+    let inputs = vec![args.program.clone()];
+    let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
+    let index = outputs.claim("flat program", out)?;
+    outputs.fill(index, text.file.bytes())?;
+    let paths = outputs.commit()?;
+    let said = wrapped(
+        &match text.changed {
+            true => format!("{}.", flat.description()),
+            false => "Nothing was to be written flat: the program is as it was.".to_owned(),
+        },
+        0,
+    );
+    print((said + &written(&paths)).as_bytes())
 }
 
 fn summary(name: &str, done: &Flattened) -> String {

@@ -79,7 +79,7 @@ impl ReadProgram<'_> {
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     if let Some(source) = &setting.robot {
-        let read = read_robot(source)?;
+        let read = read_robot(source).map_err(|failure| setting.of_flat(failure))?;
         return Ok(ReadProgram::Robot(Box::new(read)));
     }
     let read = Program::read(setting.program.clone()).and_then(|program| {

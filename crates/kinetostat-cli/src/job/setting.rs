@@ -15,6 +15,7 @@ use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, beside_program, output_paths};
 use crate::job::reading::reading;
+use crate::job::robot::flat::flat_text;
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
@@ -57,6 +58,15 @@ impl Setting {
         failure.within(&self.program_name)
     }
 
+    /// A failure that names lines of a robot's program: of an expanded one with the lines that its lines came from.
+    pub(crate) fn of_flat(&self, mut failure: Failure) -> Failure {
+        if let Some(flat) = &self.flat {
+            let named = format!("{}, line ", self.program_name);
+            failure.plain = flat.with_sources(&failure.plain.replace(&named, "line "));
+        }
+        failure
+    }
+
     /// Warnings of the expansion of the program.
     pub(crate) fn of_expansion(&self) -> impl Iterator<Item = kinetostat_machining::Warning> + '_ {
         let found = self.expansion_warnings.iter();
@@ -75,7 +85,7 @@ impl Setting {
         let Some(source) = &self.robot else {
             return Ok(None);
         };
-        let read = read_robot(source)?;
+        let read = read_robot(source).map_err(|failure| self.of_flat(failure))?;
         Ok(Some(RobotFrames::of(&read)))
     }
 
@@ -125,34 +135,38 @@ pub(crate) fn setting(
     let mut program_files = vec![origin::file("program", &path, &program)];
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
-    let robot = robot.map(|(source, read)| {
+    let mut robot_flat = None;
+    let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());
+        if expand.is_some() {
+            let (text, flat) = flat_text(&source)?;
+            robot_flat = Some((text.file.bytes().to_vec(), flat));
+            source.files = vec![text.file];
+            source.paths.clear();
+        }
         if let Some(out) = &targets.program {
             let further = source.paths.iter();
             targets.beside = further
                 .map(|file| beside_program(out, &path, file))
                 .collect();
         }
-        source
+        Ok(source)
     });
-    if let (Some(_), Some(_)) = (&robot, &expand) {
-        return Err(Failure::input(
-            "--expand and [expand] are for G-code; a program of a robot is read as it stands, with its routines: leave them out",
-        ));
-    }
+    let robot = robot.transpose()?;
     // Where faults of a job are looked for, what follows from one of them is none.
     let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
     let mut expansion_warnings = Vec::new();
-    let (program, flat) = match expand {
-        Some(expand) => {
+    let (program, flat) = match (robot_flat, expand) {
+        (Some((program, flat)), _) => (program, Some(flat)),
+        (None, Some(expand)) => {
             let done = flattened(program, (&path, &program_name), &expand)?;
             program_files.extend(done.read);
             inputs.extend(done.paths);
             expansion_warnings = done.expanded.warnings;
             (done.expanded.program.bytes().to_vec(), Some(done.flat))
         }
-        None => (program, None),
+        (None, None) => (program, None),
     };
     let target = targets.flat.clone();
     let mut setting = Setting {

@@ -317,3 +317,54 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
     assert!(!said.out.contains("along its own axis"), "{said:?}");
     assert!(here.join("z.dat").is_file());
 }
+
+/// Slots that a loop moves on.
+const CONTROLS: [(&str, &str, &str); 2] = [
+    (
+        "loop.h",
+        "0 BEGIN PGM LOOP MM\n1 TOOL CALL 1 Z S3000 F500\n2 L X+0 Y+0 Z+50 R0 FMAX M3\n3 FN 0: Q1 = +0\n4 LBL 1\n5 L X+Q1 Y+0 FMAX\n6 L Z-1 F300\n7 L Y+30 F500\n8 L Z+10 FMAX\n9 FN 1: Q1 = +Q1 + +10\n10 CALL LBL 1 REP 1\n11 L Z+50 FMAX M30\n12 END PGM LOOP MM\n",
+        "CALL LBL 1 REP 1",
+    ),
+    (
+        "loop.mpf",
+        "N10 G90 G71 G17 G54\nN30 R1=0\nN40 G0 X0 Y0 Z50\nN50 WHILE R1<20\nN60 G0 X=R1 Y0\nN70 G1 Z-1 F300\nN80 Y30\nN90 G0 Z10\nN100 R1=R1+10\nN110 ENDWHILE\nN120 G0 Z50\nN130 M30\n",
+        "WHILE R1<20",
+    ),
+];
+
+#[test]
+fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
+    for (name, text, looped) in CONTROLS {
+        let here = tempfile::tempdir().unwrap();
+        let here = here.path();
+        std::fs::write(here.join(name), text).unwrap();
+        let line = format!(
+            "compensate --model heavy_6r --program {name} --force 100 50 -80 --part-origin-mm 1800 0 900 --tool-length-mm 150 --points points.csv"
+        );
+        let refused = run(here, &words(&line));
+        assert_eq!(refused.code, 1, "{refused:?}");
+        let flat = refused.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(looped) && flat.contains("--expand"), "{flat}");
+        let said = run(here, &words(&format!("{line} --expand"))).answered();
+        assert!(
+            said.out.contains("was run once and written flat"),
+            "{said:?}"
+        );
+        let [stem, ending] = [
+            name.split_once('.').unwrap().0,
+            name.split_once('.').unwrap().1,
+        ];
+        let flat = read(here, &format!("{stem}-flat.{ending}"));
+        assert!(!flat.contains(looped), "{flat}");
+        let printed = run(here, &["expand", name]).answered();
+        assert_eq!(printed.out, flat);
+        // Both slots are there, each line of points with the line of the program that it came from.
+        let output = read(here, &format!("{stem}-compensated.{ending}"));
+        assert!(output.lines().count() > flat.lines().count(), "{output}");
+        let table = read(here, "points.csv");
+        assert!(
+            table.lines().next().unwrap().contains("source_line"),
+            "{table}"
+        );
+    }
+}

@@ -134,9 +134,9 @@ pub(crate) fn with_header(
         .saturating_sub(opens.len() + PREFIX.len())
         .max(20);
     for text in texts.iter().flat_map(|text| text.lines()) {
-        let plain: Vec<char> = text.chars().map(plain).collect();
-        for part in plain.chunks(room) {
-            write(&format!("{PREFIX}{}", part.iter().collect::<String>()));
+        let plain: String = text.chars().map(plain).collect();
+        for part in in_lines(&plain, room) {
+            write(&format!("{PREFIX}{part}"));
         }
     }
     let bytes = [&bytes[..at], &header, &bytes[at..]].concat();
@@ -144,6 +144,22 @@ pub(crate) fn with_header(
         true => (numbering::numbered_again(&bytes).unwrap_or(bytes), count),
         false => (bytes, count),
     }
+}
+
+/// A text of ASCII in lines of at most so many bytes, at blanks where there are some.
+fn in_lines(text: &str, room: usize) -> Vec<&str> {
+    let mut lines = Vec::new();
+    let mut rest = text.trim_end();
+    while rest.len() > room {
+        let at = rest[..=room]
+            .rfind(' ')
+            .filter(|at| *at > 0)
+            .unwrap_or(room);
+        lines.push(rest[..at].trim_end());
+        rest = rest[at..].trim_start();
+    }
+    lines.push(rest);
+    lines
 }
 
 /// ASCII that ends no comment.

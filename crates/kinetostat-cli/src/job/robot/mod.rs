@@ -4,6 +4,7 @@
 //! that the program states, for the machine of the run, [`configuration`] compares the arm's with that of the run.
 
 pub(crate) mod configuration;
+pub(crate) mod flat;
 pub(crate) mod frames;
 pub(crate) mod machine;
 pub(crate) mod read_program;

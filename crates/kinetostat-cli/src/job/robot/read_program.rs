@@ -88,7 +88,10 @@ const KEYS: [(&str, &str); 6] = [
     ("give the .dat file", "files = [\"other.dat\"]"),
 ];
 
-fn refused<'f, F: std::fmt::Display>(all: &'f [F], reason: impl Fn(&'f F) -> &'f str) -> Failure {
+pub(crate) fn refused<'f, F: std::fmt::Display>(
+    all: &'f [F],
+    reason: impl Fn(&'f F) -> &'f str,
+) -> Failure {
     let Some(first) = all.first() else {
         return Failure::input("the program is refused");
     };

@@ -1,0 +1,26 @@
+//! Programs of a machine's control that are run once and written flat: SINUMERIK and Heidenhain.
+
+use kinetostat_formats::{FlatText, expand};
+use kinetostat_machining::FlatProgram;
+
+use crate::job::robot::read_program::refused;
+use crate::job::robot::source::RobotSource;
+use crate::ui::failure::{Answer, Failure};
+
+/// The flat program, and where its lines came from.
+pub(crate) fn flat_text(source: &RobotSource) -> Answer<(FlatText, FlatProgram)> {
+    let files = source.files.clone();
+    let names = files.iter().map(|file| file.name().to_owned()).collect();
+    let done = expand(source.language, files, &source.settings.reading)
+        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    let Some(text) = done else {
+        return Err(Failure::input(
+            "--expand and [expand] are for G-code, SINUMERIK and Heidenhain; a program of a robot is read as it stands, with its routines: leave them out",
+        ));
+    };
+    let index = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+    let origins = text.origins.iter();
+    let origins = origins.map(|(file, line)| (index(*file), index(*line)));
+    let flat = FlatProgram::new(names, text.origins.len(), origins.collect());
+    Ok((text, flat))
+}
