@@ -10,6 +10,7 @@ use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 use crate::writing::written::Piece;
+use crate::writing::written_arc::WrittenArc;
 
 /// What was written of a piece.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +23,8 @@ pub(crate) struct AsWritten {
     pub output_line: usize,
     /// An arc that stays one.
     pub kept_arc: bool,
+    /// An arc that was fitted.
+    pub arc: Option<WrittenArc>,
     /// The feed in force.
     pub feed: Option<Feed>,
     /// It was held to its largest.
@@ -77,8 +80,7 @@ impl<'a> PieceAccount<'a> {
 
     /// A piece that is written.
     pub fn piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
-        self.note_piece(move_index, step, written);
-        self.pieces.push(Piece {
+        let piece = Piece {
             move_index,
             share_from: step.share_from,
             share_to: step.share_to,
@@ -89,8 +91,12 @@ impl<'a> PieceAccount<'a> {
             turn: step.turn,
             corrected: step.corrected,
             kept_arc: written.kept_arc,
+            arc: written.arc,
             feed_limited: written.feed_limited,
-        });
+        };
+        let written_mm = piece.length_mm(&self.path.moves[move_index]);
+        self.note_piece(move_index, step, (written, written_mm));
+        self.pieces.push(piece);
     }
 
     /// A move that goes where the input has it, or to a place of the machine.
@@ -106,22 +112,26 @@ impl<'a> PieceAccount<'a> {
             turn: None,
             corrected: false,
             kept_arc: false,
+            arc: None,
             feed_limited: false,
         });
         self.rate.note(None);
     }
 
-    fn note_piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
+    fn note_piece(
+        &mut self,
+        move_index: usize,
+        step: &OutputMove,
+        (written, written_mm): (&AsWritten, f64),
+    ) {
         let motion = &self.path.moves[move_index];
-        let written_mm = match written.kept_arc {
-            true => motion.length_mm(),
-            false => (written.to - written.from).norm(),
-        };
         let accounting = &mut self.accounting;
         let rounding = (written.to - step.target).norm();
         accounting.largest_rounding_mm = larger(accounting.largest_rounding_mm, rounding);
         if step.corrected {
+            let inside = step.arc.map_or(0.0, |arc| arc.largest_correction_mm);
             let correction = (step.target - motion.point(step.share_to)).norm();
+            let correction = larger(correction, inside);
             if correction > accounting.largest_correction_mm {
                 accounting.largest_correction_mm = correction;
                 accounting.largest_correction_line = Some(motion.line);
@@ -179,6 +189,11 @@ impl<'a> PieceAccount<'a> {
     /// How far the output goes against the direction in which the part is cut.
     fn note_backward(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
         let motion = &self.path.moves[move_index];
+        if written.kept_arc || written.arc.is_some() {
+            // It goes round as the input does, never back.
+            self.jump_from = None;
+            return;
+        }
         let began = match (step.corner_step, self.jump_from) {
             (false, _) => {
                 self.jump_from = None;

@@ -4,10 +4,16 @@ use std::ops::Range;
 
 use nalgebra::{Vector3, Vector6};
 
+use crate::error::WriteError;
 use crate::field::correction::Correction;
 use crate::number::larger;
+use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Move, Path};
+use crate::writing::corrected_curve::CorrectedCurve;
+use crate::writing::divide::Division;
+use crate::writing::fit::{ArcForm, Fit, Span};
 use crate::writing::jump::{Jump, Turn};
+use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
@@ -18,6 +24,7 @@ pub(crate) struct Steps<'a> {
     options: &'a WriteOptions,
     pub nodes: Vec<Node>,
     jumps: Vec<Jump>,
+    courses: Vec<Accepted>,
     next_node: usize,
     /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
     tilt: Vector3<f64>,
@@ -26,17 +33,13 @@ pub(crate) struct Steps<'a> {
 }
 
 impl<'a> Steps<'a> {
-    pub fn new(
-        path: &'a Path,
-        options: &'a WriteOptions,
-        nodes: Vec<Node>,
-        jumps: Vec<Jump>,
-    ) -> Self {
+    pub fn new(path: &'a Path, options: &'a WriteOptions, division: Division) -> Self {
         Self {
             path,
             options,
-            nodes,
-            jumps,
+            nodes: division.nodes,
+            jumps: division.jumps,
+            courses: division.courses,
             next_node: 0,
             tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
@@ -55,12 +58,25 @@ impl<'a> Steps<'a> {
         first..self.next_node
     }
 
-    /// The pieces of a move, of which those before are taken already, and its nodes; `reached` is where the tool was last to go.
+    /// What is known of the correction between the nodes of a move, where arcs are fitted to it.
+    pub fn course(&self, move_index: usize) -> &[Accepted] {
+        let first = self
+            .courses
+            .partition_point(|stretch| stretch.move_index < move_index);
+        let last = self
+            .courses
+            .partition_point(|stretch| stretch.move_index <= move_index);
+        &self.courses[first..last]
+    }
+
+    /// The pieces of a move, of which those before are taken already, and its nodes; `reached` is where the tool was last to go,
+    /// `form` how its arcs are written.
     pub fn of(
         &mut self,
         move_index: usize,
         reached: Vector3<f64>,
-    ) -> (Vec<OutputMove>, Range<usize>) {
+        form: ArcForm,
+    ) -> Result<(Vec<OutputMove>, Range<usize>), WriteError> {
         let motion = &self.path.moves[move_index];
         let range = self.nodes_of(move_index);
         let whole = |target, tilt, corrected| {
@@ -71,6 +87,7 @@ impl<'a> Steps<'a> {
                 tilt,
                 corner_step: false,
                 turn: None,
+                arc: None,
                 corrected,
             }]
         };
@@ -80,10 +97,62 @@ impl<'a> Steps<'a> {
                 let end = Correction::of_lengths(&end.after, self.options.turn_lever_mm);
                 whole(motion.end + end.shift_mm, end.turn, true)
             }
-            Some(_) => self.divided(motion, range.clone(), reached),
+            Some(_) => {
+                let stretches = self.course(move_index).len();
+                let steps = self.divided(motion, range.clone(), reached, stretches > 0);
+                match &motion.curve {
+                    Curve::Arc(arc) if stretches > 0 => {
+                        self.fitted((move_index, arc, form), &steps, reached)?
+                    }
+                    _ => steps,
+                }
+            }
         };
         self.tilt = steps.last().map_or(self.tilt, |step| step.tilt);
-        (steps, range)
+        Ok((steps, range))
+    }
+
+    /// Arcs in place of the long straight pieces between two jumps of the correction.
+    fn fitted(
+        &self,
+        (move_index, arc, form): (usize, &Arc, ArcForm),
+        steps: &[OutputMove],
+        reached: Vector3<f64>,
+    ) -> Result<Vec<OutputMove>, WriteError> {
+        let fit = Fit {
+            curve: CorrectedCurve {
+                motion: &self.path.moves[move_index],
+                stretches: self.course(move_index),
+            },
+            arc,
+            form,
+            options: self.options,
+        };
+        let mut all = Vec::with_capacity(steps.len());
+        let mut from = reached;
+        for step in steps {
+            if step.corner_step {
+                all.push(*step);
+            } else {
+                let span = Span {
+                    share: [step.share_from, step.share_to],
+                    ends: [from, step.target],
+                };
+                let mut share_from = step.share_from;
+                for piece in fit.pieces(&span)? {
+                    all.push(OutputMove {
+                        share_from,
+                        share_to: piece.share_to,
+                        target: piece.target,
+                        arc: piece.arc,
+                        ..*step
+                    });
+                    share_from = piece.share_to;
+                }
+            }
+            from = step.target;
+        }
+        Ok(all)
     }
 
     fn divided(
@@ -91,8 +160,15 @@ impl<'a> Steps<'a> {
         motion: &Move,
         range: Range<usize>,
         reached: Vector3<f64>,
+        fitted: bool,
     ) -> Vec<OutputMove> {
         let nodes = &self.nodes[range];
+        let ends = [0, nodes.len() - 1];
+        // Between two jumps arcs are fitted, wherever the nodes are.
+        let all = nodes
+            .iter()
+            .enumerate()
+            .filter(|(index, node)| !fitted || ends.contains(index) || node.before != node.after);
         let smallest_step = self.options.smallest_step_mm();
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
@@ -110,6 +186,7 @@ impl<'a> Steps<'a> {
                 tilt: correction.turn,
                 corner_step,
                 turn,
+                arc: None,
                 corrected: true,
             });
             share_from = share_to;
@@ -119,7 +196,7 @@ impl<'a> Steps<'a> {
             turn: self.tilt,
         };
         let mut last = before.in_lengths(lever_mm);
-        for (index, node) in nodes.iter().enumerate() {
+        for (index, node) in all {
             let point = motion.point(node.share);
             if index > 0 {
                 last = node.before;

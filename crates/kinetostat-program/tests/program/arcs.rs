@@ -137,6 +137,7 @@ fn every_form_of_arc_is_read_as_its_circle_and_written_as_chords_of_it() {
         let writing = {
             let mut writing = WriteOptions::default();
             writing.header = None;
+            writing.arcs = Arcs::Lines;
             writing
         };
         let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
@@ -211,6 +212,7 @@ fn modal_arc_blocks_are_converted_too_and_the_mode_after_them_is_right() {
     let writing = {
         let mut writing = WriteOptions::default();
         writing.header = None;
+        writing.arcs = Arcs::Lines;
         writing.chord_tolerance_mm = 1.0;
         writing
     };
