@@ -123,12 +123,8 @@ impl Stretch {
         let off = departure(&values, [self.begins, self.ends[1]]);
         let (unknown, needs_quarters) = match self.course {
             Course::Cubic if !self.fitted => (0.0, true),
-            _ => {
-                let radius_mm = match self.course {
-                    Course::Smooth { radius_mm } => radius_mm,
-                    // Along an arc it is no polynomial, and as smooth as the arc is.
-                    Course::Cubic => f64::INFINITY,
-                };
+            Course::Cubic => (self.unknown_round(motion, &values), true),
+            Course::Smooth { radius_mm } => {
                 // That nothing was seen yet does not make it small: it counts as the tolerance at least.
                 let seen = self.irregular.iter().map(|(_, value)| value);
                 let size = values
@@ -172,6 +168,18 @@ impl Stretch {
             return Decision::Halve;
         }
         Decision::Accept
+    }
+
+    /// What a polynomial through five values may be off from a correction that is one of third degree along straight lines, on an
+    /// arc: along it the coordinates are no polynomials, and a stretch of an angle `a` is a straight line but for terms of `a^2`
+    /// and more. They begin with those of the fifth degree.
+    fn unknown_round(&self, motion: &Move, values: &Values) -> f64 {
+        let Curve::Arc(arc) = &motion.curve else {
+            return 0.0;
+        };
+        let angle = arc.sweep * (self.share[1] - self.share[0]);
+        let varies = values.iter().map(|value| (value - values[0]).norm());
+        0.02 * angle * angle * varies.fold(0.0, larger)
     }
 
     /// Remembers what was found inside, for [`merge`].

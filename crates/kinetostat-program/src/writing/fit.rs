@@ -46,6 +46,7 @@ pub(crate) struct FittedPiece {
 
 /// Stretches looked at in a piece.
 const PLACES: usize = 32;
+const FEW_PLACES: usize = 8;
 
 /// Part of the tolerance that is used: the places in between, and what the correction may be off from its polynomial.
 const USED: f64 = 0.85;
@@ -70,7 +71,6 @@ const HALVINGS: u32 = 14;
 const MOST_EQUAL: usize = 64;
 
 /// What arcs are fitted to.
-#[derive(Clone, Copy)]
 pub(crate) struct Fit<'a> {
     pub curve: CorrectedCurve<'a>,
     pub arc: &'a Arc,
@@ -180,8 +180,9 @@ impl Fit<'_> {
                     }
                 }
             }
-            // Shorter than the shortest piece the curve is followed as it is.
-            let next = (from + shortest).min(to);
+            // Shorter than the shortest piece the curve is followed as it is, with an end where it may have a corner.
+            let corner = self.curve.quarters(from, to).next();
+            let next = (from + shortest).min(corner.unwrap_or(to)).min(to);
             let piece = best.unwrap_or_else(|| FittedPiece {
                 share_to: next,
                 target: self.point(span, next),
@@ -207,16 +208,26 @@ impl Fit<'_> {
     /// The arc, or else the straight piece, for a stretch, if one fits.
     fn fitting(&self, span: &Span) -> Option<FittedPiece> {
         let [from, to] = span.share;
-        let places: Vec<(f64, Vector3<f64>)> = (1..PLACES)
-            .map(|place| place as f64 / PLACES as f64)
-            .map(|part| (part, self.curve.point(from + (to - from) * part)))
-            .collect();
+        let place = |part: f64| (part, self.curve.point(from + (to - from) * part));
+        let even = |count: usize| (1..count).map(move |place| place as f64 / count as f64);
+        // A few places show most of what does not fit.
+        let few: Vec<_> = even(FEW_PLACES).map(place).collect();
+        self.through(span, &few)?;
+        let mut parts: Vec<f64> = even(PLACES).collect();
+        let quarters = self.curve.quarters(from, to);
+        parts.extend(quarters.map(|share| (share - from) / (to - from)));
+        let all: Vec<_> = parts.into_iter().map(place).collect();
+        self.through(span, &all)
+    }
+
+    /// The piece that is near these places, by the part of the stretch.
+    fn through(&self, span: &Span, places: &[(f64, Vector3<f64>)]) -> Option<FittedPiece> {
         let piece = |arc| FittedPiece {
-            share_to: to,
+            share_to: span.share[1],
             target: span.ends[1],
             arc,
         };
-        if let Some(arc) = self.arc(span, &places) {
+        if let Some(arc) = self.arc(span, places) {
             return Some(piece(Some(arc)));
         }
         let [start, end] = &span.ends;
@@ -267,7 +278,8 @@ impl Fit<'_> {
         {
             return None;
         }
-        // How far equal ways of the path and of the arc are apart: two polynomials that share no square.
+        // How far equal ways of the path and of the arc are apart: two polynomials that have nothing in common over even
+        // places, and little over others.
         let mut sums = [[0.0; 2]; 2];
         let parts: Vec<f64> = places
             .iter()

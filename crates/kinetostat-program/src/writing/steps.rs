@@ -120,10 +120,7 @@ impl<'a> Steps<'a> {
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
         let fit = Fit {
-            curve: CorrectedCurve {
-                motion: &self.path.moves[move_index],
-                stretches: self.course(move_index),
-            },
+            curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
             arc,
             form,
             options: self.options,
