@@ -10,6 +10,7 @@
 
 mod again;
 mod cut_forces;
+mod fitted_arcs;
 mod force_band;
 mod internal;
 mod joints;

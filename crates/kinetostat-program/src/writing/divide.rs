@@ -40,7 +40,8 @@ use crate::writing::queries::FieldQueries;
 pub(crate) struct Division {
     pub nodes: Vec<Node>,
     pub jumps: Vec<Jump>,
-    /// The correction on the moves to which arcs are fitted, by move and share.
+    /// The correction on the moves to which arcs are fitted, and on straight ones whose pieces may be shared out anew, by move
+    /// and share.
     pub courses: Vec<Accepted>,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
@@ -240,7 +241,11 @@ pub(crate) fn divide(
     });
     let mut nodes = merge(nodes, &accepted, options);
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
-    accepted.retain(|stretch| is_fitted(&path.moves[stretch.move_index], arcs));
+    accepted.retain(|stretch| {
+        let motion = &path.moves[stretch.move_index];
+        let shared = motion.curve == Curve::Line && options.shortest_block_mm(motion).is_some();
+        shared || is_fitted(motion, arcs)
+    });
     Ok(Division {
         nodes,
         jumps,

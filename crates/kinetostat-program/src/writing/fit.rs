@@ -73,7 +73,8 @@ const MOST_EQUAL: usize = 64;
 /// What arcs are fitted to.
 pub(crate) struct Fit<'a> {
     pub curve: CorrectedCurve<'a>,
-    pub arc: &'a Arc,
+    /// The arc of the path; on a straight move all pieces are straight.
+    pub arc: Option<&'a Arc>,
     pub form: ArcForm,
     pub options: &'a WriteOptions,
 }
@@ -118,7 +119,7 @@ impl Fit<'_> {
     }
 
     /// So many pieces of the same length, if all of them fit.
-    fn equal(&self, span: &Span, count: usize) -> Option<Vec<FittedPiece>> {
+    pub fn equal(&self, span: &Span, count: usize) -> Option<Vec<FittedPiece>> {
         let [from, to] = span.share;
         let mut pieces = Vec::with_capacity(count);
         let mut last = Self::start(span);
@@ -227,7 +228,7 @@ impl Fit<'_> {
             target: span.ends[1],
             arc,
         };
-        if let Some(arc) = self.arc(span, places) {
+        if let Some(arc) = self.arc.and_then(|arc| self.arc(arc, span, places)) {
             return Some(piece(Some(arc)));
         }
         let [start, end] = &span.ends;
@@ -240,7 +241,10 @@ impl Fit<'_> {
 
     fn allowed_mm(&self) -> f64 {
         let options = self.options;
-        let most = USED * (options.tolerance_mm + options.chord_tolerance_mm);
+        let most = match self.arc {
+            Some(_) => USED * (options.tolerance_mm + options.chord_tolerance_mm),
+            None => USED * options.tolerance_mm,
+        };
         // A larger jump may be taken up along the first piece.
         match options.smallest_step_mm() > options.tolerance_mm {
             true => most + options.smallest_step_mm(),
@@ -248,15 +252,14 @@ impl Fit<'_> {
         }
     }
 
-    fn arc(&self, span: &Span, places: &[(f64, Vector3<f64>)]) -> Option<FittedArc> {
+    fn arc(&self, arc: &Arc, span: &Span, places: &[(f64, Vector3<f64>)]) -> Option<FittedArc> {
         let [from, to] = span.share;
         let share_at = |part: f64| from + (to - from) * part;
-        let sweep = self.arc.sweep * (to - from);
+        let sweep = arc.sweep * (to - from);
         let digit_mm = self
             .options
             .last_digit_mm(self.curve.motion.words.mm_per_unit);
-        let in_plane =
-            |point: &Vector3<f64>| [point.dot(&self.arc.first), point.dot(&self.arc.second)];
+        let in_plane = |point: &Vector3<f64>| [point.dot(&arc.first), point.dot(&arc.second)];
         let (start, end) = (in_plane(&span.ends[0]), in_plane(&span.ends[1]));
         let chord = [end[0] - start[0], end[1] - start[1]];
         let length = chord[0].hypot(chord[1]);
@@ -306,31 +309,29 @@ impl Fit<'_> {
         };
         // The tool never turns back: beyond this the derivative could change its sign.
         let steady = fitted.slip[0].abs() + fitted.slip[1].abs() <= 0.4;
-        (steady && self.off_mm(span, places, &circle, &fitted) <= self.allowed_mm())
+        (steady && off_mm(arc, span, places, (&circle, &fitted)) <= self.allowed_mm())
             .then_some(fitted)
     }
+}
 
-    /// Largest distance of an arc from the corrected curve, in mm.
-    fn off_mm(
-        &self,
-        span: &Span,
-        places: &[(f64, Vector3<f64>)],
-        circle: &Circle,
-        fitted: &FittedArc,
-    ) -> f64 {
-        let [first, second, axis] = [self.arc.first, self.arc.second, self.arc.axis];
-        let heights = span.ends.map(|end| end.dot(&axis));
-        let off = places.iter().map(|(part, place)| {
-            let shape = part * (1.0 - part);
-            let turned = part + shape * (fitted.slip[0] + fitted.slip[1] * (1.0 - 2.0 * part));
-            let (sine, cosine) = (circle.start_angle + fitted.sweep_rad * turned).sin_cos();
-            let made = first * (circle.centre[0] + circle.radius * cosine)
-                + second * (circle.centre[1] + circle.radius * sine)
-                + axis * (heights[0] + (heights[1] - heights[0]) * turned);
-            (made - place).norm()
-        });
-        off.fold(0.0, larger)
-    }
+/// Largest distance of an arc from the corrected curve, in mm.
+fn off_mm(
+    arc: &Arc,
+    span: &Span,
+    places: &[(f64, Vector3<f64>)],
+    (circle, fitted): (&Circle, &FittedArc),
+) -> f64 {
+    let heights = span.ends.map(|end| end.dot(&arc.axis));
+    let off = places.iter().map(|(part, place)| {
+        let shape = part * (1.0 - part);
+        let turned = part + shape * (fitted.slip[0] + fitted.slip[1] * (1.0 - 2.0 * part));
+        let (sine, cosine) = (circle.start_angle + fitted.sweep_rad * turned).sin_cos();
+        let made = arc.first * (circle.centre[0] + circle.radius * cosine)
+            + arc.second * (circle.centre[1] + circle.radius * sine)
+            + arc.axis * (heights[0] + (heights[1] - heights[0]) * turned);
+        (made - place).norm()
+    });
+    off.fold(0.0, larger)
 }
 
 /// A circle in the plane of an arc.

@@ -125,28 +125,23 @@ impl WriteOptions {
                 allowed: "3 to 8 digits are allowed",
             });
         }
-        let positive = [
-            (
-                "min_block_mm",
-                self.min_block_mm,
-                1e-6..=1000.0,
-                "0.000001 to 1000 mm are allowed",
-            ),
-            (
-                "max_blocks_per_s",
-                self.max_blocks_per_s,
-                0.1..=1e6,
-                "0.1 to 1000000 blocks per second are allowed",
-            ),
-        ];
-        for (name, value, range, allowed) in positive {
-            if let Some(value) = value.filter(|value| !range.contains(value)) {
-                return Err(WriteError::Option {
-                    name,
-                    found: value.to_string(),
-                    allowed,
-                });
-            }
+        if let Some(shortest) = self.min_block_mm
+            && !(1e-6..=1000.0).contains(&shortest)
+        {
+            return Err(WriteError::Option {
+                name: "min_block_mm",
+                found: shortest.to_string(),
+                allowed: "0.000001 to 1000 mm are allowed",
+            });
+        }
+        if let Some(most) = self.max_blocks_per_s
+            && !(most > 0.0 && most.is_finite())
+        {
+            return Err(WriteError::Option {
+                name: "max_blocks_per_s",
+                found: most.to_string(),
+                allowed: "a number above zero is allowed",
+            });
         }
         if !(80..=65_000).contains(&self.max_line_bytes) {
             return Err(WriteError::Option {

@@ -9,6 +9,7 @@ use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
+use crate::writing::short_blocks::{ShortBlocks, Whose};
 use crate::writing::written::Piece;
 use crate::writing::written_arc::WrittenArc;
 
@@ -39,6 +40,7 @@ pub(crate) struct PieceAccount<'a> {
     pub accounting: Accounting,
     rate: Rate,
     rate_in: Rate,
+    short: ShortBlocks,
     /// Where the steps at one place began, and where that place is: move and share.
     jump_from: Option<(usize, f64, Vector3<f64>)>,
 }
@@ -53,6 +55,7 @@ impl<'a> PieceAccount<'a> {
             accounting,
             rate: Rate::default(),
             rate_in: Rate::default(),
+            short: ShortBlocks::default(),
             jump_from: None,
         };
         account.warn_of_axes_never_stated();
@@ -155,8 +158,15 @@ impl<'a> PieceAccount<'a> {
             accounting.feed_length_out_mm += written_mm;
             // A block that stays one keeps its inverse time; the pieces of others have their own.
             let feed = written.feed.filter(|_| motion.feed.is_some());
-            self.rate
-                .note(feed.and_then(|feed| duration_at(feed, written_mm)));
+            let seconds = feed.and_then(|feed| duration_at(feed, written_mm));
+            let whole = step.share_from == 0.0 && step.share_to == 1.0;
+            let whose = match whole && !step.corner_step {
+                true => Whose::Input,
+                false => Whose::Piece,
+            };
+            let block = (written_mm, seconds);
+            self.short.note((motion, whose), block, self.options);
+            self.rate.note(seconds);
             self.note_backward(move_index, step, written);
         } else {
             self.rate.note(None);
@@ -264,6 +274,8 @@ impl<'a> PieceAccount<'a> {
     /// Pieces and figures, all told.
     pub fn finish(mut self, bytes_out: usize) -> (Vec<Piece>, Accounting) {
         self.warn_of_steps_and_feeds();
+        let short = self.short.warnings(self.options);
+        self.accounting.warnings.extend(short);
         self.accounting.bytes_out = bytes_out;
         self.accounting.pieces = self.pieces.len();
         self.accounting.mean_blocks_per_second = self.rate.mean();

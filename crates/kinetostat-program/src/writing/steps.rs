@@ -18,6 +18,14 @@ use crate::writing::node::{Node, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 
+/// Which nodes of a move are ends of pieces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    All,
+    /// Its own ends, and where the correction jumps.
+    OfJumps,
+}
+
 /// Hands out the pieces of one move after the other.
 pub(crate) struct Steps<'a> {
     path: &'a Path,
@@ -98,13 +106,14 @@ impl<'a> Steps<'a> {
                 whole(motion.end + end.shift_mm, end.turn, true)
             }
             Some(_) => {
-                let stretches = self.course(move_index).len();
-                let steps = self.divided(motion, range.clone(), reached, stretches > 0);
+                let known = !self.course(move_index).is_empty();
                 match &motion.curve {
-                    Curve::Arc(arc) if stretches > 0 => {
+                    Curve::Arc(arc) if known => {
+                        let steps = self.divided(motion, range.clone(), reached, Ends::OfJumps);
                         self.fitted((move_index, arc, form), &steps, reached)?
                     }
-                    _ => steps,
+                    Curve::Line if known => self.shared((move_index, range.clone()), reached),
+                    _ => self.divided(motion, range.clone(), reached, Ends::All),
                 }
             }
         };
@@ -121,7 +130,7 @@ impl<'a> Steps<'a> {
     ) -> Result<Vec<OutputMove>, WriteError> {
         let fit = Fit {
             curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
-            arc,
+            arc: Some(arc),
             form,
             options: self.options,
         };
@@ -152,20 +161,78 @@ impl<'a> Steps<'a> {
         Ok(all)
     }
 
+    /// The pieces of a straight move: where one is shorter than the controller takes, those between two jumps are made equally
+    /// long, if they follow the curve then and are long enough.
+    fn shared(
+        &mut self,
+        (move_index, range): (usize, Range<usize>),
+        reached: Vector3<f64>,
+    ) -> Vec<OutputMove> {
+        let motion = &self.path.moves[move_index];
+        let shortest_mm = self.options.shortest_block_mm(motion).unwrap_or(0.0);
+        let length = |step: &OutputMove| motion.length_between_mm(step.share_from, step.share_to);
+        let short = |step: &OutputMove| !step.corner_step && length(step) < shortest_mm;
+        let steps = self.divided(motion, range.clone(), reached, Ends::All);
+        if !steps.iter().any(short) {
+            return steps;
+        }
+        let spans = self.divided(motion, range, reached, Ends::OfJumps);
+        let fit = Fit {
+            curve: CorrectedCurve::new(motion, self.course(move_index)),
+            arc: None,
+            form: ArcForm::Centre,
+            options: self.options,
+        };
+        let mut all = Vec::with_capacity(steps.len());
+        let (mut from, mut rest) = (reached, steps.as_slice());
+        for step in &spans {
+            // The pieces as they were divided, behind as many steps of a jump.
+            let count = match step.corner_step {
+                true => 1,
+                false => rest.iter().take_while(|piece| !piece.corner_step).count(),
+            };
+            let (own, others) = rest.split_at(count.min(rest.len()));
+            rest = others;
+            let span = Span {
+                share: [step.share_from, step.share_to],
+                ends: [from, step.target],
+            };
+            from = step.target;
+            let equal = match own.iter().any(short) && length(step) >= shortest_mm * count as f64 {
+                true => fit.equal(&span, count),
+                false => None,
+            };
+            let Some(equal) = equal else {
+                all.extend_from_slice(own);
+                continue;
+            };
+            let mut share_from = step.share_from;
+            for piece in equal {
+                all.push(OutputMove {
+                    share_from,
+                    share_to: piece.share_to,
+                    target: piece.target,
+                    ..*step
+                });
+                share_from = piece.share_to;
+            }
+        }
+        all
+    }
+
     fn divided(
         &mut self,
         motion: &Move,
         range: Range<usize>,
         reached: Vector3<f64>,
-        fitted: bool,
+        which: Ends,
     ) -> Vec<OutputMove> {
         let nodes = &self.nodes[range];
         let ends = [0, nodes.len() - 1];
-        // Between two jumps arcs are fitted, wherever the nodes are.
-        let all = nodes
-            .iter()
-            .enumerate()
-            .filter(|(index, node)| !fitted || ends.contains(index) || node.before != node.after);
+        // Between two jumps pieces are fitted, wherever the nodes are.
+        let all = nodes.iter().enumerate().filter(|(index, node)| {
+            which == Ends::All || ends.contains(index) || node.before != node.after
+        });
         let smallest_step = self.options.smallest_step_mm();
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
