@@ -98,14 +98,15 @@ impl ToPrint<'_> {
                 false => (1, nanometres(moved), nanometres(radii)),
             }
         };
-        let mut best: Option<((i32, f64, f64), (WrittenArc, W))> = None;
+        let mut best = None;
+        let mut least = None;
         for (arc, words) in arcs {
             let rank = rank(&arc);
-            if best.as_ref().is_none_or(|(least, _)| rank < *least) {
-                best = Some((rank, (arc, words)));
+            if least.is_none_or(|least| rank < least) {
+                (least, best) = (Some(rank), Some((arc, words)));
             }
         }
-        best.map(|(_, found)| found)
+        best
     }
 
     /// The words of its centre; `standing` has those that the block has, 0 for a missing one where that means the same.

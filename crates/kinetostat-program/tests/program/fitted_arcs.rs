@@ -18,7 +18,7 @@ const FIELDS: [Field; 5] = [
         Vector3::new(-p.y, p.x, 0.0) * 3e-4 + Vector3::new(0.0, 0.0, 0.1)
     }),
     ("linear", false, |p| {
-        Vector3::new(2e-4 * p.x - 1e-4 * p.y, 3e-4 * p.z, 2e-4 * p.x - 1e-4 * p.y)
+        Vector3::new(1e-4 * p.x - 5e-5 * p.y, 1e-4 * p.z, 1e-4 * p.x - 5e-5 * p.y)
     }),
     ("quadratic", false, |p| {
         Vector3::new(p.x * p.y, p.y * p.z - p.x * p.x, p.z * p.z) * 5e-6
