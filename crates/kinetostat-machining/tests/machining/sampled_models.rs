@@ -366,5 +366,10 @@ fn a_program_on_which_no_load_acts_comes_back_byte_for_byte() {
         2,
         "{output}"
     );
-    assert!(!mixed.result.summary.unchanged && output.lines().count() > 400);
+    // The arc in the cut has become several (hundreds of straight pieces before arcs were fitted).
+    let lines = output.lines().count();
+    assert!(
+        !mixed.result.summary.unchanged && (11..100).contains(&lines),
+        "{output}"
+    );
 }
