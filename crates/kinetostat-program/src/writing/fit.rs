@@ -270,7 +270,8 @@ impl Fit<'_> {
         let points: Vec<[f64; 2]> = places.iter().map(|(_, place)| in_plane(place)).collect();
         let circle = Circle::through(start, end, &points, sweep)?;
         let turned = circle.turned(end, sweep);
-        if (turned - sweep).abs() > 0.5 || turned.abs() > LARGEST_SWEEP {
+        // The other way round, bent to its other side, it would be nearly a whole circle to a controller.
+        if (turned - sweep).abs() > 0.5 || turned * sweep <= 0.0 || turned.abs() > LARGEST_SWEEP {
             return None;
         }
         let flat = circle.radius * (1.0 - (0.5 * turned).cos());
