@@ -318,7 +318,7 @@ impl WrittenArc {
         (0.5 * (first + last) * self.sweep(ends)).hypot(rise)
     }
 
-    /// The place of the arc between two ends that lies in the direction of another, `part` of the way on or nearly so.
+    /// The place of the arc between two ends that is nearest to another, `part` of the way on or nearly so.
     pub fn beside(&self, ends: [Vector3<f64>; 2], part: f64, place: &Vector3<f64>) -> Vector3<f64> {
         let turn = std::f64::consts::TAU;
         let [first, second, third] = self.axes;
@@ -326,16 +326,30 @@ impl WrittenArc {
         let sweep = self.sweep(ends);
         let angle = self.polar(place).1 - start;
         let angle = angle + turn * ((sweep * part - angle) / turn).round();
-        let share = (angle / sweep).clamp(0.0, 1.0);
-        let (angle, radius) = (
-            start + sweep * share,
-            radius + (end_radius - radius) * share,
-        );
-        let mut beside = Vector3::zeros();
-        beside[first] = self.centre[0] + radius * angle.cos();
-        beside[second] = self.centre[1] + radius * angle.sin();
-        beside[third] = ends[0][third] + (ends[1][third] - ends[0][third]) * share;
-        beside
+        let at = |share: f64| {
+            let share = share.clamp(0.0, 1.0);
+            let (angle, radius) = (
+                start + sweep * share,
+                radius + (end_radius - radius) * share,
+            );
+            let mut beside = Vector3::zeros();
+            beside[first] = self.centre[0] + radius * angle.cos();
+            beside[second] = self.centre[1] + radius * angle.sin();
+            beside[third] = ends[0][third] + (ends[1][third] - ends[0][third]) * share;
+            beside
+        };
+        // On a steep helix a digit turns it far along its axis: the nearest place is near both.
+        let middle = 0.5 * (angle / sweep + part);
+        let reach = 0.5 * (angle / sweep - part).abs() + 0.01;
+        let (mut low, mut high) = (middle - reach, middle + reach);
+        for _ in 0..60 {
+            let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+            match (at(a) - place).norm() < (at(b) - place).norm() {
+                true => high = b,
+                false => low = a,
+            }
+        }
+        at(0.5 * (low + high))
     }
 }
 
