@@ -341,7 +341,8 @@ impl WrittenArc {
         // On a steep helix a digit turns it far along its axis: the nearest place is near both.
         let middle = 0.5 * (angle / sweep + part);
         let reach = 0.5 * (angle / sweep - part).abs() + 0.01;
-        let (mut low, mut high) = (middle - reach, middle + reach);
+        let [mut low, mut high] =
+            [middle - reach, middle + reach].map(|share| share.clamp(0.0, 1.0));
         for _ in 0..60 {
             let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
             match (at(a) - place).norm() < (at(b) - place).norm() {
