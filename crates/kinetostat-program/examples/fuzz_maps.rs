@@ -22,7 +22,10 @@ fn main() -> ExitCode {
     if let [first, seed] = words.as_slice()
         && first == "case"
     {
-        println!("{:?}", sampled::check(seed.parse().unwrap()));
+        println!(
+            "{:?}",
+            sampled::check(seed.parse().unwrap(), kinetostat_program::Arcs::Fit)
+        );
         return ExitCode::SUCCESS;
     }
     let minutes: f64 = words.first().and_then(|w| w.parse().ok()).unwrap_or(1.0);
@@ -30,7 +33,11 @@ fn main() -> ExitCode {
     let end = Instant::now() + Duration::from_secs_f64(60.0 * minutes);
     let (mut cases, mut places, mut faults, mut worst) = (0_u64, 0, 0, Worst::new());
     while Instant::now() < end {
-        match sampled::check(first.wrapping_mul(1_000_003).wrapping_add(cases)) {
+        let arcs = match cases % 2 {
+            0 => kinetostat_program::Arcs::Fit,
+            _ => kinetostat_program::Arcs::Lines,
+        };
+        match sampled::check(first.wrapping_mul(1_000_003).wrapping_add(cases), arcs) {
             Ok(found) => {
                 places += found.places;
                 worst.add(found.worst.of_all(found.places));

@@ -182,6 +182,7 @@ fn corrected(
     );
     std::fs::write(file, &written.bytes)?;
     let again = interpret(&Program::read(written.bytes.clone())?, reading)?;
+    let is_arc = |piece: &Piece| piece.kept_arc || piece.arc.is_some();
     let line = |(piece, read): (&Piece, &Move)| {
         let motion = &path.moves[piece.move_index];
         let share = (piece.share_from, piece.share_to);
@@ -194,8 +195,8 @@ fn corrected(
             point(&piece.commanded_from),
             point(&piece.commanded_to),
             feed(read.feed),
-            // A piece is straight, unless an arc was kept as it was.
-            if piece.kept_arc {
+            // A piece is straight, unless an arc was kept as it was or fitted.
+            if is_arc(piece) {
                 read.length_mm()
             } else {
                 (piece.commanded_to - piece.commanded_from).norm()
@@ -207,7 +208,7 @@ fn corrected(
             motion.known == Knowledge::Whole,
             piece.feed_limited,
             knowledge(motion),
-            arc(if piece.kept_arc {
+            arc(if is_arc(piece) {
                 &read.curve
             } else {
                 &Curve::Line

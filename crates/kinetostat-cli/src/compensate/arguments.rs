@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::job::arguments::RunArgs;
+use crate::job::format::ArcsWord;
 use crate::options::{EXIT_CODES, number, small};
 
 /// Write a program that cuts where it should
@@ -38,6 +39,12 @@ pub(crate) struct CompensateArgs {
     /// repeatability that the model states, 20 for an arm that states none, else 0.5]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
+    /// What becomes of the arcs of G-code where they are corrected: arcs again, or straight pieces [default: fit]
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Tolerances")]
+    pub(crate) arcs: Option<ArcsWord>,
+    /// Shortest block that the controller takes, mm: blocks are divided evenly for it, and lines with shorter ones are named
+    #[arg(long, value_name = "MM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) min_block_mm: Option<f64>,
     /// Digits after the point in mm, one more in inches [default: 4]
     #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = small)]
     pub(crate) decimals: Option<u8>,
@@ -48,7 +55,7 @@ pub(crate) struct CompensateArgs {
     /// Warn of steps that cut backwards by more than this, micrometres [default: 50]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) backward_step_um: Option<f64>,
-    /// Warn if the written program asks for more blocks per second than this
+    /// Blocks that the controller reads in a second: as --min-block-mm, and a warning if the written program asks for more
     #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) max_blocks_per_second: Option<f64>,
 }
@@ -119,7 +126,8 @@ A job file:
   [tolerances]
   path_um = 0.5
   chord_um = 0.4
-  # decimals = 4, max_blocks_per_second = 500
+  # arcs = "fit"                   # or "lines": straight pieces for arcs
+  # decimals = 4, max_blocks_per_second = 500, min_block_mm = 0.01
   # max_feed_factor = 1.2, backward_step_um = 50
 
   [output]                         # below the job's own directory

@@ -106,6 +106,8 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
 fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
     WritingFlags {
         tolerance_um: args.tolerance_um,
+        arcs: args.arcs,
+        min_block_mm: args.min_block_mm,
         decimals: args.decimals,
         max_blocks_per_second: args.max_blocks_per_second,
         max_feed_factor: args.max_feed_factor,

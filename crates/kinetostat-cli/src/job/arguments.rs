@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{ArgAction, Args};
 
 use crate::job::expansion::arguments::ExpandFlags;
-use crate::job::format::{Axes, BlockDeleteWord, CornerWord};
+use crate::job::format::{ArcsWord, Axes, BlockDeleteWord, CornerWord};
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
@@ -141,6 +141,8 @@ pub(crate) struct ReadingArgs {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WritingFlags<'a> {
     pub(crate) tolerance_um: Option<f64>,
+    pub(crate) arcs: Option<ArcsWord>,
+    pub(crate) min_block_mm: Option<f64>,
     pub(crate) decimals: Option<u8>,
     pub(crate) max_blocks_per_second: Option<f64>,
     pub(crate) max_feed_factor: Option<f64>,

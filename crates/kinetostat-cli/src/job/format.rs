@@ -210,13 +210,25 @@ pub(crate) enum BlockDeleteWord {
     Skip,
 }
 
+/// What becomes of arcs that are corrected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ArcsWord {
+    /// Arcs, as few as follow the corrected curve
+    Fit,
+    /// Straight pieces
+    Lines,
+}
+
 /// How exactly the program is written.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TolerancesTable {
     pub path_um: Option<Spanned<f64>>,
     pub chord_um: Option<Spanned<f64>>,
+    pub arcs: Option<ArcsWord>,
     pub decimals: Option<Spanned<u8>>,
+    pub min_block_mm: Option<Spanned<f64>>,
     pub max_blocks_per_second: Option<Spanned<f64>>,
     pub max_feed_factor: Option<Spanned<f64>>,
     pub backward_step_um: Option<Spanned<f64>>,

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
-use kinetostat_program::{ReadOptions, RotaryAxes, Warning, WriteOptions};
+use kinetostat_program::{Arcs, ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::expansion::flat::flattened;
 use crate::job::expansion::settings::wanted;
+use crate::job::format::ArcsWord;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, beside_program, output_paths};
@@ -120,6 +121,7 @@ pub(crate) fn setting(
         job.and_then(|j| j.job.tolerances.max_blocks_per_second.as_ref()),
         above_zero,
     )?;
+    write.max_blocks_per_s = max_blocks_per_second;
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
@@ -234,6 +236,19 @@ fn tolerances(
     )?;
     write.tolerance_mm = path_mm.unwrap_or(write.tolerance_mm);
     write.chord_tolerance_mm = chord_mm.unwrap_or(write.chord_tolerance_mm);
+    write.arcs = match writing.arcs.or(tolerances.arcs) {
+        Some(ArcsWord::Lines) => Arcs::Lines,
+        Some(ArcsWord::Fit) | None => Arcs::Fit,
+    };
+    write.min_block_mm = chosen(
+        job,
+        ("--min-block-mm", writing.min_block_mm),
+        tolerances.min_block_mm.as_ref(),
+        |mm| match (1e-6..=1000.0).contains(&mm) {
+            true => Ok(mm),
+            false => Err(NotAllowed("0.000001 to 1000 mm are allowed")),
+        },
+    )?;
     if let Some(factor) = chosen(
         job,
         ("--max-feed-factor", writing.max_feed_factor),

@@ -1,7 +1,7 @@
 //! How fast the correction changes along the path, from the program as it is written.
 //!
 //! A written position less its place on the path is the correction there, and between two of them it changes evenly with the length
-//! of the path. Positions are rounded to the last digit written, which says nothing of the change over a length of a few
+//! of the path, or, on an arc that was fitted, as the arc as written says. Positions are rounded to the last digit written, which says nothing of the change over a length of a few
 //! digits: so the change is taken over every stretch of [`DIGITS`] times that digit (0.01 mm with four decimals), and rounding
 //! makes it at most [`ROUNDING`] larger. Steps, where the correction jumps at one place, are no part of it, nor are rapids.
 
@@ -73,9 +73,10 @@ fn at(
     let motion = &path.moves[piece.move_index];
     let part = ((at_mm - from) / (to - from)).clamp(0.0, 1.0);
     let share = piece.share_from + part * (piece.share_to - piece.share_from);
-    let correction = match piece.kept_arc {
-        true => Vector3::zeros(),
-        false => {
+    let correction = match (piece.kept_arc, piece.arc) {
+        (true, _) => Vector3::zeros(),
+        (false, Some(_)) => piece.commanded(motion, part) - motion.point(share),
+        (false, None) => {
             let first = piece.commanded_from - motion.point(piece.share_from);
             let last = piece.commanded_to - motion.point(piece.share_to);
             first.lerp(&last, part)

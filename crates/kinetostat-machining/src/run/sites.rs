@@ -222,7 +222,7 @@ pub(crate) fn of_written<'a>(
                 start_mm: starts[piece.move_index],
                 programmed,
                 desired: motion.point(share),
-                commanded: commanded(motion, piece, place),
+                commanded: piece.commanded(motion, place),
                 orientation: motion.orientation(share),
                 // In G-code the words of rotary axes say it, and they stay.
                 commanded_orientation: match &turn {
@@ -261,6 +261,13 @@ pub(crate) fn of_written<'a>(
         if motion.is_known_feed() && !turns {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
+            let count = match (&motion.curve, piece.arc) {
+                // In each chord that would have been written, were it straight, an arc is looked at.
+                (Curve::Arc(arc), Some(_)) => {
+                    count.max((arc.chords_within(ARC_MM) as f64 * width).ceil() as usize)
+                }
+                _ => count,
+            };
             let mut places: Vec<(f64, f64, bool)> = (0..count)
                 .map(|k| (k as f64 + inside(k)) / count as f64)
                 .map(|place| (place, share_at(place), false))
@@ -325,13 +332,6 @@ fn kind(motion: &Move) -> PointKind {
         MoveKind::Rapid => PointKind::Rapid,
         MoveKind::Feed => PointKind::Feed,
     }
-}
-
-fn commanded(motion: &Move, piece: &Piece, place: f64) -> Vector3<f64> {
-    if piece.kept_arc {
-        return motion.point(place);
-    }
-    piece.commanded_from + (piece.commanded_to - piece.commanded_from) * place
 }
 
 /// Where a written program is looked at.

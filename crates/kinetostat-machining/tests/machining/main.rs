@@ -10,6 +10,7 @@
 
 mod again;
 mod cut_forces;
+mod fitted_arcs;
 mod five_axes;
 mod force_band;
 mod free_turn;

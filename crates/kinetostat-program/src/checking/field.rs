@@ -137,6 +137,10 @@ pub fn verify_against_field(
         if motion.curve != crate::Curve::Line {
             allowed += 1.2 * writing.chord_tolerance_mm;
         }
+        if piece.arc.is_some() {
+            // Its centre is rounded as well.
+            allowed += 2.0 * writing.last_digit_mm(motion.words.mm_per_unit);
+        }
         if writing.smallest_step_mm() > writing.tolerance_mm {
             allowed += writing.smallest_step_mm();
         }
@@ -179,10 +183,7 @@ impl Look {
             },
             line: motion.line,
             output_line: piece.output_line,
-            commanded: match piece.kept_arc {
-                true => motion.point(share),
-                false => piece.commanded_from.lerp(&piece.commanded_to, part),
-            },
+            commanded: piece.commanded(motion, part),
             allowed: 0.0,
         }
     }

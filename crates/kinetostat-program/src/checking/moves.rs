@@ -1,5 +1,7 @@
 //! The geometry, feeds and further axes of a written program, against the input's path.
 
+use nalgebra::Vector3;
+
 use crate::error::WriteError;
 use crate::irregular::irregular;
 use crate::number::larger;
@@ -48,9 +50,13 @@ impl Verifier<'_> {
             } else {
                 (piece.move_index, piece.share_to)
             };
-            let same_curve = match piece.kept_arc {
-                true => is_same_arc(motion, read),
-                false => read.curve == Curve::Line,
+            let same_curve = match &piece.arc {
+                _ if piece.kept_arc => is_same_arc(read, |share| motion.point(share)),
+                Some(arc) => {
+                    let curve = arc.between(&piece.commanded_from, &piece.commanded_to);
+                    is_same_arc(read, |share| curve.point(share))
+                }
+                None => read.curve == Curve::Line,
             };
             if read.line != piece.output_line || read.kind != motion.kind || !same_curve {
                 return broken("the motion read is another than the one written".to_owned());
@@ -146,13 +152,21 @@ impl Verifier<'_> {
             // A chord is compared with its arc at equal shares, which are not quite the nearest points.
             allowed += 2.0 * self.writing.chord_tolerance_mm;
         }
+        if piece.arc.is_some() {
+            // The centre is rounded too, and between its ends the arc leaves the curve within the tolerance of the path.
+            allowed += rounding + self.writing.tolerance_mm;
+            if self.writing.smallest_step_mm() > self.writing.tolerance_mm {
+                allowed += self.writing.smallest_step_mm();
+            }
+        }
         let place = |k: u64| irregular(SEED, piece.output_line as u64, k);
         for part in [place(0), place(1), place(2), 1.0] {
             if motion.kind == MoveKind::Rapid && part < 1.0 {
                 continue;
             }
             let share = piece.share_from + (piece.share_to - piece.share_from) * part;
-            let commanded = read.point(part);
+            let turned = piece.arc.map_or(part, |arc| arc.turned(part));
+            let commanded = read.point(turned);
             let distance = (commanded - motion.point(share)).norm();
             self.found.largest_distance_mm = larger(self.found.largest_distance_mm, distance);
             if distance > allowed {
@@ -179,7 +193,7 @@ impl Verifier<'_> {
                 "the feed is lost".to_owned(),
             ));
         };
-        let length = match piece.kept_arc {
+        let length = match piece.kept_arc || piece.arc.is_some() {
             true => read.length_mm(),
             false => (piece.commanded_to - piece.commanded_from).norm(),
         };
@@ -226,12 +240,12 @@ impl Verifier<'_> {
     }
 }
 
-/// An arc read again is the one that was there.
-fn is_same_arc(motion: &Move, read: &Move) -> bool {
+/// An arc read again goes where one with these points does.
+fn is_same_arc(read: &Move, point: impl Fn(f64) -> Vector3<f64>) -> bool {
     read.curve != Curve::Line
         && (0..=8)
             .map(|k| f64::from(k) / 8.0)
-            .all(|share| (read.point(share) - motion.point(share)).norm() <= SAME_PLACE_MM)
+            .all(|share| (read.point(share) - point(share)).norm() <= SAME_PLACE_MM)
 }
 
 /// The other axes are where their share of the block wants them.

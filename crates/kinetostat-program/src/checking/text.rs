@@ -11,6 +11,7 @@ use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::block_writer::{is_after_motion, motion_word};
 use crate::writing::header::lines_above;
+use crate::writing::written::Piece;
 
 impl Verifier<'_> {
     /// Checks all lines of the output in order.
@@ -30,13 +31,13 @@ impl Verifier<'_> {
                 self.check_header(&mut output)?;
             }
             let mut group = Vec::new();
-            let mut kept_arc = false;
+            let mut shapes = Vec::new();
             let mut motion = None;
             if let Some((move_index, found)) = moves.next_if(|(_, motion)| motion.line == index + 1)
             {
                 motion = Some(found);
                 while let Some(piece) = pieces.next_if(|piece| piece.move_index == move_index) {
-                    kept_arc |= piece.kept_arc;
+                    shapes.push(Shape::of(piece));
                     group.extend(output.next());
                 }
             } else {
@@ -45,7 +46,7 @@ impl Verifier<'_> {
             self.check_group(
                 index + 1,
                 line,
-                motion.map(|motion| (motion, kept_arc)),
+                motion.map(|motion| (motion, shapes.as_slice())),
                 &group,
             )?;
             if !self.input.words(line).is_empty() {
@@ -122,7 +123,7 @@ impl Verifier<'_> {
         &mut self,
         number: usize,
         line: &Line,
-        motion: Option<(&Move, bool)>,
+        motion: Option<(&Move, &[Shape])>,
         group: &[(usize, &Line)],
     ) -> Result<(), WriteError> {
         let Some(((first_index, first), further)) = group.split_first() else {
@@ -147,13 +148,14 @@ impl Verifier<'_> {
         let written = self.output.content(first);
         let original = self.input.content(line);
         let corrected = motion.filter(|(motion, _)| !motion.words.is_to_machine());
-        let Some((motion, kept_arc)) = corrected else {
+        let Some((motion, shapes)) = corrected else {
             if self.output.bytes()[written] != self.input.bytes()[original] {
                 return broken("a line without a coordinate has changed");
             }
             return Ok(());
         };
         let split = !further.is_empty();
+        let kept_arc = shapes.contains(&Shape::Kept);
         let is_arc = motion.curve != Curve::Line && !kept_arc;
         let names_motion = motion_word(self.input.words(line)).is_some();
         let kept = |program: &Program, line: &Line| {
@@ -173,8 +175,8 @@ impl Verifier<'_> {
             return broken("something that is no coordinate has changed");
         }
         let mut codes = self.codes(self.output, first);
-        for (index, line) in further {
-            self.check_further(number, motion, *index, line)?;
+        for ((index, line), shape) in further.iter().zip(&shapes[1..]) {
+            self.check_further(number, (motion, *shape), *index, line)?;
             let repeated = |code: &(u8, i64)| names_motion && *code == (b'G', 10);
             let further_codes = self.codes(self.output, line);
             codes.extend(further_codes.into_iter().filter(|code| !repeated(code)));
@@ -182,8 +184,8 @@ impl Verifier<'_> {
         let mut wanted = self.codes(self.input, line);
         if is_arc {
             wanted.retain(|code| !(code.0 == b'G' && [20, 30].contains(&code.1)));
-            // G1 takes the place of G2 and G3, or is added where the mode needs it.
-            codes.retain(|code| *code != (b'G', 10));
+            // G1 takes the place of G2 and G3, or is added where the mode needs it, as these are; what is read has its curve.
+            codes.retain(|code| !(code.0 == b'G' && [10, 20, 30].contains(&code.1)));
         }
         if kept_arc && !names_motion {
             // It may need to be named again behind arcs that were divided.
@@ -195,7 +197,10 @@ impl Verifier<'_> {
             return broken("the codes of the block have changed");
         }
         let words = self.output.words(first);
-        if is_arc && words.iter().any(|word| b"IJKRP".contains(&word.letter)) {
+        if is_arc
+            && shapes[0] == Shape::Straight
+            && words.iter().any(|word| b"IJKRP".contains(&word.letter))
+        {
             return broken("a word of the arc is left in a straight move");
         }
         Ok(())
@@ -214,7 +219,7 @@ impl Verifier<'_> {
     fn check_further(
         &self,
         number: usize,
-        motion: &Move,
+        (motion, shape): (&Move, Shape),
         index: usize,
         line: &Line,
     ) -> Result<(), WriteError> {
@@ -222,13 +227,20 @@ impl Verifier<'_> {
         let content = self.output.content(line);
         let rest = bytes_without(self.output, content, words, |_| false);
         let decimals = self.writing.decimals_for(motion.words.mm_per_unit);
+        let is_own = |word: &Word| match shape {
+            Shape::Fitted => [2.0, 3.0].contains(&word.value),
+            _ => word.value == 1.0,
+        };
         for word in words {
             let text = &self.output.bytes()[word.number as usize..word.end as usize];
             let allowed = match word.letter {
                 b'X' | b'Y' | b'Z' => decimals_of(text) == decimals,
+                b'I' | b'J' | b'K' | b'R' if shape == Shape::Fitted => {
+                    decimals_of(text) == decimals
+                }
                 b'F' => true,
                 // Whether the input named the motion too is checked with the codes.
-                b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && word.value == 1.0,
+                b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && is_own(word),
                 letter => motion
                     .extra
                     .iter()
@@ -251,6 +263,26 @@ impl Verifier<'_> {
             ));
         }
         Ok(())
+    }
+}
+
+/// How a piece of a block is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Straight,
+    /// An arc as it was.
+    Kept,
+    /// An arc that was fitted.
+    Fitted,
+}
+
+impl Shape {
+    fn of(piece: &Piece) -> Self {
+        match (piece.kept_arc, piece.arc) {
+            (true, _) => Self::Kept,
+            (false, Some(_)) => Self::Fitted,
+            (false, None) => Self::Straight,
+        }
     }
 }
 

@@ -14,8 +14,8 @@ use crate::checking::verifier::{Verification, Verifier};
 ///
 /// - the motions read are the pieces accounted for, in the order of the input's blocks, and their
 ///   shares cover every block without gap;
-/// - all are straight, no I J K R P is left in them, and the codes are those of the input (G1 for the
-///   arcs), but for arcs that are kept as they were;
+/// - all are straight or the arcs that were fitted (no I J K R P is left in a straight one), and the codes are those of the input
+///   (G1 for arcs that became straight), but for arcs that are kept as they were;
 /// - no point is farther from the input's path than the largest correction (and the tolerances of
 ///   chords and rounding), looked at in places that follow no pattern;
 /// - where the place is not known, and at places of the machine, the axes that a block names go where the input has

@@ -112,6 +112,8 @@ pub struct CoordinateWords {
     pub mm_per_unit: f64,
     /// G91: words are ways, not places.
     pub incremental: bool,
+    /// G90.1: I J K of arcs are places; ways from the start otherwise (G91.1).
+    pub absolute_centre: bool,
     /// Origin of the work coordinate system in the part frame, in mm.
     pub work_offset_mm: Vector3<f64>,
     /// X, Y, Z where the block sends them to a place of the machine (G28, G30, G53). Such a block is

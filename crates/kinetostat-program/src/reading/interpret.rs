@@ -469,6 +469,7 @@ impl<'o> Interpreter<'o> {
             words: CoordinateWords {
                 mm_per_unit,
                 incremental: self.modes.incremental,
+                absolute_centre: self.modes.absolute_centre,
                 work_offset_mm: self.work_offset_mm(),
                 to_machine: [false; 3],
             },
@@ -527,6 +528,7 @@ impl<'o> Interpreter<'o> {
             words: CoordinateWords {
                 mm_per_unit: self.modes.units().map_or(1.0, Units::mm_per_unit),
                 incremental: self.modes.incremental,
+                absolute_centre: self.modes.absolute_centre,
                 work_offset_mm: self.work_offset_mm(),
                 to_machine: place.axes,
             },

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use nalgebra::Vector3;
+
 use crate::error::WriteError;
 use crate::number;
 use crate::path::curve::{Curve, NO_LENGTH_MM};
@@ -9,6 +11,8 @@ use crate::path::moves::{ExtraMode, Feed, FeedMode, Knowledge, Motion, Move, Pat
 use crate::reading::moment::is_written_last;
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
+use crate::writing::arc_words::{ArcWord, ToPrint};
+use crate::writing::fit::ArcForm;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 
@@ -73,6 +77,13 @@ pub(crate) struct BlockWriter<'a> {
     max_feed_factor: f64,
 }
 
+/// The line of the block itself, or one of those behind it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    OwnLine,
+    FurtherLine,
+}
+
 /// Changes of the line: what replaces which bytes.
 type Edits = Vec<(Range<usize>, String)>;
 
@@ -117,7 +128,8 @@ impl<'a> BlockWriter<'a> {
         let mut edits: Edits = Vec::new();
         let mut added = String::new();
 
-        self.edit_motion_words(state, &mut edits);
+        let own = self.motion_of(step);
+        self.edit_motion_words(state, own, &mut edits);
         for (axis, letter) in AXES.into_iter().enumerate() {
             let word = self.word(letter);
             let written = word.map(|word| word.value);
@@ -125,6 +137,13 @@ impl<'a> BlockWriter<'a> {
                 self.coordinate(state, axis, step.target[axis], written),
                 word,
             ) {
+                (Some(text), Some(word)) => edits.push((number_span(word), text)),
+                (Some(text), None) => self.add(&mut added, letter, &text),
+                (None, _) => {}
+            }
+        }
+        for (letter, text) in self.arc_words(state, step, from, Place::OwnLine)? {
+            match (text, self.word(letter)) {
                 (Some(text), Some(word)) => edits.push((number_span(word), text)),
                 (Some(text), None) => self.add(&mut added, letter, &text),
                 (None, _) => {}
@@ -141,7 +160,7 @@ impl<'a> BlockWriter<'a> {
         if feed_word.is_some() {
             state.feed = self.motion.feed;
         }
-        let length = (state.position - from).norm();
+        let length = written_length(state, &from);
         if let Some(text) = self.feed(state, step, steps.len(), length) {
             match feed_word {
                 Some(word) => edits.push((number_span(word), text)),
@@ -161,7 +180,7 @@ impl<'a> BlockWriter<'a> {
             edits.push((at..at, added));
         }
         state.target = step.target;
-        state.motion = Some(motion_of(self.motion));
+        state.motion = Some(own);
         Ok(self.apply(edits))
     }
 
@@ -169,7 +188,7 @@ impl<'a> BlockWriter<'a> {
     /// goes, and no word is added.
     pub fn uncorrected_line(&self, state: &mut OutputState) -> Vec<u8> {
         let mut edits: Edits = Vec::new();
-        self.edit_motion_words(state, &mut edits);
+        self.edit_motion_words(state, motion_of(self.motion), &mut edits);
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(word) = self.word(letter) else {
                 continue;
@@ -198,6 +217,11 @@ impl<'a> BlockWriter<'a> {
                 self.add(&mut text, letter, &number);
             }
         }
+        for (letter, number) in self.arc_words(state, step, from, Place::FurtherLine)? {
+            if let Some(number) = number {
+                self.add(&mut text, letter, &number);
+            }
+        }
         for (letter, number) in self.extra_words(steps, index)? {
             if self.separator.is_empty() && letter == 'E' && !text.is_empty() {
                 // `1E5` would be read as a number with an exponent.
@@ -209,7 +233,7 @@ impl<'a> BlockWriter<'a> {
             // Rounding left nothing to move; the piece is kept so that every share is accounted for.
             self.add_standing(state, &mut text);
         }
-        let length = (state.position - from).norm();
+        let length = written_length(state, &from);
         if let Some(number) = self.feed(state, step, steps.len(), length) {
             self.add(&mut text, b'F', &number);
         }
@@ -217,8 +241,10 @@ impl<'a> BlockWriter<'a> {
         if self.line.block_delete {
             line.push(b'/');
         }
-        if self.repeats_motion {
-            line.extend_from_slice(if self.lower_case { b"g1" } else { b"G1" });
+        let own = self.motion_of(step);
+        if self.repeats_motion || state.motion != Some(own) {
+            line.push(if self.lower_case { b'g' } else { b'G' });
+            line.extend_from_slice(code_of(own).as_bytes());
             line.extend_from_slice(text.as_bytes());
         } else {
             line.extend_from_slice(text.trim_start().as_bytes());
@@ -230,7 +256,67 @@ impl<'a> BlockWriter<'a> {
             }
         }
         state.target = step.target;
+        state.motion = Some(own);
         Ok(line)
+    }
+
+    fn motion_of(&self, step: &OutputMove) -> Motion {
+        match step.arc {
+            Some(_) => arc_motion(self.motion),
+            None => motion_of(self.motion),
+        }
+    }
+
+    /// How the block says where its arc is.
+    pub fn arc_form(&self) -> ArcForm {
+        match self.word(b'R') {
+            Some(_) => ArcForm::Radius,
+            None => ArcForm::Centre,
+        }
+    }
+
+    /// Words of a piece that is an arc, of which both ends are written already.
+    fn arc_words(
+        &self,
+        state: &mut OutputState,
+        step: &OutputMove,
+        from: Vector3<f64>,
+        place: Place,
+    ) -> Result<Vec<ArcWord>, WriteError> {
+        state.arc = None;
+        let (Some(fitted), Curve::Arc(arc)) = (&step.arc, &self.motion.curve) else {
+            return Ok(Vec::new());
+        };
+        let words = &self.motion.words;
+        let to_print = ToPrint {
+            fitted,
+            normal: arc.axis.imax(),
+            from,
+            to: state.position,
+            reference: match words.absolute_centre {
+                true => words.work_offset_mm + state.offset.active_mm,
+                false => from,
+            },
+            mm_per_unit: words.mm_per_unit,
+            decimals: self.decimals,
+        };
+        let standing = |letter: u8| self.word(letter).map(|word| word.value);
+        let printed = match (self.arc_form(), place) {
+            (ArcForm::Radius, Place::OwnLine) => to_print.radius(standing(b'R')),
+            (ArcForm::Radius, Place::FurtherLine) => to_print.radius(None),
+            // A missing word is a centre right beside the start.
+            (ArcForm::Centre, Place::OwnLine) => to_print.centre(
+                b"IJK".map(|letter| standing(letter).or((!words.absolute_centre).then_some(0.0))),
+            ),
+            (ArcForm::Centre, Place::FurtherLine) => to_print.centre([None; 3]),
+        };
+        let (written, words) = printed.ok_or(WriteError::Verification {
+            line: self.motion.line,
+            output_line: 0,
+            what: "an arc that was fitted cannot be printed".to_owned(),
+        })?;
+        state.arc = Some(written);
+        Ok(words)
     }
 
     /// The block's own line where it stays an arc: its bytes, with the motion and the feed named where
@@ -258,6 +344,7 @@ impl<'a> BlockWriter<'a> {
         }
         state.position = self.motion.end;
         state.target = self.motion.end;
+        state.arc = None;
         state.motion = Some(own);
         self.apply(edits)
     }
@@ -353,10 +440,11 @@ impl<'a> BlockWriter<'a> {
         Some(text)
     }
 
-    /// G2 and G3 become G1, and the words of the arc go.
-    fn edit_motion_words(&self, state: &OutputState, edits: &mut Edits) {
+    /// Where the piece is straight, G2 and G3 become G1, and the words of the arc go.
+    fn edit_motion_words(&self, state: &OutputState, own: Motion, edits: &mut Edits) {
+        let straightened = self.motion.curve != Curve::Line && own == motion_of(self.motion);
         if let Some(word) = motion_word(self.words) {
-            if self.motion.curve != Curve::Line {
+            if straightened {
                 let bytes = self.program.bytes();
                 let digits = if bytes[word.number as usize] == b'0' {
                     "01"
@@ -365,7 +453,7 @@ impl<'a> BlockWriter<'a> {
                 };
                 edits.push((number_span(word), digits.to_owned()));
             }
-        } else if state.motion != Some(motion_of(self.motion)) {
+        } else if state.motion != Some(own) {
             let coordinate = self.words.iter().find(|word| AXES.contains(&word.letter));
             let at = match coordinate {
                 Some(word) => word.start as usize,
@@ -377,12 +465,9 @@ impl<'a> BlockWriter<'a> {
             } else {
                 ""
             };
-            edits.push((
-                at..at,
-                format!("{letter}{}{after}", code_of(motion_of(self.motion))),
-            ));
+            edits.push((at..at, format!("{letter}{}{after}", code_of(own))));
         }
-        if self.motion.curve != Curve::Line {
+        if straightened {
             for word in self
                 .words
                 .iter()
@@ -576,6 +661,15 @@ impl<'a> BlockWriter<'a> {
         }
         line.extend_from_slice(&bytes[at..content.end]);
         line
+    }
+}
+
+/// Length of the piece that ends where the output is now.
+fn written_length(state: &OutputState, from: &Vector3<f64>) -> f64 {
+    let to = &state.position;
+    match &state.arc {
+        Some(arc) => Curve::Arc(arc.between(from, to)).length_between(from, to, 0.0, 1.0),
+        None => (to - from).norm(),
     }
 }
 

@@ -5,7 +5,8 @@
 //! tolerance; the whole vector is compared, so the bound holds along the path too.
 //!
 //! The field says where `c` or its slope may jump ([`Structure::breaks`]): those places are ends of
-//! stretches before anything else. Arcs are divided by their chords as well. A stretch is then evaluated in
+//! stretches before anything else. Arcs that become straight pieces are divided by their chords as well; for those to which
+//! arcs are fitted ([`crate::writing::fit`]) the correction is only found out, and how far it bends matters little. A stretch is then evaluated in
 //! its middle, in the quarters where that does not decide it, and there at a place that follows no
 //! pattern too. It is good if
 //!
@@ -26,19 +27,22 @@ use crate::field::request::{CorrectionField, Course, Monitor, Request};
 use crate::irregular::irregular;
 use crate::number::larger;
 use crate::path::curve::Curve;
-use crate::path::moves::Path;
+use crate::path::moves::{Move, Path};
 use crate::writing::corner::follow_turns;
 use crate::writing::departure::{Values, departure, parabola, polynomial, remainder};
 use crate::writing::jump::Jump;
 use crate::writing::merge::{Accepted, merge};
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
-use crate::writing::options::WriteOptions;
+use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::queries::FieldQueries;
 
 /// All nodes, by move and share.
 pub(crate) struct Division {
     pub nodes: Vec<Node>,
     pub jumps: Vec<Jump>,
+    /// The correction on the moves to which arcs are fitted, and on straight ones whose pieces may be shared out anew, by move
+    /// and share.
+    pub courses: Vec<Accepted>,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
     pub left_out_mm: f64,
@@ -53,12 +57,20 @@ const UNKNOWN: f64 = 0.1;
 /// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
 const SURPRISE: f64 = 0.25;
 
+/// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
+const BENT: f64 = 20.0;
+
+/// Stretches of an arc to which arcs are fitted are no longer than this, in rad, before anything is known of the correction.
+const FIRST_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+
 /// A stretch of a move that is not accepted yet.
 struct Stretch {
     move_index: usize,
     course: Course,
     /// The whole of a straight move, or a chord of an arc: what is good as it is needs no joining.
     entire: bool,
+    /// Arcs are fitted to its move.
+    fitted: bool,
     share: [f64; 2],
     ends: [Vector6<f64>; 2],
     /// Where the piece begins that the tool goes along; differs from the first end where a jump too
@@ -111,7 +123,8 @@ impl Stretch {
         let all_requested = self.quarters.is_some();
         let off = departure(&values, [self.begins, self.ends[1]]);
         let (unknown, needs_quarters) = match self.course {
-            Course::Cubic => (0.0, true),
+            Course::Cubic if !self.fitted => (0.0, true),
+            Course::Cubic => (self.unknown_round(motion, &values), true),
             Course::Smooth { radius_mm } => {
                 // That nothing was seen yet does not make it small: it counts as the tolerance at least.
                 let seen = self.irregular.iter().map(|(_, value)| value);
@@ -135,7 +148,11 @@ impl Stretch {
         let surprised = self.irregular.is_some_and(|(part, value)| {
             (value - polynomial(&values, part)).norm() > SURPRISE * tolerance
         });
-        if off > tolerance || surprised {
+        let bent = match self.fitted && length > options.smallest_piece_mm {
+            true => BENT * tolerance,
+            false => tolerance,
+        };
+        if off > bent || surprised {
             let shortest =
                 length <= options.smallest_piece_mm || self.at(0.5) <= from || self.at(0.5) >= to;
             return match (all_requested, shortest) {
@@ -154,6 +171,18 @@ impl Stretch {
         Decision::Accept
     }
 
+    /// What a polynomial through five values may be off from a correction that is one of third degree along straight lines, on an
+    /// arc: along it the coordinates are no polynomials, and a stretch of an angle `a` is a straight line but for terms of `a^2`
+    /// and more. They begin with those of the fifth degree.
+    fn unknown_round(&self, motion: &Move, values: &Values) -> f64 {
+        let Curve::Arc(arc) = &motion.curve else {
+            return 0.0;
+        };
+        let angle = arc.sweep * (self.share[1] - self.share[0]);
+        let varies = values.iter().map(|value| (value - values[0]).norm());
+        0.02 * angle * angle * varies.fold(0.0, larger)
+    }
+
     /// Remembers what was found inside, for [`merge`].
     fn accepted(&self, accepted: &mut Vec<Accepted>) {
         if self.entire {
@@ -169,10 +198,11 @@ impl Stretch {
     }
 }
 
+/// `arcs` says whether arcs are to be fitted to those of the path.
 pub(crate) fn divide(
     path: &Path,
     field: &dyn CorrectionField,
-    options: &WriteOptions,
+    (options, arcs): (&WriteOptions, Arcs),
     monitor: &dyn Monitor,
 ) -> Result<Division, WriteError> {
     let mut queries = FieldQueries {
@@ -185,7 +215,7 @@ pub(crate) fn divide(
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
-    let mut open = first_round(&mut queries, options, &mut nodes)?;
+    let mut open = first_round(&mut queries, (options, arcs), &mut nodes)?;
     while !open.is_empty() {
         answer(&mut queries, &mut open, options)?;
         open = next_round(path, open, options, &mut nodes, &mut accepted);
@@ -211,12 +241,23 @@ pub(crate) fn divide(
     });
     let mut nodes = merge(nodes, &accepted, options);
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
+    accepted.retain(|stretch| {
+        let motion = &path.moves[stretch.move_index];
+        let shared = motion.curve == Curve::Line && options.shortest_block_mm(motion).is_some();
+        shared || is_fitted(motion, arcs)
+    });
     Ok(Division {
         nodes,
         jumps,
+        courses: accepted,
         evaluations: queries.answered,
         left_out_mm: queries.left_out_mm,
     })
+}
+
+/// Whether arcs are fitted to the corrected curve of a move.
+fn is_fitted(motion: &Move, arcs: Arcs) -> bool {
+    arcs == Arcs::Fit && motion.curve != Curve::Line && is_divided(motion)
 }
 
 /// A place at which a move is divided before anything is known of the correction.
@@ -229,7 +270,7 @@ struct Boundary {
 fn boundaries(
     queries: &FieldQueries<'_>,
     move_index: usize,
-    options: &WriteOptions,
+    (options, arcs): (&WriteOptions, Arcs),
 ) -> Result<(Vec<Boundary>, Course), WriteError> {
     let motion = &queries.path.moves[move_index];
     let too_many = WriteError::TooManyPieces {
@@ -238,6 +279,10 @@ fn boundaries(
     };
     let (chords, fixed) = match &motion.curve {
         Curve::Line => (1, false),
+        Curve::Arc(arc) if is_fitted(motion, arcs) => (
+            (arc.sweep.abs() / FIRST_ANGLE).ceil().max(1.0) as usize,
+            false,
+        ),
         Curve::Arc(arc) => (arc.chords_within(options.chord_tolerance_mm), true),
     };
     if chords > options.max_pieces {
@@ -271,7 +316,7 @@ fn boundaries(
 /// Asks for the ends of all first stretches, and the middles between them.
 fn first_round(
     queries: &mut FieldQueries<'_>,
-    options: &WriteOptions,
+    (options, arcs): (&WriteOptions, Arcs),
     nodes: &mut Vec<Node>,
 ) -> Result<Vec<Stretch>, WriteError> {
     let path = queries.path;
@@ -279,7 +324,7 @@ fn first_round(
     let mut first = Vec::new();
     for (move_index, motion) in path.moves.iter().enumerate() {
         if is_divided(motion) {
-            let (list, course) = boundaries(queries, move_index, options)?;
+            let (list, course) = boundaries(queries, move_index, (options, arcs))?;
             for pair in list.windows(2) {
                 let [from, to] = [pair[0].share, pair[1].share];
                 requests.push(queries.request(move_index, from));
@@ -311,6 +356,7 @@ fn first_round(
             continue;
         }
         let earlier = before.filter(|(index, _)| *index + 1 == move_index);
+        let fitted = is_fitted(&path.moves[move_index], arcs);
         let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
         nodes.push(Node {
             before: begins,
@@ -326,7 +372,8 @@ fn first_round(
             open.push(Stretch {
                 move_index,
                 course,
-                entire: pair[0].fixed && pair[1].fixed || list.len() == 2,
+                entire: !fitted && (pair[0].fixed && pair[1].fixed || list.len() == 2),
+                fitted,
                 share: [pair[0].share, pair[1].share],
                 ends: [value, end],
                 begins,
@@ -365,7 +412,7 @@ fn answer(
         for part in [0.25, 0.75] {
             requests.push(queries.request(stretch.move_index, stretch.at(part)));
         }
-        if stretch.course != Course::Cubic {
+        if stretch.course != Course::Cubic || stretch.fitted {
             requests
                 .push(queries.request(stretch.move_index, stretch.at(stretch.irregular_part())));
         }
@@ -375,7 +422,7 @@ fn answer(
     for i in wants {
         let stretch = &mut open[i];
         stretch.quarters = Some([answer(), answer()]);
-        if stretch.course != Course::Cubic {
+        if stretch.course != Course::Cubic || stretch.fitted {
             stretch.irregular = Some((stretch.irregular_part(), answer()));
         }
     }
@@ -430,6 +477,7 @@ fn next_round(
                     move_index,
                     course: stretch.course,
                     entire: false,
+                    fitted: stretch.fitted,
                     quarters: None,
                     irregular: None,
                 };

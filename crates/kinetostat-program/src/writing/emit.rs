@@ -13,6 +13,7 @@ use crate::writing::accounting::Accounting;
 use crate::writing::block_writer::{BlockWriter, ProgramStyle, UNCHANGED_MM, motion_word};
 use crate::writing::divide::Division;
 use crate::writing::header::{header, lines_above};
+use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
@@ -69,7 +70,7 @@ impl<'a> Emitter<'a> {
             bytes: Vec::with_capacity(program.bytes().len() + program.bytes().len() / 4),
             output_line: 1,
             account: PieceAccount::new(path, options, accounting),
-            steps: Steps::new(path, options, division.nodes, division.jumps),
+            steps: Steps::new(path, options, division),
             input_offset: PositionOffset::default(),
             input_position: start,
         }
@@ -214,15 +215,17 @@ impl<'a> Emitter<'a> {
         if motion.known == Knowledge::Nothing {
             return self.write_uncorrected(line, move_index, motion);
         }
-        let (mut steps, nodes) = self.steps.of(move_index, self.state.target);
         let usual = self.program.usual_ending();
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
         let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+        let (mut steps, nodes) = self
+            .steps
+            .of(move_index, self.state.target, block.arc_form())?;
         let nodes = &self.steps.nodes[nodes];
         let kept_arc = motion.curve != Curve::Line
-            && self.is_uncorrected(motion, nodes)
+            && self.is_uncorrected(motion, nodes, self.steps.course(move_index))
             && block.words_still_hold(&self.state);
         if kept_arc {
             steps = vec![OutputMove {
@@ -232,6 +235,7 @@ impl<'a> Emitter<'a> {
                 tilt: Vector3::zeros(),
                 corner_step: false,
                 turn: None,
+                arc: None,
                 corrected: true,
             }];
         }
@@ -252,6 +256,7 @@ impl<'a> Emitter<'a> {
                 to: self.state.position,
                 output_line,
                 kept_arc,
+                arc: self.state.arc,
                 feed: self.state.feed,
                 feed_limited: self.state.feed_limited,
             };
@@ -299,6 +304,7 @@ impl<'a> Emitter<'a> {
             to: self.state.position,
             output_line: self.output_line - 1,
             kept_arc: false,
+            arc: None,
             feed: self.state.feed,
             feed_limited: false,
         };
@@ -308,7 +314,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Whether the output is where the input is, and no correction on the move can be written.
-    fn is_uncorrected(&self, motion: &Move, nodes: &[Node]) -> bool {
+    fn is_uncorrected(&self, motion: &Move, nodes: &[Node], course: &[Accepted]) -> bool {
         let half = self.options.half_digit_mm(motion.words.mm_per_unit);
         let nothing = |correction: &Vector6<f64>| correction.iter().all(|part| part.abs() <= half);
         !nodes.is_empty()
@@ -316,6 +322,9 @@ impl<'a> Emitter<'a> {
             && nodes
                 .iter()
                 .all(|node| nothing(&node.before) && nothing(&node.after))
+            && course
+                .iter()
+                .all(|stretch| stretch.values.iter().all(nothing))
             && (self.state.position - motion.start).norm() < UNCHANGED_MM
             && (self.state.offset.active_mm - self.input_offset.active_mm).norm() < UNCHANGED_MM
     }

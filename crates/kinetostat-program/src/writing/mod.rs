@@ -1,14 +1,17 @@
 //! From a program, its path and a field of corrections to the corrected program.
 //!
-//! In the order of work: the path is divided where the correction bends or jumps ([`divide`], [`corner`], [`merge`]), pieces
-//! become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
+//! In the order of work: the path is divided where the correction bends or jumps ([`divide`], [`corner`], [`merge`]), arcs
+//! are fitted to the corrected curves of arcs ([`fit`]), pieces become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
 
 pub(crate) mod accounting;
+pub(crate) mod arc_words;
 pub(crate) mod block_writer;
 pub(crate) mod corner;
+pub(crate) mod corrected_curve;
 pub(crate) mod departure;
 pub(crate) mod divide;
 pub(crate) mod emit;
+pub(crate) mod fit;
 pub(crate) mod header;
 pub(crate) mod jump;
 pub(crate) mod merge;
@@ -18,6 +21,8 @@ pub(crate) mod output_state;
 pub(crate) mod piece_account;
 pub(crate) mod plan;
 pub(crate) mod queries;
+pub(crate) mod short_blocks;
 pub(crate) mod steps;
 pub(crate) mod write;
 pub(crate) mod written;
+pub(crate) mod written_arc;

@@ -1,6 +1,19 @@
 //! How a corrected program is written.
 
+use serde::Serialize;
+
 use crate::error::WriteError;
+
+/// What becomes of the arcs of a program where they are corrected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Arcs {
+    /// Arcs again, as few as follow the corrected curve within the tolerances, and straight pieces where no arc does.
+    #[default]
+    Fit,
+    /// Straight pieces.
+    Lines,
+}
 
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +22,8 @@ pub struct WriteOptions {
     /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
     /// Default 0.0005.
     pub tolerance_mm: f64,
+    /// What becomes of arcs. Programs in the language of a robot are written with straight pieces in any case.
+    pub arcs: Arcs,
     /// Smallest jump of the correction (between blocks, where the load turns with the direction of
     /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
     /// piece that follows. `None`, the default, is `tolerance_mm`.
@@ -16,7 +31,8 @@ pub struct WriteOptions {
     /// Distance from the tool's tip, in mm, at which a correction of the orientation is held to these tolerances: where a turn
     /// of the tool varies, a point so far from the tip is within `tolerance_mm`. Default 50.
     pub turn_lever_mm: f64,
-    /// How far the chords of an arc may leave it, in mm. Default 0.0004.
+    /// How far the chords of an arc may leave it, in mm; an arc that is fitted may leave the corrected curve by this and
+    /// `tolerance_mm` together, as chords do. Default 0.0004.
     pub chord_tolerance_mm: f64,
     /// A stretch this short (in mm) over which the correction still varies by more than the
     /// tolerance is taken for a jump: the tool steps there. Default 0.001.
@@ -30,6 +46,12 @@ pub struct WriteOptions {
     pub backward_step_mm: f64,
     /// Digits after the point in millimetres, one more in inches; `None` is 4 (and 5).
     pub decimals: Option<u8>,
+    /// Shortest block that the controller is to get, in mm: pieces are shared out evenly where that keeps them longer, and the
+    /// lines with shorter ones are named. `None`, the default, sets no limit.
+    pub min_block_mm: Option<f64>,
+    /// How many blocks the controller reads in a second: as `min_block_mm`, with the length that the programmed feed covers in
+    /// the time of one block.
+    pub max_blocks_per_s: Option<f64>,
     /// Lines of text for the header below the mark; `None` writes no header (and no mark).
     pub header: Option<Vec<String>>,
     /// Longest line written, in bytes without its ending. Default 250.
@@ -44,6 +66,7 @@ impl Default for WriteOptions {
     fn default() -> Self {
         Self {
             tolerance_mm: 0.0005,
+            arcs: Arcs::Fit,
             corner_step_mm: None,
             turn_lever_mm: 50.0,
             chord_tolerance_mm: 0.0004,
@@ -51,6 +74,8 @@ impl Default for WriteOptions {
             max_feed_factor: 1.2,
             backward_step_mm: 0.05,
             decimals: None,
+            min_block_mm: None,
+            max_blocks_per_s: None,
             header: Some(Vec::new()),
             max_line_bytes: 250,
             max_pieces: 10_000_000,
@@ -98,6 +123,24 @@ impl WriteOptions {
                 name: "decimals",
                 found: decimals.to_string(),
                 allowed: "3 to 8 digits are allowed",
+            });
+        }
+        if let Some(shortest) = self.min_block_mm
+            && !(1e-6..=1000.0).contains(&shortest)
+        {
+            return Err(WriteError::Option {
+                name: "min_block_mm",
+                found: shortest.to_string(),
+                allowed: "0.000001 to 1000 mm are allowed",
+            });
+        }
+        if let Some(most) = self.max_blocks_per_s
+            && !(most > 0.0 && most.is_finite())
+        {
+            return Err(WriteError::Option {
+                name: "max_blocks_per_s",
+                found: most.to_string(),
+                allowed: "a number above zero is allowed",
             });
         }
         if !(80..=65_000).contains(&self.max_line_bytes) {

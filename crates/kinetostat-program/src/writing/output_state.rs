@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::path::moves::{Feed, Motion, Move, MoveKind};
 use crate::path::position_offset::PositionOffset;
 use crate::writing::jump::Turn;
+use crate::writing::written_arc::WrittenArc;
 
 /// What the controller that runs the output holds at a line.
 #[derive(Debug, Clone, Default)]
@@ -18,6 +19,21 @@ pub(crate) struct OutputState {
     pub motion: Option<Motion>,
     /// The feed of the piece written last was held to its largest.
     pub feed_limited: bool,
+    /// The piece written last, where it is an arc that was fitted.
+    pub arc: Option<WrittenArc>,
+}
+
+/// An arc that was fitted to a corrected curve, before rounding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FittedArc {
+    /// In the plane of the arc that it stands for, mm.
+    pub centre_mm: [f64; 2],
+    pub radius_mm: f64,
+    pub sweep_rad: f64,
+    /// See [`crate::WrittenArc::slip`].
+    pub slip: [f64; 2],
+    /// Largest correction of the places between its ends, mm.
+    pub largest_correction_mm: f64,
 }
 
 /// One piece to be written.
@@ -31,6 +47,8 @@ pub(crate) struct OutputMove {
     pub tilt: Vector3<f64>,
     pub corner_step: bool,
     pub turn: Option<Turn>,
+    /// An arc about this centre, before rounding; straight without.
+    pub arc: Option<FittedArc>,
     pub corrected: bool,
 }
 

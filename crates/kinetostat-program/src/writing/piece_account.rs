@@ -9,7 +9,9 @@ use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
+use crate::writing::short_blocks::{ShortBlocks, Whose};
 use crate::writing::written::Piece;
+use crate::writing::written_arc::WrittenArc;
 
 /// What was written of a piece.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +24,8 @@ pub(crate) struct AsWritten {
     pub output_line: usize,
     /// An arc that stays one.
     pub kept_arc: bool,
+    /// An arc that was fitted.
+    pub arc: Option<WrittenArc>,
     /// The feed in force.
     pub feed: Option<Feed>,
     /// It was held to its largest.
@@ -36,6 +40,7 @@ pub(crate) struct PieceAccount<'a> {
     pub accounting: Accounting,
     rate: Rate,
     rate_in: Rate,
+    short: ShortBlocks,
     /// Where the steps at one place began, and where that place is: move and share.
     jump_from: Option<(usize, f64, Vector3<f64>)>,
 }
@@ -50,6 +55,7 @@ impl<'a> PieceAccount<'a> {
             accounting,
             rate: Rate::default(),
             rate_in: Rate::default(),
+            short: ShortBlocks::default(),
             jump_from: None,
         };
         account.warn_of_axes_never_stated();
@@ -77,8 +83,7 @@ impl<'a> PieceAccount<'a> {
 
     /// A piece that is written.
     pub fn piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
-        self.note_piece(move_index, step, written);
-        self.pieces.push(Piece {
+        let piece = Piece {
             move_index,
             share_from: step.share_from,
             share_to: step.share_to,
@@ -89,8 +94,12 @@ impl<'a> PieceAccount<'a> {
             turn: step.turn,
             corrected: step.corrected,
             kept_arc: written.kept_arc,
+            arc: written.arc,
             feed_limited: written.feed_limited,
-        });
+        };
+        let written_mm = piece.length_mm(&self.path.moves[move_index]);
+        self.note_piece(move_index, step, (written, written_mm));
+        self.pieces.push(piece);
     }
 
     /// A move that goes where the input has it, or to a place of the machine.
@@ -106,22 +115,26 @@ impl<'a> PieceAccount<'a> {
             turn: None,
             corrected: false,
             kept_arc: false,
+            arc: None,
             feed_limited: false,
         });
         self.rate.note(None);
     }
 
-    fn note_piece(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
+    fn note_piece(
+        &mut self,
+        move_index: usize,
+        step: &OutputMove,
+        (written, written_mm): (&AsWritten, f64),
+    ) {
         let motion = &self.path.moves[move_index];
-        let written_mm = match written.kept_arc {
-            true => motion.length_mm(),
-            false => (written.to - written.from).norm(),
-        };
         let accounting = &mut self.accounting;
         let rounding = (written.to - step.target).norm();
         accounting.largest_rounding_mm = larger(accounting.largest_rounding_mm, rounding);
         if step.corrected {
+            let inside = step.arc.map_or(0.0, |arc| arc.largest_correction_mm);
             let correction = (step.target - motion.point(step.share_to)).norm();
+            let correction = larger(correction, inside);
             if correction > accounting.largest_correction_mm {
                 accounting.largest_correction_mm = correction;
                 accounting.largest_correction_line = Some(motion.line);
@@ -145,8 +158,15 @@ impl<'a> PieceAccount<'a> {
             accounting.feed_length_out_mm += written_mm;
             // A block that stays one keeps its inverse time; the pieces of others have their own.
             let feed = written.feed.filter(|_| motion.feed.is_some());
-            self.rate
-                .note(feed.and_then(|feed| duration_at(feed, written_mm)));
+            let seconds = feed.and_then(|feed| duration_at(feed, written_mm));
+            let whole = step.share_from == 0.0 && step.share_to == 1.0;
+            let whose = match whole && !step.corner_step {
+                true => Whose::Input,
+                false => Whose::Piece,
+            };
+            let block = (written_mm, seconds);
+            self.short.note((motion, whose), block, self.options);
+            self.rate.note(seconds);
             self.note_backward(move_index, step, written);
         } else {
             self.rate.note(None);
@@ -179,6 +199,11 @@ impl<'a> PieceAccount<'a> {
     /// How far the output goes against the direction in which the part is cut.
     fn note_backward(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
         let motion = &self.path.moves[move_index];
+        if written.kept_arc || written.arc.is_some() {
+            // It goes round as the input does, never back.
+            self.jump_from = None;
+            return;
+        }
         let began = match (step.corner_step, self.jump_from) {
             (false, _) => {
                 self.jump_from = None;
@@ -249,6 +274,8 @@ impl<'a> PieceAccount<'a> {
     /// Pieces and figures, all told.
     pub fn finish(mut self, bytes_out: usize) -> (Vec<Piece>, Accounting) {
         self.warn_of_steps_and_feeds();
+        let short = self.short.warnings(self.options);
+        self.accounting.warnings.extend(short);
         self.accounting.bytes_out = bytes_out;
         self.accounting.pieces = self.pieces.len();
         self.accounting.mean_blocks_per_second = self.rate.mean();

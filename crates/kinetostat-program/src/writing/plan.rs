@@ -12,8 +12,9 @@ use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;
 use crate::writing::divide::divide;
+use crate::writing::fit::ArcForm;
 use crate::writing::node::is_divided;
-use crate::writing::options::WriteOptions;
+use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::output_state::OutputMove;
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
@@ -75,13 +76,13 @@ impl<'a> Plan<'a> {
         monitor: &dyn Monitor,
     ) -> Result<Self, WriteError> {
         options.check()?;
-        let division = divide(path, field, options, monitor)?;
+        let division = divide(path, field, (options, Arcs::Lines), monitor)?;
         let evaluations = division.evaluations;
-        let mut steps = Steps::new(path, options, division.nodes, division.jumps);
+        let mut steps = Steps::new(path, options, division);
         let mut reached = path.moves.first().map_or_else(Vector3::zeros, |m| m.start);
         let (mut all, mut moves) = (Vec::new(), Vec::new());
         for (move_index, motion) in path.moves.iter().enumerate() {
-            let (list, nodes) = steps.of(move_index, reached);
+            let (list, nodes) = steps.of(move_index, reached, ArcForm::Centre)?;
             let half = options.half_digit_mm(motion.words.mm_per_unit);
             let nothing = |step: &OutputMove| {
                 let off = step.target - motion.point(step.share_to);
@@ -103,6 +104,7 @@ impl<'a> Plan<'a> {
                     tilt: Vector3::zeros(),
                     corner_step: false,
                     turn: None,
+                    arc: None,
                     corrected: motion.known != Knowledge::Nothing,
                 }],
             };
@@ -166,6 +168,7 @@ impl<'a> Plan<'a> {
                     from,
                     to: *to,
                     output_line: *output_line,
+                    arc: None,
                     kept_arc: plan.kept && motion.curve != Curve::Line,
                     feed: motion.feed.map(|feed| Feed {
                         value: feed.value * factor,

@@ -4,13 +4,27 @@ use std::ops::Range;
 
 use nalgebra::{Vector3, Vector6};
 
+use crate::error::WriteError;
 use crate::field::correction::Correction;
 use crate::number::larger;
+use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Move, Path};
+use crate::writing::corrected_curve::CorrectedCurve;
+use crate::writing::divide::Division;
+use crate::writing::fit::{ArcForm, Fit, Span};
 use crate::writing::jump::{Jump, Turn};
+use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
+
+/// Which nodes of a move are ends of pieces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    All,
+    /// Its own ends, and where the correction jumps.
+    OfJumps,
+}
 
 /// Hands out the pieces of one move after the other.
 pub(crate) struct Steps<'a> {
@@ -18,6 +32,7 @@ pub(crate) struct Steps<'a> {
     options: &'a WriteOptions,
     pub nodes: Vec<Node>,
     jumps: Vec<Jump>,
+    courses: Vec<Accepted>,
     next_node: usize,
     /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
     tilt: Vector3<f64>,
@@ -26,17 +41,13 @@ pub(crate) struct Steps<'a> {
 }
 
 impl<'a> Steps<'a> {
-    pub fn new(
-        path: &'a Path,
-        options: &'a WriteOptions,
-        nodes: Vec<Node>,
-        jumps: Vec<Jump>,
-    ) -> Self {
+    pub fn new(path: &'a Path, options: &'a WriteOptions, division: Division) -> Self {
         Self {
             path,
             options,
-            nodes,
-            jumps,
+            nodes: division.nodes,
+            jumps: division.jumps,
+            courses: division.courses,
             next_node: 0,
             tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
@@ -55,12 +66,25 @@ impl<'a> Steps<'a> {
         first..self.next_node
     }
 
-    /// The pieces of a move, of which those before are taken already, and its nodes; `reached` is where the tool was last to go.
+    /// What is known of the correction between the nodes of a move, where arcs are fitted to it.
+    pub fn course(&self, move_index: usize) -> &[Accepted] {
+        let first = self
+            .courses
+            .partition_point(|stretch| stretch.move_index < move_index);
+        let last = self
+            .courses
+            .partition_point(|stretch| stretch.move_index <= move_index);
+        &self.courses[first..last]
+    }
+
+    /// The pieces of a move, of which those before are taken already, and its nodes; `reached` is where the tool was last to go,
+    /// `form` how its arcs are written.
     pub fn of(
         &mut self,
         move_index: usize,
         reached: Vector3<f64>,
-    ) -> (Vec<OutputMove>, Range<usize>) {
+        form: ArcForm,
+    ) -> Result<(Vec<OutputMove>, Range<usize>), WriteError> {
         let motion = &self.path.moves[move_index];
         let range = self.nodes_of(move_index);
         let whole = |target, tilt, corrected| {
@@ -71,6 +95,7 @@ impl<'a> Steps<'a> {
                 tilt,
                 corner_step: false,
                 turn: None,
+                arc: None,
                 corrected,
             }]
         };
@@ -80,10 +105,119 @@ impl<'a> Steps<'a> {
                 let end = Correction::of_lengths(&end.after, self.options.turn_lever_mm);
                 whole(motion.end + end.shift_mm, end.turn, true)
             }
-            Some(_) => self.divided(motion, range.clone(), reached),
+            Some(_) => {
+                let known = !self.course(move_index).is_empty();
+                match &motion.curve {
+                    Curve::Arc(arc) if known => {
+                        let steps = self.divided(motion, range.clone(), reached, Ends::OfJumps);
+                        self.fitted((move_index, arc, form), &steps, reached)?
+                    }
+                    Curve::Line if known => self.shared((move_index, range.clone()), reached),
+                    _ => self.divided(motion, range.clone(), reached, Ends::All),
+                }
+            }
         };
         self.tilt = steps.last().map_or(self.tilt, |step| step.tilt);
-        (steps, range)
+        Ok((steps, range))
+    }
+
+    /// Arcs in place of the long straight pieces between two jumps of the correction.
+    fn fitted(
+        &self,
+        (move_index, arc, form): (usize, &Arc, ArcForm),
+        steps: &[OutputMove],
+        reached: Vector3<f64>,
+    ) -> Result<Vec<OutputMove>, WriteError> {
+        let fit = Fit {
+            curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
+            arc: Some(arc),
+            form,
+            options: self.options,
+        };
+        let mut all = Vec::with_capacity(steps.len());
+        let mut from = reached;
+        for step in steps {
+            if step.corner_step {
+                all.push(*step);
+            } else {
+                let span = Span {
+                    share: [step.share_from, step.share_to],
+                    ends: [from, step.target],
+                };
+                let mut share_from = step.share_from;
+                for piece in fit.pieces(&span)? {
+                    all.push(OutputMove {
+                        share_from,
+                        share_to: piece.share_to,
+                        target: piece.target,
+                        arc: piece.arc,
+                        ..*step
+                    });
+                    share_from = piece.share_to;
+                }
+            }
+            from = step.target;
+        }
+        Ok(all)
+    }
+
+    /// The pieces of a straight move: where one is shorter than the controller takes, those between two jumps are made equally
+    /// long, if they follow the curve then and are long enough.
+    fn shared(
+        &mut self,
+        (move_index, range): (usize, Range<usize>),
+        reached: Vector3<f64>,
+    ) -> Vec<OutputMove> {
+        let motion = &self.path.moves[move_index];
+        let shortest_mm = self.options.shortest_block_mm(motion).unwrap_or(0.0);
+        let length = |step: &OutputMove| motion.length_between_mm(step.share_from, step.share_to);
+        let short = |step: &OutputMove| !step.corner_step && length(step) < shortest_mm;
+        let steps = self.divided(motion, range.clone(), reached, Ends::All);
+        if !steps.iter().any(short) {
+            return steps;
+        }
+        let spans = self.divided(motion, range, reached, Ends::OfJumps);
+        let fit = Fit {
+            curve: CorrectedCurve::new(motion, self.course(move_index)),
+            arc: None,
+            form: ArcForm::Centre,
+            options: self.options,
+        };
+        let mut all = Vec::with_capacity(steps.len());
+        let (mut from, mut rest) = (reached, steps.as_slice());
+        for step in &spans {
+            // The pieces as they were divided, behind as many steps of a jump.
+            let count = match step.corner_step {
+                true => 1,
+                false => rest.iter().take_while(|piece| !piece.corner_step).count(),
+            };
+            let (own, others) = rest.split_at(count.min(rest.len()));
+            rest = others;
+            let span = Span {
+                share: [step.share_from, step.share_to],
+                ends: [from, step.target],
+            };
+            from = step.target;
+            let equal = match own.iter().any(short) && length(step) >= shortest_mm * count as f64 {
+                true => fit.equal(&span, count),
+                false => None,
+            };
+            let Some(equal) = equal else {
+                all.extend_from_slice(own);
+                continue;
+            };
+            let mut share_from = step.share_from;
+            for piece in equal {
+                all.push(OutputMove {
+                    share_from,
+                    share_to: piece.share_to,
+                    target: piece.target,
+                    ..*step
+                });
+                share_from = piece.share_to;
+            }
+        }
+        all
     }
 
     fn divided(
@@ -91,8 +225,14 @@ impl<'a> Steps<'a> {
         motion: &Move,
         range: Range<usize>,
         reached: Vector3<f64>,
+        which: Ends,
     ) -> Vec<OutputMove> {
         let nodes = &self.nodes[range];
+        let ends = [0, nodes.len() - 1];
+        // Between two jumps pieces are fitted, wherever the nodes are.
+        let all = nodes.iter().enumerate().filter(|(index, node)| {
+            which == Ends::All || ends.contains(index) || node.before != node.after
+        });
         let smallest_step = self.options.smallest_step_mm();
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
@@ -110,6 +250,7 @@ impl<'a> Steps<'a> {
                 tilt: correction.turn,
                 corner_step,
                 turn,
+                arc: None,
                 corrected: true,
             });
             share_from = share_to;
@@ -119,7 +260,7 @@ impl<'a> Steps<'a> {
             turn: self.tilt,
         };
         let mut last = before.in_lengths(lever_mm);
-        for (index, node) in nodes.iter().enumerate() {
+        for (index, node) in all {
             let point = motion.point(node.share);
             if index > 0 {
                 last = node.before;

@@ -13,7 +13,9 @@ use crate::writing::written::Corrected;
 ///
 /// Feed moves are divided so that straight pieces follow the corrected curve; rapids keep one piece
 /// and have their ends corrected. A feed move without length keeps the place of the move before. An
-/// arc on which no correction reaches the last digit stays an arc. Everything else is carried byte for
+/// arc on which no correction reaches the last digit stays as it is; others become as few arcs as follow the corrected curve
+/// (by R where the block has R, else by I J K), with straight pieces where no arc does, or straight pieces only
+/// ([`WriteOptions::arcs`]). Everything else is carried byte for
 /// byte, and a program of which nothing changes comes back as it is, without a header.
 ///
 /// The speed along the part stays the programmed one: F of a piece is the programmed F times the
@@ -50,6 +52,6 @@ pub fn write_corrected(
         }
         last = motion.line;
     }
-    let division = divide(path, field, options, monitor)?;
+    let division = divide(path, field, (options, options.arcs), monitor)?;
     Emitter::new(program, path, options, division).emit()
 }

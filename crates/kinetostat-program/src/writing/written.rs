@@ -3,10 +3,13 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::Serialize;
 
+use crate::path::curve::Curve;
+use crate::path::moves::Move;
 use crate::writing::accounting::Accounting;
 use crate::writing::jump::Turn;
+use crate::writing::written_arc::WrittenArc;
 
-/// One motion of the written program: straight, but for arcs that are kept.
+/// One motion of the written program: straight, or an arc that is kept or fitted. A doctest is with [`WrittenArc`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Piece {
     /// Index of the move it is a part of, in [`Path::moves`](crate::Path::moves).
@@ -30,9 +33,39 @@ pub struct Piece {
     pub corrected: bool,
     /// An arc that stays an arc, because no correction on it could be written.
     pub kept_arc: bool,
+    /// An arc that was fitted to the corrected curve of one; `None` for straight pieces and kept arcs.
+    pub arc: Option<WrittenArc>,
     /// Its feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so the part is
     /// cut more slowly here than programmed.
     pub feed_limited: bool,
+}
+
+impl Piece {
+    /// Where the tool is commanded to be, in mm, when a part (0 to 1) of the piece's stretch of its move is done.
+    #[must_use]
+    pub fn commanded(&self, motion: &Move, part: f64) -> Vector3<f64> {
+        match &self.arc {
+            _ if self.kept_arc => motion.point(part),
+            Some(_) if part <= 0.0 => self.commanded_from,
+            Some(_) if part >= 1.0 => self.commanded_to,
+            Some(arc) => {
+                let curve = arc.between(&self.commanded_from, &self.commanded_to);
+                curve.point(arc.turned(part))
+            }
+            None => self.commanded_from.lerp(&self.commanded_to, part),
+        }
+    }
+
+    /// Length of the tool's way, in mm.
+    #[must_use]
+    pub fn length_mm(&self, motion: &Move) -> f64 {
+        let (from, to) = (&self.commanded_from, &self.commanded_to);
+        match &self.arc {
+            _ if self.kept_arc => motion.length_mm(),
+            Some(arc) => Curve::Arc(arc.between(from, to)).length_between(from, to, 0.0, 1.0),
+            None => (to - from).norm(),
+        }
+    }
 }
 
 /// A written program.

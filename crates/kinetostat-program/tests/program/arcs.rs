@@ -9,15 +9,15 @@ use nalgebra::Vector3;
 
 const START: [f64; 3] = [10.0, -20.0, 5.0];
 
-struct Case {
+pub struct Case {
     plane: usize,
     clockwise: bool,
-    sweep: f64,
+    pub sweep: f64,
     rise: f64,
-    by_radius: bool,
+    pub by_radius: bool,
     absolute_centre: bool,
     incremental: bool,
-    inches: bool,
+    pub inches: bool,
 }
 
 impl Case {
@@ -26,7 +26,7 @@ impl Case {
     }
 
     /// Place at a share, from the circle itself: radius 8 mm, start at 30 degrees.
-    fn place(&self, share: f64) -> Vector3<f64> {
+    pub fn place(&self, share: f64) -> Vector3<f64> {
         let [u, v, w] = self.axes();
         let start = PI / 6.0;
         let angle = start
@@ -42,7 +42,7 @@ impl Case {
         place
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let unit = if self.inches { 25.4 } else { 1.0 };
         let [u, v, w] = self.axes();
         let number = |value: f64| format!("{:.6}", value / unit);
@@ -91,7 +91,7 @@ impl Case {
     }
 }
 
-fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for number in 0..3 * 64 {
         let flag = |bit: usize| (number / 3) & (1 << bit) != 0;
@@ -137,6 +137,7 @@ fn every_form_of_arc_is_read_as_its_circle_and_written_as_chords_of_it() {
         let writing = {
             let mut writing = WriteOptions::default();
             writing.header = None;
+            writing.arcs = Arcs::Lines;
             writing
         };
         let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
@@ -211,6 +212,7 @@ fn modal_arc_blocks_are_converted_too_and_the_mode_after_them_is_right() {
     let writing = {
         let mut writing = WriteOptions::default();
         writing.header = None;
+        writing.arcs = Arcs::Lines;
         writing.chord_tolerance_mm = 1.0;
         writing
     };

@@ -1,7 +1,7 @@
 //! How blocks are divided where the correction bends or jumps: their pieces, their feeds, and the extra axes and arcs
 //! among them.
 
-use crate::writing::{at_origin, bare, bend, written, written_with};
+use crate::writing::{at_origin, bare, bend, straight, written, written_with};
 use kinetostat_program::*;
 use nalgebra::Vector3;
 
@@ -32,7 +32,7 @@ fn a_program_that_names_every_motion_names_it_in_every_piece() {
         "G21 G90\nG0 X0\nG1 X100 F600\ng2 X90 I-5\n",
         &bend,
         &at_origin(),
-        &bare(),
+        &straight(),
     );
     assert!(result.accounting.pieces > 20);
     for line in output.lines().skip(2) {

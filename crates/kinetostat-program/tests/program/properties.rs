@@ -143,7 +143,8 @@ fn check_interpretation(generated: &Generated, path: &Path) {
 
 /// Pieces are where path and field want them, to the rounding, and straight between.
 fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &WriteOptions) {
-    for piece in &written.pieces {
+    let reached = read_plainly(std::str::from_utf8(&written.bytes).unwrap());
+    for (piece, reached) in written.pieces.iter().zip(&reached) {
         let motion = &path.moves[piece.move_index];
         let unit = motion.words.mm_per_unit;
         let decimals = i32::from(writing.decimals.unwrap_or(4)) + i32::from(unit > 1.0);
@@ -199,8 +200,12 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
             for part in [0.13, 0.37, 0.5, 0.61, 0.94] {
                 let share = piece.share_from + (piece.share_to - piece.share_from) * part;
                 let wanted = motion.point(share) + correction(share);
-                let distance =
-                    (piece.commanded_from.lerp(&piece.commanded_to, part) - wanted).norm();
+                let ends = [piece.commanded_from, piece.commanded_to];
+                let commanded = match reached.arc {
+                    Some(arc) => arc.beside(ends, part, &wanted),
+                    None => ends[0].lerp(&ends[1], part),
+                };
+                let distance = (commanded - wanted).norm();
                 let allowed = 1.3 * writing.tolerance_mm + chord + 2.0 * rounding;
                 // The first piece starts where the block before ended, within the tolerance.
                 let allowed = allowed
@@ -255,7 +260,11 @@ fn check_plainly(generated: &Generated, path: &Path, written: &Corrected, waves:
         if let (MoveKind::Feed, Some(feed), false) = (motion.kind, motion.feed, piece.corner_step) {
             // The time the piece takes is the time the part's stretch should take.
             let part = motion.length_between_mm(piece.share_from, piece.share_to);
-            let length = (piece.commanded_to - piece.commanded_from).norm();
+            let ends = [piece.commanded_from, piece.commanded_to];
+            let length = match &reached.arc {
+                Some(arc) => arc.length(ends),
+                None => (ends[1] - ends[0]).norm(),
+            };
             let speed = reached.speed.unwrap();
             let (is, wanted) = match feed.mode {
                 FeedMode::InverseTime => (1.0 / speed, part / motion.length_mm() / feed.value),
@@ -299,9 +308,10 @@ fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves, machine_i
     assert_eq!(String::from_utf8_lossy(&unchanged.bytes), generated.text);
     verify_written(&program, &path, &unchanged, &reading, &writing).unwrap();
 
-    for decimals in [None, Some(6)] {
+    for (decimals, arcs) in [(None, Arcs::Lines), (None, Arcs::Fit), (Some(6), Arcs::Fit)] {
         let writing = {
             let mut writing = WriteOptions::default();
+            writing.arcs = arcs;
             writing.decimals = decimals;
             writing.header = Some(vec![
                 "model (heavy), 500 N".to_owned(),

@@ -16,15 +16,15 @@ fn cases() -> u64 {
 fn written_programs_are_within_their_bound_in_random_places() {
     let (mut places, mut pieces, mut worst) = (0, 0, Worst::new());
     let cases = cases();
-    for seed in 1..=cases {
-        let found = crate::sampled::check(seed).unwrap_or_else(|what| panic!("{what}"));
+    for (seed, arcs) in (1..=cases).flat_map(|seed| [(seed, Arcs::Fit), (seed, Arcs::Lines)]) {
+        let found = crate::sampled::check(seed, arcs).unwrap_or_else(|what| panic!("{what}"));
         places += found.places;
         pieces += found.pieces;
         worst.add(found.worst.of_all(found.places));
     }
-    let worst = worst.of(cases as usize);
+    let worst = worst.of(2 * cases as usize);
     println!(
-        "{cases} programs, {pieces} motions, {places} places, worst {worst:.3} of what is allowed"
+        "{cases} programs in two ways, {pieces} motions, {places} places, worst {worst:.3} of what is allowed"
     );
     assert!(places as u64 > 20 * cases);
     // A bound that nothing comes near would be no bound.

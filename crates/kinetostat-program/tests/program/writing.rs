@@ -11,6 +11,13 @@ pub fn bare() -> WriteOptions {
     writing
 }
 
+/// With straight pieces in place of arcs.
+pub fn straight() -> WriteOptions {
+    let mut writing = bare();
+    writing.arcs = Arcs::Lines;
+    writing
+}
+
 pub fn at_origin() -> ReadOptions {
     let mut reading = ReadOptions::default();
     reading.start_position_mm = Some(Vector3::zeros());
@@ -105,8 +112,13 @@ fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
 fn a_circle_smaller_than_the_rounding_still_has_all_its_motions() {
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG2 I0.00002\nG91\nI0.00002 F100\nG90 G1 X2\nM2\n";
     assert_eq!(written(text, &NoCorrection), text);
+    // No arc of so few digits can be printed: one straight piece is within the tolerance.
     assert_eq!(
         written(text, &shift),
+        "G21 G90\nG0 X0.0100 Y0 Z0\nG1 X1.0100 F300\nG1 X1.0100\nG91\nX0.0000 F100\nG90 G1 X2.0100\nM2\n"
+    );
+    assert_eq!(
+        written_with(text, &shift, &at_origin(), &straight()).0,
         "G21 G90\nG0 X0.0100 Y0 Z0\nG1 X1.0100 F300\nG1 X1.0100\nX1.0100\nX1.0100\nG91\n\
          X0.0000 F100\nX0.0000\nX0.0000\nG90 G1 X2.0100\nM2\n"
     );

@@ -274,26 +274,110 @@ fn program(random: &mut Random) -> (String, Vec<Truth>) {
 struct Written {
     to: Vector3<f64>,
     line: usize,
-    arc: bool,
+    arc: Option<WrittenArc>,
+}
+
+/// A written arc: axes of its plane and normal, its centre in the plane, and the way round.
+#[derive(Debug, Clone, Copy)]
+pub struct WrittenArc {
+    pub axes: [usize; 3],
+    pub centre: [f64; 2],
+    pub clockwise: bool,
+}
+
+impl WrittenArc {
+    /// Distance from the centre, and angle.
+    fn polar(&self, place: &Vector3<f64>) -> (f64, f64) {
+        let out = [
+            place[self.axes[0]] - self.centre[0],
+            place[self.axes[1]] - self.centre[1],
+        ];
+        (out[0].hypot(out[1]), out[1].atan2(out[0]))
+    }
+
+    /// Radii at its start and end.
+    pub fn radii(&self, ends: [Vector3<f64>; 2]) -> [f64; 2] {
+        ends.map(|end| self.polar(&end).0)
+    }
+
+    /// Angle from start to end; a whole circle ends where it starts.
+    pub fn sweep(&self, ends: [Vector3<f64>; 2]) -> f64 {
+        let turn = std::f64::consts::TAU;
+        let [start, end] = ends.map(|end| self.polar(&end).1);
+        let way = match self.clockwise {
+            false => end - start,
+            true => start - end,
+        };
+        let way = (way - 1e-9).rem_euclid(turn) + 1e-9;
+        if self.clockwise { -way } else { way }
+    }
+
+    pub fn length(&self, ends: [Vector3<f64>; 2]) -> f64 {
+        let [first, last] = self.radii(ends);
+        let rise = ends[1][self.axes[2]] - ends[0][self.axes[2]];
+        (0.5 * (first + last) * self.sweep(ends)).hypot(rise)
+    }
+
+    /// The place of the arc between two ends that is nearest to another, `part` of the way on or nearly so.
+    pub fn beside(&self, ends: [Vector3<f64>; 2], part: f64, place: &Vector3<f64>) -> Vector3<f64> {
+        let turn = std::f64::consts::TAU;
+        let [first, second, third] = self.axes;
+        let [(radius, start), (end_radius, _)] = ends.map(|end| self.polar(&end));
+        let sweep = self.sweep(ends);
+        let angle = self.polar(place).1 - start;
+        let angle = angle + turn * ((sweep * part - angle) / turn).round();
+        let at = |share: f64| {
+            let share = share.clamp(0.0, 1.0);
+            let (angle, radius) = (
+                start + sweep * share,
+                radius + (end_radius - radius) * share,
+            );
+            let mut beside = Vector3::zeros();
+            beside[first] = self.centre[0] + radius * angle.cos();
+            beside[second] = self.centre[1] + radius * angle.sin();
+            beside[third] = ends[0][third] + (ends[1][third] - ends[0][third]) * share;
+            beside
+        };
+        // On a steep helix a digit turns it far along its axis: the nearest place is near both.
+        let middle = 0.5 * (angle / sweep + part);
+        let reach = 0.5 * (angle / sweep - part).abs() + 0.01;
+        let [mut low, mut high] =
+            [middle - reach, middle + reach].map(|share| share.clamp(0.0, 1.0));
+        for _ in 0..60 {
+            let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+            match (at(a) - place).norm() < (at(b) - place).norm() {
+                true => high = b,
+                false => low = a,
+            }
+        }
+        at(0.5 * (low + high))
+    }
 }
 
 /// Reads what these programs can have.
 fn read(text: &str) -> Vec<Written> {
     let mut place: Vector3<f64> = Vector3::zeros();
-    let (mut incremental, mut arc) = (false, false);
+    let (mut incremental, mut mode, mut plane) = (false, 0.0, 17.0);
     let mut list = Vec::new();
     for (index, line) in text.lines().enumerate() {
         if line.starts_with('(') {
             continue;
         }
         let mut moves = false;
+        let from = place;
+        let mut centre = place;
         for word in line.split(' ').filter(|word| !word.is_empty()) {
             let (letter, number) = word.split_at(1);
             let value: f64 = number.parse().unwrap_or_else(|_| panic!("{line}"));
             match letter {
                 "G" if value == 90.0 => incremental = false,
                 "G" if value == 91.0 => incremental = true,
-                "G" if value < 4.0 => arc = value > 1.0,
+                "G" if value < 4.0 => mode = value,
+                "G" if (17.0..20.0).contains(&value) => plane = value,
+                "I" | "J" | "K" => {
+                    let axis = usize::from(letter.as_bytes()[0] - b'I');
+                    centre[axis] = from[axis] + value;
+                }
                 "X" | "Y" | "Z" => {
                     let axis = usize::from(letter.as_bytes()[0] - b'X');
                     place[axis] = if incremental {
@@ -310,7 +394,14 @@ fn read(text: &str) -> Vec<Written> {
             list.push(Written {
                 to: place,
                 line: index + 1,
-                arc,
+                arc: (mode > 1.0).then(|| {
+                    let axes = [[0, 1, 2], [2, 0, 1], [1, 2, 0]][plane as usize - 17];
+                    WrittenArc {
+                        axes,
+                        centre: [centre[axes[0]], centre[axes[1]]],
+                        clockwise: mode == 2.0,
+                    }
+                }),
             });
         }
     }
@@ -331,12 +422,13 @@ pub struct SampledOutcome {
 /// # Errors
 ///
 /// What is wrong, in words.
-pub fn check(seed: u64) -> Result<SampledOutcome, String> {
+pub fn check(seed: u64, arcs: Arcs) -> Result<SampledOutcome, String> {
     let mut random = Random::new(seed);
     let table = table(&mut random);
     let (text, truths) = program(&mut random);
     let writing = {
         let mut writing = WriteOptions::default();
+        writing.arcs = arcs;
         writing.tolerance_mm = [0.0005, 0.0005, 0.002, 0.02][random.below(4)];
         writing
     };
@@ -399,10 +491,9 @@ pub fn check(seed: u64) -> Result<SampledOutcome, String> {
             let share = piece.share_from + (piece.share_to - piece.share_from) * part;
             let there = truth.point(share);
             let wanted = there + table.at(&there);
-            let commanded = if motion.arc {
-                there
-            } else {
-                from + (motion.to - from) * part
+            let commanded = match &motion.arc {
+                Some(arc) => arc.beside([from, motion.to], part, &wanted),
+                None => from + (motion.to - from) * part,
             };
             let off = (commanded - wanted).norm();
             found.places += 1;

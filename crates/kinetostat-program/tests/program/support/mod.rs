@@ -1,6 +1,7 @@
 //! A generator of programs that knows where each of them goes, and a reader of programs that shares
 //! no code with the crate. Both are deliberately plain.
 
+use crate::sampled::WrittenArc;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -652,6 +653,28 @@ pub struct Reached {
     pub place: Vector3<f64>,
     pub speed: Option<f64>,
     pub line: usize,
+    pub arc: Option<WrittenArc>,
+}
+
+/// The centre from which both ends are a radius away, on the side that the sign and the way round say: seen along the chord,
+/// a centre to the left is that of a short way counter-clockwise.
+fn centre_by_radius(
+    [from, to]: [Vector3<f64>; 2],
+    plane: [usize; 3],
+    clockwise: bool,
+    radius: f64,
+) -> [f64; 2] {
+    let [first, second, _] = plane;
+    let along = [to[first] - from[first], to[second] - from[second]];
+    let chord = along[0].hypot(along[1]);
+    let away = (radius * radius - 0.25 * chord * chord).max(0.0).sqrt();
+    let to_left = (radius > 0.0) != clockwise;
+    let left = [-along[1] / chord, along[0] / chord];
+    let sign = if to_left { away } else { -away };
+    [
+        0.5 * (from[first] + to[first]) + sign * left[0],
+        0.5 * (from[second] + to[second]) + sign * left[1],
+    ]
 }
 
 /// Runs the text on the machine, with none of the crate's code: where its motions end.
@@ -661,6 +684,7 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
     let (mut here, mut work) = (Vector3::zeros(), Vector3::from(WORK[0]));
     let (mut scale, mut incremental, mut speed) = (1.0, false, None);
     let mut tool = 0_usize;
+    let (mut mode, mut plane, mut absolute_centre) = (0, [0, 1, 2], false);
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut bare = String::new();
         let mut inside = false;
@@ -705,6 +729,15 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
             match (letter, value.to_string().as_str()) {
                 ('G', "20") => scale = 25.4,
                 ('G', "21") => scale = 1.0,
+                ('G', "0") => mode = 0,
+                ('G', "1") => mode = 1,
+                ('G', "2") => mode = 2,
+                ('G', "3") => mode = 3,
+                ('G', "17") => plane = [0, 1, 2],
+                ('G', "18") => plane = [2, 0, 1],
+                ('G', "19") => plane = [1, 2, 0],
+                ('G', "90.1") => absolute_centre = true,
+                ('G', "91.1") => absolute_centre = false,
                 ('G', "90") => incremental = false,
                 ('G', "91") => incremental = true,
                 ('G', "54") => work = Vector3::from(WORK[0]),
@@ -745,6 +778,7 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
                 place,
                 speed,
                 line: index + 1,
+                arc: None,
             });
             continue;
         }
@@ -752,6 +786,7 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
         if coordinates.iter().all(Option::is_none) && get('E').is_none() {
             continue;
         }
+        let from = place;
         for axis in 0..3 {
             if let Some(value) = coordinates[axis] {
                 let origin = if incremental {
@@ -766,6 +801,26 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
             place,
             speed,
             line: index + 1,
+            arc: (mode > 1).then(|| {
+                let origin = match absolute_centre {
+                    true => work + here,
+                    false => from,
+                };
+                let words = ['I', 'J', 'K'].map(get);
+                let [first, second, _] = plane;
+                let given = |axis: usize| origin[axis] + words[axis].unwrap_or(0.0) * scale;
+                let centre = match get('R') {
+                    None => [given(first), given(second)],
+                    Some(radius) => {
+                        centre_by_radius([from, place], plane, mode == 2, radius * scale)
+                    }
+                };
+                WrittenArc {
+                    axes: plane,
+                    centre,
+                    clockwise: mode == 2,
+                }
+            }),
         });
     }
     reached

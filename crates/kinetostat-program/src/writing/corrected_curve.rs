@@ -1,0 +1,91 @@
+//! The corrected curve of a move, from what its division found out about the correction.
+
+use nalgebra::Vector3;
+
+use crate::path::moves::Move;
+use crate::writing::merge::Accepted;
+
+/// A stretch on which the correction is a polynomial of fourth degree.
+struct Stretch {
+    from: f64,
+    to: f64,
+    /// Newton's forward differences of five values at equal parts, each over its factorial.
+    differences: [Vector3<f64>; 5],
+}
+
+impl Stretch {
+    fn new(accepted: &Accepted, to: f64) -> Self {
+        let mut row = accepted
+            .values
+            .map(|value| value.fixed_rows::<3>(0).into_owned());
+        let mut differences = [row[0]; 5];
+        for (order, difference) in differences.iter_mut().enumerate().skip(1) {
+            for i in 0..5 - order {
+                // What is divided step by step is divided by the factorial in the end.
+                row[i] = (row[i + 1] - row[i]) / order as f64;
+            }
+            *difference = row[0];
+        }
+        Self {
+            from: accepted.share,
+            to,
+            differences,
+        }
+    }
+
+    fn correction(&self, share: f64) -> Vector3<f64> {
+        let x = 4.0 * ((share - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        let d = &self.differences;
+        let mut sum = d[4];
+        for order in (0..4).rev() {
+            sum = d[order] + sum * (x - order as f64);
+        }
+        sum
+    }
+}
+
+/// Path and correction of one move; between two stretches the correction may jump.
+pub(crate) struct CorrectedCurve<'a> {
+    pub motion: &'a Move,
+    stretches: Vec<Stretch>,
+}
+
+impl<'a> CorrectedCurve<'a> {
+    /// Of the correction on the whole move, by share.
+    pub fn new(motion: &'a Move, accepted: &[Accepted]) -> Self {
+        let ends = accepted.iter().skip(1).map(|next| next.share).chain([1.0]);
+        Self {
+            motion,
+            stretches: accepted
+                .iter()
+                .zip(ends)
+                .map(|(accepted, end)| Stretch::new(accepted, end))
+                .collect(),
+        }
+    }
+
+    /// Where the tool is to go at a share of the move that is no end of it, in mm.
+    pub fn point(&self, share: f64) -> Vector3<f64> {
+        let next = self
+            .stretches
+            .partition_point(|stretch| stretch.from <= share);
+        let correction = next.checked_sub(1).map_or_else(Vector3::zeros, |index| {
+            self.stretches[index].correction(share)
+        });
+        self.motion.point(share) + correction
+    }
+
+    /// Ends and quarters of the stretches that lie inside two shares: between them the correction may bend in its own way.
+    pub fn quarters(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
+        let first = self.stretches.partition_point(|stretch| stretch.to <= from);
+        self.stretches[first..]
+            .iter()
+            .take_while(move |stretch| stretch.from < to)
+            .flat_map(|stretch| {
+                (0..4).map(|quarter| {
+                    stretch.from + (stretch.to - stretch.from) * 0.25 * f64::from(quarter)
+                })
+            })
+            .filter(move |share| *share > from && *share < to)
+    }
+}

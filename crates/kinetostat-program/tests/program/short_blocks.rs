@@ -1,0 +1,91 @@
+//! Blocks that are too short for a controller: shared out where the tolerance allows, and named.
+
+use crate::writing::{at_origin, bare, written_with};
+use kinetostat_program::*;
+use nalgebra::Vector3;
+
+/// The correction bends more and more along x.
+fn bend(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    let x = request.position_mm.x;
+    Ok(Vector3::new(0.0, 0.0, 1e-7 * x * x * x))
+}
+
+#[test]
+fn what_is_left_over_is_shared_with_the_piece_before_it() {
+    let mut improved = 0;
+    for length in 40..=120 {
+        let text = format!("G21 G90\nG0 X0 Y0 Z0\nG1 X{length} F600\nM2\n");
+        let (_, free) = written_with(&text, &bend, &at_origin(), &bare());
+        let Some(smallest) = free.accounting.smallest_piece_mm else {
+            continue;
+        };
+        let mut writing = bare();
+        writing.min_block_mm = Some(1.05 * smallest);
+        let program = Program::read(text.as_bytes()).unwrap();
+        let path = interpret(&program, &at_origin()).unwrap();
+        let (output, held) = written_with(&text, &bend, &at_origin(), &writing);
+        verify_against_field(&path, &held, &bend, &writing, &Unwatched).unwrap();
+        assert_eq!(held.pieces.len(), free.pieces.len());
+        let now = held.accounting.smallest_piece_mm.unwrap();
+        let named = held
+            .accounting
+            .warnings
+            .iter()
+            .filter(|w| w.text.contains("shorter than"));
+        // Either it is longer now, or the line is named.
+        match now >= 1.05 * smallest {
+            true => improved += 1,
+            false => assert_eq!(named.count(), 1, "{output}"),
+        }
+    }
+    assert!(improved >= 8, "{improved}");
+}
+
+#[test]
+fn short_blocks_are_named_with_their_length_time_and_remedy() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X5 F6000\nX5.02\nX5.03\nX20\nM2\n";
+    let raised = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
+    let said = |min_block_mm: Option<f64>, max_blocks_per_s: Option<f64>| {
+        let mut writing = bare();
+        writing.min_block_mm = min_block_mm;
+        writing.max_blocks_per_s = max_blocks_per_s;
+        let (_, result) = written_with(text, &raised, &at_origin(), &writing);
+        let warnings = result.accounting.warnings.into_iter();
+        warnings
+            .filter(|w| w.text.contains("shorter than the controller takes"))
+            .map(|w| format!("{}: {}", w.line, w.text))
+            .collect::<Vec<_>>()
+    };
+    assert!(said(None, None).is_empty());
+    assert!(said(Some(0.005), Some(2e4)).is_empty());
+    assert_eq!(
+        said(Some(0.1), None),
+        [
+            "5: 2 blocks of the input, carried as they are, on the lines 4, 5 are shorter than the controller takes (0.1 mm), the shortest here with \
+             0.0100 mm, 0.100 ms: let the CAM system write longer ones (a wider tolerance of its chords), or cut more slowly there"
+        ]
+    );
+    // 0.01 mm at 6000 mm/min take 0.1 ms, 0.02 mm 0.2 ms.
+    assert!(
+        said(None, Some(7000.0))[0]
+            .starts_with("5: 1 block of the input, carried as they are, on the lines 5 is shorter")
+    );
+}
+
+#[test]
+fn limits_out_of_range_are_refused() {
+    for (min_block_mm, max_blocks_per_s) in [
+        (Some(0.0), None),
+        (Some(f64::NAN), None),
+        (None, Some(-1.0)),
+        (None, Some(f64::INFINITY)),
+    ] {
+        let mut writing = bare();
+        writing.min_block_mm = min_block_mm;
+        writing.max_blocks_per_s = max_blocks_per_s;
+        let program = Program::read("G21\nG0 X0\n").unwrap();
+        let path = interpret(&program, &ReadOptions::default()).unwrap();
+        let refused = write_corrected(&program, &path, &NoCorrection, &writing, &Unwatched);
+        assert!(matches!(refused, Err(WriteError::Option { .. })));
+    }
+}
