@@ -55,8 +55,8 @@ length_mm = 100                 # tip along z of the platform
 milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
 
 [tolerances]
-path_um = 0.5                   # straight pieces against the corrected path
-chord_um = 0.4                  # straight pieces against the programmed arcs
+path_um = 0.5                   # pieces against the corrected path
+chord_um = 0.4                  # pieces of arcs, besides
 decimals = 4
 
 [output]

@@ -206,6 +206,9 @@ fn a_rate_that_is_not_known_is_null() {
         let words = [
             "compensate",
             "job.toml",
+            // Of arcs there would be too few blocks for a rate over 16.
+            "--arcs",
+            "lines",
             "--force-overwrite",
             "--json",
             "r.json",
