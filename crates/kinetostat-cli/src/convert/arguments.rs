@@ -35,6 +35,18 @@ pub(crate) struct ConvertArgs {
     /// Orientation of the tool in the part, of a program of positions, as in a_b_c_kuka_deg=0,0,180
     #[arg(long, value_name = "CONVENTION=A,B,C")]
     pub(crate) tool_orientation: Option<String>,
+    /// Arm (preset or model file) along whose way a round tool is turned about its axis: inside the limits of the
+    /// joints, away from singular postures, in one configuration
+    #[arg(long, value_name = "MODEL", help_heading = "Free turn")]
+    pub(crate) free_turn: Option<String>,
+    /// Picture of that turn along the path (SVG)
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "free_turn",
+        help_heading = "Free turn"
+    )]
+    pub(crate) turn_plot: Option<PathBuf>,
     /// How far lines may leave helices and other curves that the language has not, mm [default:
     /// 0.001]
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
@@ -56,6 +68,8 @@ const HELP: &str = r#"Examples:
   kinetostat convert part.ngc --to rapid --out part.mod \
       --tool-orientation a_b_c_kuka_deg=0,0,180
   kinetostat convert part.src --to ls --out part.ls
+  kinetostat convert part.ngc --to krl --out part.src --template cell.toml \
+      --free-turn heavy_6r --turn-plot turn.svg
   kinetostat convert macros.ngc --expand --to csv --out poses.csv
 
 A template; all of it may be left out but tool_orientation, which programs of

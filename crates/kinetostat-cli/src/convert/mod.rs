@@ -5,6 +5,7 @@
 
 pub(crate) mod arguments;
 mod file_names;
+mod free_turn;
 mod target_word;
 mod template_file;
 mod template_format;
@@ -15,6 +16,7 @@ use kinetostat_formats::{
 };
 
 use crate::convert::arguments::ConvertArgs;
+use crate::convert::free_turn::{FreeTurn, free_turn};
 use crate::convert::template_file::TemplateFile;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
@@ -25,6 +27,7 @@ use crate::job::robot_arguments::RobotArgs;
 use crate::job::setting::{Setting, setting};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
+use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
@@ -43,8 +46,20 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let flat = args.expansion.flat_program.as_deref();
     let flat = flat.map(|path| claimed.claim("flat program", path));
     let flat = flat.transpose()?;
+    let plot = args.turn_plot.as_deref();
+    let plot = plot.map(|path| claimed.claim("picture of the turn", path));
+    let plot = plot.transpose()?;
     let read = read_program(&setting)?;
-    let made = made(&setting, &read, &template, language)?;
+    let turned = match &args.free_turn {
+        Some(model) => Some(free_turn(
+            &files,
+            model,
+            read.path(),
+            (&setting, &template),
+        )?),
+        None => None,
+    };
+    let made = made((&setting, &template), &read, turned.as_ref(), language)?;
     let mut rest = made.files.iter();
     if let Some((_, bytes)) = rest.next() {
         claimed.fill(main, bytes)?;
@@ -56,16 +71,23 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     if let Some(flat) = flat {
         claimed.fill(flat, &setting.program)?;
     }
+    if let (Some(plot), Some(turned)) = (plot, &turned) {
+        claimed.fill(plot, turned.picture.as_bytes())?;
+    }
     let mut text = text::answer(&setting, &read, &made, &template, (&args.out, language));
+    if let Some(turned) = &turned {
+        text.push('\n');
+        text.push_str(&wrapped(&format!("{}.", turned.description), 0));
+    }
     text.push_str(&outputs::written(&claimed.commit()?));
     screen::print(Stream::Out, &text)
 }
 
 /// The program in the other language.
 fn made(
-    setting: &Setting,
+    (setting, template): (&Setting, &TemplateFile),
     read: &ReadProgram<'_>,
-    template: &TemplateFile,
+    turned: Option<&FreeTurn>,
     language: MakeLanguage,
 ) -> Answer<Made> {
     let refused = |all: Vec<MakeError>| refused(setting, template, &all);
@@ -84,7 +106,8 @@ fn made(
     for event in &mut events {
         place(setting, event);
     }
-    make(read.path(), &events, &template.template, language).map_err(refused)
+    let path = turned.map_or(read.path(), |turned| &turned.path);
+    make(path, &events, &template.template, language).map_err(refused)
 }
 
 /// A line of an expanded program is that of the file that it came from.

@@ -331,3 +331,53 @@ fn help_is_narrow() {
         .collect();
     assert!(wide.is_empty(), "{wide:#?}");
 }
+
+/// Half way around the base of an arm, at a reach of 1.6 m.
+const RING: &str =
+    "G21 G90 G17\nG0 X1600 Y0 Z30\nG1 Z0 F1000\nG3 X-1385.641 Y800 I-1600 J0 F2000\nG0 Z30\nM30\n";
+
+#[test]
+fn a_round_tool_is_turned_about_its_axis_along_the_whole_way() {
+    let here = place();
+    let here = here.path();
+    let cell = CELL.replace("[1800, 0, 900]", "[0, 0, 900]");
+    std::fs::write(here.join("ring.toml"), &cell).unwrap();
+    std::fs::write(here.join("ring.ngc"), RING).unwrap();
+    let line = "convert ring.ngc --to krl --out ring.src --template ring.toml --free-turn heavy_6r --turn-plot turn.svg";
+    let said = run(here, &words(line)).answered();
+    assert!(said.out.contains("about its own axis"), "{said:?}");
+    assert!(read(here, "turn.svg").starts_with("<svg"));
+    // The tool's axis stays down (C 180, B 0): only A changes, in steps that the rate allows.
+    let made = read(here, "ring.src");
+    let number = |line: &str, letter: &str| -> f64 {
+        let rest = line.rsplit_once(letter).unwrap().1;
+        rest.split([',', '}']).next().unwrap().parse().unwrap()
+    };
+    let motions = made
+        .lines()
+        .filter(|line| line.contains("{X ") && !line.starts_with('$'));
+    let turns: Vec<f64> = motions
+        .map(|line| {
+            let [b, c] = [number(line, ",B "), number(line, ",C ")];
+            // Upright either way: (A, 0, 180), or (A + 180, 180, 0).
+            let is_down = b == 0.0 && c.abs() == 180.0 || b.abs() == 180.0 && c == 0.0;
+            assert!(is_down, "{line}");
+            number(line, ",A ")
+        })
+        .collect();
+    assert!(turns.len() > 3, "{made}");
+    // The whole circle cannot be followed by joint 1, whichever way the tool is turned.
+    let whole = RING.replace("X-1385.641 Y800", "X1385.641 Y-800");
+    std::fs::write(here.join("ring.ngc"), whole).unwrap();
+    let said = run(here, &words(&format!("{line} --force-overwrite")));
+    assert_eq!(said.code, 2, "{said:?}");
+    let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    for expected in ["line 4", "'joint 1' meets its limit", "Divided before line"] {
+        assert!(flat.contains(expected), "{expected}: {flat}");
+    }
+    // What must be known is asked for.
+    let line = "convert part.ngc --to krl --out x.src --tool-orientation a_b_c_kuka_deg=0,0,180 --free-turn heavy_6r";
+    let said = run(here, &words(line));
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("pose under [base]"), "{said:?}");
+}

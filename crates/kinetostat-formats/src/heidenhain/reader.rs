@@ -220,7 +220,9 @@ impl Reader<'_> {
             }
             Some(Ok(order)) => {
                 for at in order {
-                    last = last.max(at);
+                    if at > last {
+                        last = at;
+                    }
                     if self.block(&blocks[at]) {
                         break;
                     }

@@ -153,11 +153,19 @@ impl TurnChoice {
         let turns = self.stations.iter().map(|station| station.turn_deg);
         let low = turns.clone().fold(f64::INFINITY, crate::number::smaller);
         let high = turns.fold(f64::NEG_INFINITY, crate::number::larger);
+        let turned = match high - low < 1e-9 {
+            true => format!(
+                "The tool is turned by {:.1} deg about its own axis throughout",
+                low + 0.0
+            ),
+            false => format!(
+                "The tool turns between {low:.1} and {high:.1} deg about its own axis, by at most {:.3} deg/mm",
+                self.largest_rate_deg_per_mm
+            ),
+        };
         let chosen = format!(
-            "The tool turns between {low:.1} and {high:.1} deg about its own axis ({}), by at most {:.3} deg/mm; the smallest singular \
-             value is {:.4} (line {})",
+            "{turned} ({}); the smallest singular value is {:.4} (line {})",
             counted(self.stations.len(), "station"),
-            self.largest_rate_deg_per_mm,
             self.smallest_singular_value,
             self.smallest_singular_value_line
         );
@@ -167,10 +175,11 @@ impl TurnChoice {
                 cost: Some(cost),
                 smallest_singular_value,
                 ..
-            }) => format!(
+            }) if high - low >= 1e-9 => format!(
                 ". The best constant turn, {turn_deg:.1} deg, costs {cost:.4} instead of {:.4}, with {smallest_singular_value:.4}",
                 self.cost
             ),
+            Some(ConstantTurn { cost: Some(_), .. }) => String::new(),
             Some(best) => format!(
                 ". No constant turn goes all the way: the best, {:.1} deg, ends after {:.0} % of it",
                 best.turn_deg,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use kinetostat_formats::*;
+use kinetostat_testing::largest;
 use nalgebra::Vector3;
 
 use crate::real_files::{programs, stated};
@@ -58,7 +59,7 @@ fn moved(name: &str, program: &RobotProgram) -> f64 {
         if let (Some(found), Some(place)) = (motion.target.pose(), place) {
             let away = (found.position_mm - place).norm();
             assert!(away <= 1e-3, "{name}, line {}: {away} mm", motion.line);
-            worst = f64::max(worst, away);
+            worst = largest([worst, away]);
         }
     }
     worst

@@ -4,6 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use kinetostat_formats::*;
+use kinetostat_testing::largest_size;
 use nalgebra::Vector3;
 
 use super::read_with;
@@ -80,7 +81,7 @@ fn both_files_come_back_byte_for_byte_and_take_corrections() {
         for (piece, motion) in pieces.iter().zip(&again.motions) {
             let off = motion.target.pose().unwrap().position_mm - piece.position_mm;
             // The numbers keep their decimals, twelve at most: of a metre.
-            assert!(off.amax() <= 1e-9, "{name}: {off}");
+            assert!(largest_size(off.iter().copied()) <= 1e-9, "{name}: {off}");
         }
         let lines = |bytes: &[u8]| bytes.iter().filter(|byte| **byte == b'\n').count();
         assert_eq!(lines(&files[0].1), lines(&bytes));

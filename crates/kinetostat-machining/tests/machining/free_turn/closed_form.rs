@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use kinetostat::spatial::pose_residual;
 use kinetostat_machining::internal::{configuration_at, ways_of_arm};
 use kinetostat_program::irregular;
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, largest, least};
 
 use super::{milling_arm, tool_at};
 
@@ -52,14 +52,16 @@ fn all_ways_lead_to_the_pose_and_one_is_where_it_came_from() {
                     let turn = a - b;
                     (turn - TAU * (turn / TAU).round()).abs()
                 });
-                nearest = nearest.min(apart.fold(0.0, kinetostat::number::larger));
+                nearest = least([nearest, largest(apart)]);
             }
             back.add(nearest);
             let count = numbers.len();
             numbers.sort_unstable();
             numbers.dedup();
             assert_eq!(numbers.len(), count, "{name}: {joints:?}");
-            most = most.max(count);
+            if count > most {
+                most = count;
+            }
         }
         assert!(off.value() < 1e-9, "{name}: {off:?}");
         assert!(back.of(looked) < 1e-9, "{name}: {back:?}");

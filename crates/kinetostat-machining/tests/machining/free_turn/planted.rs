@@ -6,7 +6,7 @@ use kinetostat_machining::internal::configuration_at;
 use kinetostat_machining::{
     Placement, TurnBounds, TurnChoice, TurnRate, TurnTask, TurnedPath, choose_turns, with_turns,
 };
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, largest};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::{across_a_straight_wrist, around_the_base, singular_value_by_differences, task_around};
@@ -158,7 +158,7 @@ fn no_step_is_above_the_rate() {
                         "{turn} deg on {way} mm"
                     );
                     if way > 1e-3 {
-                        fastest = fastest.max(turn / way);
+                        fastest = largest([fastest, turn / way]);
                         turned_by += turn;
                     }
                     steps += 1;
