@@ -165,7 +165,7 @@ impl<'t> Writer<'t> {
         }
     }
 
-    fn quaternion(&self, turn: &UnitQuaternion<f64>) -> String {
+    fn quaternion_text(&self, turn: &UnitQuaternion<f64>) -> String {
         angles(
             turn,
             OrientationText::Quaternion,
@@ -176,7 +176,7 @@ impl<'t> Writer<'t> {
 
     fn pose(&self, pose: &Isometry3<f64>) -> String {
         let [x, y, z] = coordinates(&pose.translation.vector, self.template);
-        format!("[[{x},{y},{z}],[{}]]", self.quaternion(&pose.rotation))
+        format!("[[{x},{y},{z}],[{}]]", self.quaternion_text(&pose.rotation))
     }
 
     fn target(
@@ -188,7 +188,7 @@ impl<'t> Writer<'t> {
         let [x, y, z] = coordinates(place, self.template);
         format!(
             "[[{x},{y},{z}],[{}],{configuration},{NO_AXES}]",
-            self.quaternion(turn)
+            self.quaternion_text(turn)
         )
     }
 

@@ -22,6 +22,7 @@ use crate::reading::options::{BlockDelete, ReadOptions, ToolCentrePoint, Units};
 use crate::reading::pause::pause;
 use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
+use crate::reading::rotary::RotaryWords;
 use crate::reading::settings::{Setting, has_other_axes, setting};
 use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
@@ -56,6 +57,7 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
 /// What is known while a program is read line by line.
 pub(crate) struct Interpreter<'o> {
     pub(super) options: &'o ReadOptions,
+    rotary: RotaryWords<'o>,
     pub(super) modes: Modes,
     pub(super) offset: PositionOffset,
     pub(super) shifts: Shifts,
@@ -82,6 +84,7 @@ impl<'o> Interpreter<'o> {
     pub(crate) fn new(options: &'o ReadOptions) -> Self {
         Self {
             options,
+            rotary: RotaryWords::new(options),
             modes: {
                 let mut modes = Modes::new(options.units);
                 modes.tool_centre_point = options.tool_centre_point == ToolCentrePoint::Throughout;
@@ -198,7 +201,7 @@ impl<'o> Interpreter<'o> {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
         self.modes.set(block)?;
-        self.set_tool_centre_point(block)?;
+        self.rotary.set_tool_centre_point(block, &mut self.modes)?;
         self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
@@ -439,9 +442,11 @@ impl<'o> Interpreter<'o> {
             _ => Curve::Line,
         };
         self.places.position = end;
-        let angles = self.angles();
+        let angles = self.rotary.angles(&self.modes);
         let extra = self.modes.extra.read(block, self.modes.incremental);
-        let tool_turn = self.turn_of_move(block, kind, &angles)?;
+        let tool_turn =
+            self.rotary
+                .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?;
         let lost = self.places.first_lost();
         if let Some((axis, ..)) = lost {
             self.repeated.note(block.line_number, &format!(
@@ -541,7 +546,9 @@ impl<'o> Interpreter<'o> {
             return Ok(());
         };
         if cause == Cause::Rotary {
-            self.refuse_cut_at_angles(block, &self.angles())?;
+            let angles = self.rotary.angles(&self.modes);
+            self.rotary
+                .refuse_cut_at_angles(block, &self.modes, &angles)?;
         }
         let letter = char::from(COORDINATES[axis]);
         let why = self.places.why_lost(axis).unwrap_or_default();

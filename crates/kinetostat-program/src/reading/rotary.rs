@@ -5,23 +5,36 @@ use crate::path::moves::MoveKind;
 use crate::path::rotary::RotaryTurn;
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
-use crate::reading::interpret::Interpreter;
-use crate::reading::options::ToolCentrePoint;
-use crate::reading::places::Cause;
+use crate::reading::modes::Modes;
+use crate::reading::options::{ReadOptions, ToolCentrePoint};
+use crate::reading::places::{Cause, Places};
 
 /// Angles below this are zero, deg.
 const ZERO_DEG: f64 = 1e-9;
 
-impl Interpreter<'_> {
+/// What words of rotary axes mean to a program.
+#[derive(Clone, Copy)]
+pub(crate) struct RotaryWords<'o> {
+    options: &'o ReadOptions,
+}
+
+impl<'o> RotaryWords<'o> {
+    pub fn new(options: &'o ReadOptions) -> Self {
+        Self { options }
+    }
+
     /// Where the rotary axes stand, deg, as far as the program says it.
-    pub(super) fn angles(&self) -> Vec<Option<f64>> {
+    pub fn angles(self, modes: &Modes) -> Vec<Option<f64>> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
-        axes.map(|axis| self.modes.extra.place(axis.letter))
-            .collect()
+        axes.map(|axis| modes.extra.place(axis.letter)).collect()
     }
 
     /// G43.4 and G49.
-    pub(super) fn set_tool_centre_point(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+    pub fn set_tool_centre_point(
+        self,
+        block: &Block<'_>,
+        modes: &mut Modes,
+    ) -> Result<(), ProgramError> {
         if block.codes.tool_centre_point {
             if self.options.rotary.is_none() {
                 return Err(block.refuse(
@@ -31,10 +44,9 @@ impl Interpreter<'_> {
                     "use G43 H with a Z word, or describe the rotary axes in the model ([[rotary_axis]])",
                 ));
             }
-            self.modes.tool_centre_point = true;
+            modes.tool_centre_point = true;
         } else if block.codes.tool_length == Some(490) {
-            self.modes.tool_centre_point =
-                self.options.tool_centre_point == ToolCentrePoint::Throughout;
+            modes.tool_centre_point = self.options.tool_centre_point == ToolCentrePoint::Throughout;
         }
         if block.codes.position_offset.is_some()
             && let Some(word) = self.rotary_word(block)
@@ -50,7 +62,7 @@ impl Interpreter<'_> {
     }
 
     /// The first rotary axis of which the block has a word.
-    fn rotary_word(&self, block: &Block<'_>) -> Option<u8> {
+    fn rotary_word(self, block: &Block<'_>) -> Option<u8> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let mut letters = axes.map(|axis| axis.letter as u8);
         letters.find(|letter| block.value(*letter).is_some())
@@ -58,25 +70,26 @@ impl Interpreter<'_> {
 
     /// How the tool turns in a move, after its words were read; `before` are the angles before them. Where the places of a move are not
     /// those of the tip in the part, they are lost.
-    pub(super) fn turn_of_move(
-        &mut self,
+    pub fn turn_of_move(
+        self,
         block: &Block<'_>,
         kind: MoveKind,
-        before: &[Option<f64>],
+        (before, modes): (&[Option<f64>], &Modes),
+        places: &mut Places,
     ) -> Result<Option<Box<ToolTurn>>, ProgramError> {
         let Some(axes) = self.options.rotary.clone() else {
             return Ok(None);
         };
-        let after = self.angles();
+        let after = self.angles(modes);
         let turned = self.turned(&after).is_some();
         if kind == MoveKind::Feed {
-            self.refuse_cut_at_angles(block, &after)?;
+            self.refuse_cut_at_angles(block, modes, &after)?;
         }
-        let tip = self.modes.tool_centre_point;
+        let tip = modes.tool_centre_point;
         let unknown = after.contains(&None);
         if (tip && unknown) || (!tip && turned) {
             for axis in 0..3 {
-                self.places.lose(axis, Cause::Rotary, block.line_number);
+                places.lose(axis, Cause::Rotary, block.line_number);
             }
         }
         if !tip || unknown {
@@ -93,21 +106,22 @@ impl Interpreter<'_> {
     }
 
     /// The first axis that stands at an angle.
-    fn turned(&self, angles: &[Option<f64>]) -> Option<(char, f64)> {
+    fn turned(self, angles: &[Option<f64>]) -> Option<(char, f64)> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let mut both = axes.zip(angles);
         both.find_map(|(axis, angle)| Some((axis.letter, angle.filter(|a| a.abs() > ZERO_DEG)?)))
     }
 
     /// A cut is where the program says only with axes of known angles and places of the tip, or with all axes at zero.
-    pub(super) fn refuse_cut_at_angles(
-        &self,
+    pub fn refuse_cut_at_angles(
+        self,
         block: &Block<'_>,
+        modes: &Modes,
         angles: &[Option<f64>],
     ) -> Result<(), ProgramError> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let unknown = axes.zip(angles).find(|(_, angle)| angle.is_none());
-        match (self.modes.tool_centre_point, unknown, self.turned(angles)) {
+        match (modes.tool_centre_point, unknown, self.turned(angles)) {
             (true, Some((axis, _)), _) => Err(block.refuse(
                 ProgramErrorKind::Ambiguous,
                 None,

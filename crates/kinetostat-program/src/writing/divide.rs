@@ -97,7 +97,7 @@ impl Stretch {
         self.share[0] + (self.share[1] - self.share[0]) * part
     }
 
-    fn values(&self) -> Option<Values> {
+    fn node_values(&self) -> Option<Values> {
         let middle = self.middle?;
         let [first, last] = self.ends;
         Some(match self.quarters {
@@ -113,7 +113,7 @@ impl Stretch {
     }
 
     fn decide(&self, path: &Path, options: &WriteOptions) -> Decision {
-        let Some(values) = self.values() else {
+        let Some(values) = self.node_values() else {
             return Decision::Refine;
         };
         let motion = &path.moves[self.move_index];
@@ -188,7 +188,7 @@ impl Stretch {
         if self.entire {
             return;
         }
-        if let Some(values) = self.values() {
+        if let Some(values) = self.node_values() {
             accepted.push(Accepted {
                 move_index: self.move_index,
                 share: self.share[0],
