@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, builds, cargo, counts, cutting, root, step};
+use crate::{bench, builds, cargo, counts, cutting, programs, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -169,6 +169,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     real_programs(&mut figures)?;
     golden(&mut figures, &GOLDEN)?;
     cutting::measured(&mut figures)?;
+    programs::measured(&mut figures)?;
     cost_growth(&mut figures)?;
     speed(&mut figures)?;
     if !quick {

@@ -7,6 +7,7 @@ mod counts;
 mod cutting;
 mod figures;
 mod fuzz;
+mod programs;
 mod test;
 
 use std::path::{Path, PathBuf};

@@ -366,5 +366,15 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
             table.lines().next().unwrap().contains("source_line"),
             "{table}"
         );
+        let pose = run(
+            here,
+            &words(&format!("{line} --expand --correct pose --force-overwrite")),
+        );
+        assert_eq!(pose.code, 1);
+        let said = pose.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            said.contains("does not state how its tool stands"),
+            "{said}"
+        );
     }
 }

@@ -59,6 +59,12 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
         )));
     }
     path.path.warnings.extend(warnings(source, &program));
+    let mut moves = path.path.moves.iter();
+    if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
+        return Err(Failure::input(
+            "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        ));
+    }
     Ok(RobotRead {
         program,
         path,
