@@ -60,10 +60,10 @@ pub fn read(
 /// ```
 /// use kinetostat_formats::{Language, ReadOptions, SourceFile, expand};
 ///
-/// let text = "R1=4\nG0 X=R1*2\nM30\n";
-/// let files = vec![SourceFile::new("a.mpf", text)];
-/// let flat = expand(Language::Siemens, files, &ReadOptions::default()).unwrap().unwrap();
-/// assert_eq!(flat.file.bytes(), b"G0 X=8\nM30\n");
+/// let text = "BEGIN PGM A MM\nFN 0: Q1 = +5\nL X+Q1 F200\nEND PGM A MM\n";
+/// let files = vec![SourceFile::new("a.h", text)];
+/// let flat = expand(Language::Heidenhain, files, &ReadOptions::default()).unwrap().unwrap();
+/// assert_eq!(flat.file.bytes(), b"BEGIN PGM A MM\nL X+5 F200\nEND PGM A MM\n");
 /// ```
 ///
 /// # Errors

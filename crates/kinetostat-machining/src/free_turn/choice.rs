@@ -83,7 +83,7 @@ pub struct TurnMap {
 /// let [a, b] = [&choice.stations[3], &choice.stations[4]];
 /// let between = choice.turn_at_deg(0.5 * (a.way_mm + b.way_mm));
 /// assert!((between - 0.5 * (a.turn_deg + b.turn_deg)).abs() < 1e-9);
-/// assert!(choice.description().starts_with("The tool turns between"));
+/// assert!(choice.description().starts_with("The tool "));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
