@@ -7,6 +7,7 @@ use clap::Args;
 use crate::convert::target_word::TargetWord;
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpandFlags;
+use crate::job::robot_arguments::AxisWord;
 use crate::options::number;
 
 /// A program of one language in another: G-code for a robot, KRL as RAPID
@@ -59,6 +60,15 @@ pub(crate) struct ConvertArgs {
     /// Linear motions of a robot's program at this speed or a higher one are rapids, mm/s
     #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = "Robot programs", value_parser = number)]
     pub(crate) rapid_from_mm_per_s: Option<f64>,
+    /// Axis of the tool of a robot's program from its tip to its holder, in axes of its frame [default: -z; of KRL -x]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "AXIS",
+        allow_hyphen_values = true,
+        help_heading = "Robot programs"
+    )]
+    pub(crate) tool_axis: Option<AxisWord>,
     #[command(flatten)]
     pub(crate) expansion: ExpandFlags,
 }

@@ -144,6 +144,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
         reading: args.reading.clone(),
         robot: RobotArgs {
             correct: None,
+            tool_axis: args.tool_axis,
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
         },
         expansion,

@@ -52,9 +52,10 @@ pub(crate) fn answer(
     let named = |line: usize| made.findings.iter().any(|f| f.line == Some(line));
     // What is said of corrections is not for here.
     let warnings = read.path().warnings.iter().filter(|warning| {
+        let of_systems = warning.text.contains("work coordinate system");
         !named(warning.line)
-            && !warning.text.contains("correct")
-            && !warning.text.contains("carried")
+            && (of_systems
+                || !warning.text.contains("correct") && !warning.text.contains("carried"))
     });
     for warning in warnings.chain(&setting.expansion_warnings) {
         found.push(format!("line {}: {}", warning.line, warning.text));

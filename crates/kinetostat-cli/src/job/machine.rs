@@ -95,6 +95,11 @@ pub(crate) fn machine_setup(
         placement = placement_of_robot(frames, job, flags, placement)?;
     }
     let load = load(job, job.map(|j| &j.job.load), flags)?;
+    if frames.is_some_and(|f| f.axis_is_open && f.states_orientation) && load.turns() {
+        return Err(Failure::input(
+            "this load turns with feed and tool, and the program does not say along which axis of its frame the tool lies: at KUKA that is x in some cells and z in others. State it, from the tip to the holder: --tool-axis -x or -z, or tool_axis under [robot]",
+        ));
+    }
     let measured = measured_setup(files, job, flags, &placement)?;
     let cut = cut_setup(files, job, flags, &placement)?;
     let of_cut = cut.iter().map(|cut| &cut.files);

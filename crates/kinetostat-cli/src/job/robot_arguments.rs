@@ -16,6 +16,20 @@ pub(crate) enum CorrectWord {
     Pose,
 }
 
+/// An axis and its sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AxisWord {
+    X,
+    Y,
+    Z,
+    #[value(name = "-x")]
+    MinusX,
+    #[value(name = "-y")]
+    MinusY,
+    #[value(name = "-z")]
+    MinusZ,
+}
+
 /// Options for programs of robots.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct RobotArgs {
@@ -25,15 +39,26 @@ pub(crate) struct RobotArgs {
     /// Linear motions at this speed or a higher one position the tool in air, mm/s: no load acts there
     #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = "Robot programs", value_parser = number)]
     pub(crate) rapid_from_mm_per_s: Option<f64>,
+    /// Axis of the tool from its tip to its holder, in axes of its frame [default: -z]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "AXIS",
+        allow_hyphen_values = true,
+        help_heading = "Robot programs"
+    )]
+    pub(crate) tool_axis: Option<AxisWord>,
 }
 
 impl RobotArgs {
     /// The first option that was given.
     pub(crate) fn given(&self) -> Option<&'static str> {
-        match (self.correct, self.rapid_from_mm_per_s) {
-            (Some(_), _) => Some("--correct"),
-            (None, Some(_)) => Some("--rapid-from-mm-per-s"),
-            (None, None) => None,
-        }
+        let all = [
+            ("--correct", self.correct.is_some()),
+            ("--rapid-from-mm-per-s", self.rapid_from_mm_per_s.is_some()),
+            ("--tool-axis", self.tool_axis.is_some()),
+        ];
+        let mut given = all.into_iter().filter(|(_, given)| *given);
+        given.next().map(|(name, _)| name)
     }
 }

@@ -302,8 +302,11 @@ fn a_data_list_is_written_beside_its_program_and_an_axis_along_the_cut_is_warned
         ),
     );
     let line = "compensate --model heavy_6r --program slot.src --milling 300 -100 -50";
-    let said = run(here, &words(line)).answered();
-    // KUKA's usual axis is x of the tool, which lies along this cut.
+    let open = run(here, &words(line));
+    assert_eq!(open.code, 1);
+    assert!(open.err.contains("--tool-axis"), "{open:?}");
+    let said = run(here, &words(&format!("{line} --tool-axis -x"))).answered();
+    // x of the tool lies along this cut.
     let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.contains("the tool goes along its own axis"), "{flat}");
     let data = read(here, "slot-compensated.dat");

@@ -1,12 +1,12 @@
 //! A program of one robot written for another.
 
-use crate::making::fault::MakeError;
+use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make};
 use crate::making::robot_events::events_of_robot;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
-use crate::model::motion::Runs;
+use crate::model::motion::{Motion, Runs, Zone};
 use crate::model::program::RobotProgram;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::tool_number;
@@ -72,7 +72,31 @@ pub fn make_of_robot(
             _ => template.tools = tools.into_iter().collect(),
         }
     }
-    make(&robot.path, &events_of_robot(program), &template, language)
+    let mut made = make(&robot.path, &events_of_robot(program), &template, language)?;
+    if matches!(
+        language,
+        MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
+    ) {
+        made.findings.extend(zones(program));
+    }
+    Ok(made)
+}
+
+/// What becomes of exact stops and zones of the source.
+fn zones(program: &RobotProgram) -> Option<MakeFinding> {
+    let stops = |motion: &&Motion| motion.zone == Zone::Exact;
+    let first = program.motions.iter().find(stops)?;
+    let count = program.motions.iter().filter(stops).count();
+    Some(MakeFinding::of(
+        first.line,
+        format!(
+            "the zones of the source are not kept, here first: {} at their end there; here corners are those of the template ([zones]; feeds_mm = 0 stops at each)",
+            match count {
+                1 => "1 motion stops".to_owned(),
+                n => format!("{n} motions stop"),
+            }
+        ),
+    ))
 }
 
 /// Motions that do not run exactly once.

@@ -41,6 +41,7 @@ pub(crate) fn plan(
         findings: Vec::new(),
         otherwise: Otherwise::default(),
         tool: None,
+        last_tool: None,
         begun: false,
     };
     planner.tools();
@@ -58,6 +59,8 @@ struct Planner<'p> {
     findings: Vec<MakeFinding>,
     otherwise: Otherwise,
     tool: Option<u32>,
+    /// Tool of the last motion.
+    last_tool: Option<u32>,
     begun: bool,
 }
 
@@ -233,7 +236,9 @@ impl Planner<'_> {
     fn made(&mut self, index: usize) {
         let path = self.path;
         let motion = &path.moves[index];
-        if self.begun && !motion.has_length() && !motion.turns_in_place() {
+        // Another tip goes there from where it is.
+        let same_tool = self.tool == self.last_tool;
+        if self.begun && same_tool && !motion.has_length() && !motion.turns_in_place() {
             return;
         }
         if self.limits.orientation
@@ -274,6 +279,7 @@ impl Planner<'_> {
             self.otherwise
                 .follow(followed, motion.line, pieces.ends.len());
         }
+        self.last_tool = self.tool;
         let rapid = motion.kind == MoveKind::Rapid;
         let mut from = 0.0;
         for to in pieces.ends {

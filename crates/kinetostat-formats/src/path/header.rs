@@ -90,7 +90,15 @@ pub(crate) fn with_header(
     }
     if language == Language::Poses {
         // Above the names of the columns; inside of YAML a comment could become a part of a text.
-        found = found.map(|(_, carriage_return)| (beginning(bytes), carriage_return));
+        // Behind a byte order mark, which belongs to the first line, a table has it below the names.
+        let first = bytes
+            .split(|byte| *byte == b'\n')
+            .next()
+            .unwrap_or_default();
+        found = found.filter(|_| beginning(bytes) == 0 || first.contains(&b','));
+        if beginning(bytes) == 0 {
+            found = found.map(|(_, carriage_return)| (0, carriage_return));
+        }
     }
     let Some((mut at, carriage_return)) = found else {
         return (bytes.to_vec(), 0);

@@ -39,6 +39,10 @@ const NO_ANGLE: Refusal = (
     "an orientation whose convention is not stated: angles about fixed or moving axes, or a rotation vector",
     "write a quaternion (qw, qx, qy, qz), angles about the fixed axes x, then y, then z (rx_deg, ry_deg, rz_deg), or KUKA's A, B, C (a_deg, b_deg, c_deg)",
 );
+const NO_ORIENTATION: Refusal = (
+    "it looks like a part of an orientation, and which is not known by this name",
+    "name a quaternion qw, qx, qy, qz (in YAML: orientation with w, x, y, z), or give it another name if it is none",
+);
 const NO_SPEED: Refusal = (
     "a speed without its unit",
     "name it with its unit: speed_mm_per_s",
@@ -123,6 +127,16 @@ fn by_beginning(name: &str) -> Result<Column, Refusal> {
     }
     if begins(&["rx_", "ry_", "rz_", "roll_", "pitch_", "yaw_"]) {
         return Err(NO_ANGLE);
+    }
+    let numbered = |word: &str| {
+        let rest = name.strip_prefix(word).unwrap_or("-");
+        rest.len() <= 1
+            && rest
+                .bytes()
+                .all(|byte| byte.is_ascii_digit() || b"wxyz".contains(&byte))
+    };
+    if begins(&["quat", "orient", "rot", "attitude", "euler"]) || numbered("q") || numbered("o") {
+        return Err(NO_ORIENTATION);
     }
     if begins(&["speed_", "feed_", "velocity_"]) {
         return Err(NO_SPEED);

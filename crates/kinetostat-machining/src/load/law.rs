@@ -167,7 +167,17 @@ impl ProgramLoad {
         }
     }
 
-    pub(crate) fn turns(&self) -> bool {
+    /// Whether it has another direction where the tool moves otherwise.
+    ///
+    /// ```
+    /// use kinetostat_machining::{CuttingLoad, ProgramLoad};
+    ///
+    /// let milling = CuttingLoad::Milling { radial: 300.0, tangential: -100.0, axial: -50.0 };
+    /// assert!(ProgramLoad::new(milling).turns());
+    /// assert!(!ProgramLoad::new(CuttingLoad::None).turns());
+    /// ```
+    #[must_use]
+    pub fn turns(&self) -> bool {
         matches!(
             self.cutting,
             CuttingLoad::Milling { .. }

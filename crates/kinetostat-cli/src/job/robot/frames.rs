@@ -16,6 +16,8 @@ pub(crate) struct RobotFrames {
     pub(crate) work_object: Option<(String, Option<Pose>)>,
     /// From the tool's tip to its holder, in axes of the tool.
     pub(crate) tool_axis: Vector3<f64>,
+    /// Which axis that is, differs from cell to cell in this language, and nobody says it.
+    pub(crate) axis_is_open: bool,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,
 }
@@ -32,6 +34,7 @@ impl RobotFrames {
                 .collect(),
             work_object: read.path.work_object.as_ref().map(named),
             tool_axis: read.path.path.tool_axis,
+            axis_is_open: read.axis_is_open(),
             states_orientation: (read.path.path.moves.iter())
                 .any(|motion| motion.tool_turn.is_some()),
         }

@@ -134,6 +134,7 @@ pub(crate) fn placement_of_robot(
         ..stated
     };
     match &frames.work_object {
+        None if frames.tools.is_empty() => Ok(stated),
         // Several work objects: the path is in axes of the base.
         None if is_stated => Err(Failure::input(
             "the program has several work objects, and says where they are: leave out part_origin_mm and part_orientation",

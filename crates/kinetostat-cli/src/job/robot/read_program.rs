@@ -25,6 +25,11 @@ impl RobotRead<'_> {
         self.settings.corrected
     }
 
+    /// Which axis of its frame the tool has, differs from cell to cell in this language, and nobody states it.
+    pub(crate) fn axis_is_open(&self) -> bool {
+        self.program.language == Language::Krl && !self.settings.axis_is_stated
+    }
+
     /// The program as a run takes it.
     pub(crate) fn correctable(&self) -> Correctable<'_> {
         Correctable {
@@ -73,7 +78,13 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 9] = [
+    (
+        "as written by an option",
+        "unknown_targets = \"left_as_written\"",
+    ),
+    ("give its file together", "files = [\"other.spf\"]"),
+    ("give the subprogram with", "files = [\"other.spf\"]"),
     (
         "as written when reading",
         "unknown_targets = \"left_as_written\"",

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::job::robot_arguments::{CorrectWord, RobotArgs};
+use crate::job::robot_arguments::{AxisWord, CorrectWord, RobotArgs};
 use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
@@ -24,6 +24,8 @@ pub(crate) struct RobotSettings {
     pub(crate) making: PathOptions,
     pub(crate) writing: TextOptions,
     pub(crate) corrected: Directions,
+    /// The axis of the tool is stated, and not the usual one of the language.
+    pub(crate) axis_is_stated: bool,
 }
 
 /// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
@@ -44,10 +46,12 @@ pub(crate) fn settings(
         above_zero,
     )?;
     let mut correct = CorrectWord::default();
+    let mut axis_is_stated = flags.tool_axis.is_some();
     if let Some((j, table)) = table {
         frames(j, table, &mut reading)?;
         if let Some(axis) = &table.tool_axis {
             making.tool_axis = direction(j, axis)?;
+            axis_is_stated = true;
         }
         if table.external_axes == Some(ExternalAxesWord::Carried) {
             reading.external_axes = ExternalAxes::Carried;
@@ -73,6 +77,16 @@ pub(crate) fn settings(
         }
         correct = table.correct.unwrap_or(correct);
     }
+    if let Some(axis) = flags.tool_axis {
+        making.tool_axis = match axis {
+            AxisWord::X => Vector3::x(),
+            AxisWord::Y => Vector3::y(),
+            AxisWord::Z => Vector3::z(),
+            AxisWord::MinusX => -Vector3::x(),
+            AxisWord::MinusY => -Vector3::y(),
+            AxisWord::MinusZ => -Vector3::z(),
+        };
+    }
     let corrected = match flags.correct.unwrap_or(correct) {
         CorrectWord::Position => Directions::POSITION,
         CorrectWord::Pose => Directions::ALL,
@@ -82,6 +96,7 @@ pub(crate) fn settings(
         making,
         writing: TextOptions::default(),
         corrected,
+        axis_is_stated,
     })
 }
 
