@@ -381,3 +381,39 @@ fn a_round_tool_is_turned_about_its_axis_along_the_whole_way() {
     assert_eq!(said.code, 1);
     assert!(said.err.contains("pose under [base]"), "{said:?}");
 }
+
+#[test]
+fn another_tool_at_the_same_place_is_a_motion_and_exact_stops_are_named() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let pose = |x: u32| format!("[[{x},0,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]");
+    let tool = |name: &str, z: u32| {
+        format!("PERS tooldata {name}:=[TRUE,[[0,0,{z}],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n")
+    };
+    let text = format!(
+        "MODULE M\n{}{}PROC main()\nMoveJ {},v200,fine,t1;\nMoveL {},v200,fine,t2;\nMoveL {},v20,z5,t2;\nENDPROC\nENDMODULE\n",
+        tool("t1", 180),
+        tool("t2", 250),
+        pose(0),
+        pose(0),
+        pose(60)
+    );
+    std::fs::write(here.join("two.mod"), text).unwrap();
+    let said = run(here, &words("convert two.mod --to krl --out two.src")).answered();
+    let made = read(here, "two.src");
+    let behind = made.split("Z 250").nth(1).unwrap();
+    let first = behind.lines().find(|line| line.starts_with("LIN")).unwrap();
+    assert!(
+        first.contains("{X 0.000000,Y 0.000000,Z 20.000000,"),
+        "{made}"
+    );
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("2 motions stop at their end there"), "{flat}");
+    // Two work coordinate systems without their origins are said to lie in one place.
+    let systems =
+        "G21 G90\nG54 G0 X0 Y0 Z5\nG1 Z-5 F100\nG0 Z5\nG55 G0 X0 Y0 Z5\nG1 Z0\nG0 Z9\nM30\n";
+    std::fs::write(here.join("systems.ngc"), systems).unwrap();
+    let line = "convert systems.ngc --to csv --out systems.csv";
+    let said = run(here, &words(line)).answered();
+    assert!(said.out.contains("a second work"), "{said:?}");
+}

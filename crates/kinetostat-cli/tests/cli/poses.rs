@@ -158,3 +158,34 @@ fn rasters_of_a_robot_surface_process_are_compensated() {
     assert!(count(&output, "orientation:") >= count(&input, "orientation:"));
     assert!(output.ends_with("min_polygons_per_cluster: 500"));
 }
+
+#[test]
+fn a_table_of_a_spreadsheet_keeps_its_byte_order_mark_and_odd_names_are_refused() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let rows = "0,0,50,0,0,1,0\n0,0,-1,0,0,1,0\n60,0,-1,0,0,1,0\n";
+    let line = "compensate --model heavy_6r --program t.csv --force 0 0 100 --part-origin-mm 1800 0 900 --tool-length-mm 150 --out o.csv";
+    let words: Vec<&str> = line.split_whitespace().collect();
+    std::fs::write(
+        here.join("t.csv"),
+        format!("\u{feff}x_mm,y_mm,z_mm,qw,qx,qy,qz\n{rows}"),
+    )
+    .unwrap();
+    run(here, &words).answered();
+    let output = std::fs::read_to_string(here.join("o.csv")).unwrap();
+    assert!(
+        output.starts_with("\u{feff}x_mm,y_mm,z_mm,qw,qx,qy,qz\n# kinetostat"),
+        "{output}"
+    );
+    std::fs::write(
+        here.join("t.csv"),
+        format!("x_mm,y_mm,z_mm,q1,q2,q3,q4\n{rows}"),
+    )
+    .unwrap();
+    let refused = run(here, &words);
+    assert_eq!(refused.code, 1);
+    assert!(
+        refused.err.contains("looks like a part of an orientation"),
+        "{refused:?}"
+    );
+}
