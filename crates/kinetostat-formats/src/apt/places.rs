@@ -64,7 +64,7 @@ pub(crate) fn work_object(frames: &Frames, system: Option<&Isometry3<f64>>) -> F
             name: "MSYS".to_owned(),
             frame: Frame::Known(part * system),
         },
-        // Systems are told apart by where they are in the part.
+        // Coordinate systems without a known part are identified by their pose in it.
         (Some(system), None) if *system == Isometry3::identity() => part,
         (Some(system), None) => {
             let (at, turn) = (system.translation.vector, system.rotation.scaled_axis());

@@ -100,7 +100,7 @@ pub fn make(
     })
 }
 
-/// What nobody stated, and what the digits of the template cost.
+/// The defaults that were used, and the rounding that the decimals of the template cause.
 fn taken_for_granted(
     steps: &[Step],
     template: &Template,

@@ -9,6 +9,7 @@
 )]
 
 mod apt;
+mod chance;
 mod fields;
 mod harness;
 mod heidenhain;

@@ -16,7 +16,7 @@ pub(crate) struct RobotFrames {
     pub(crate) work_object: Option<(String, Option<Pose>)>,
     /// From the tool's tip to its holder, in axes of the tool.
     pub(crate) tool_axis: Vector3<f64>,
-    /// Which axis that is, differs from cell to cell in this language, and nobody says it.
+    /// That axis is a default, and the language has no convention for it.
     pub(crate) axis_is_open: bool,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,

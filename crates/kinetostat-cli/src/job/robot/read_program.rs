@@ -25,7 +25,7 @@ impl RobotRead<'_> {
         self.settings.corrected
     }
 
-    /// Which axis of its frame the tool has, differs from cell to cell in this language, and nobody states it.
+    /// The tool's axis is not stated, and the language has no convention for it.
     pub(crate) fn axis_is_open(&self) -> bool {
         self.program.language == Language::Krl && !self.settings.axis_is_stated
     }

@@ -4,9 +4,9 @@ use proptest::prelude::*;
 
 use kinetostat_formats::{WriteOptions, write};
 
-use super::random::{
-    Chance, PLACE_MM, TURN_RAD, check, corrections, module, read_bytes, write_and_read,
-};
+use crate::chance::Chance;
+
+use super::random::{PLACE_MM, TURN_RAD, check, corrections, module, read_bytes, write_and_read};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]

@@ -2,8 +2,10 @@
 
 use proptest::prelude::*;
 
+use crate::chance::Chance;
+
 use super::random::{
-    Chance, PLACE_MM, TURN_RAD, check, corrections, divide_and_read, module, write_and_read,
+    PLACE_MM, TURN_RAD, check, corrections, divide_and_read, module, write_and_read,
 };
 use super::{program, written};
 
