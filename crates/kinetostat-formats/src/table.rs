@@ -33,3 +33,30 @@ pub struct StatementRow {
     /// Where its meaning is from.
     pub source: &'static str,
 }
+
+/// A row of a table.
+pub(crate) const fn line(
+    name: &'static str,
+    treatment: Treatment,
+    source: &'static str,
+) -> StatementRow {
+    StatementRow {
+        name,
+        treatment,
+        source,
+    }
+}
+
+/// Whether a name stands before another one in the order of the alphabet, whatever its case: for tables that are sorted when they
+/// are compiled.
+pub(crate) const fn comes_before(one: &[u8], other: &[u8]) -> bool {
+    let mut at = 0;
+    while at < one.len() && at < other.len() {
+        let (a, b) = (one[at].to_ascii_uppercase(), other[at].to_ascii_uppercase());
+        if a != b {
+            return a < b;
+        }
+        at += 1;
+    }
+    one.len() < other.len()
+}

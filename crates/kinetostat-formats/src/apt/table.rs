@@ -1,7 +1,7 @@
 //! What is done with each word of APT and CLDATA, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, line};
 
 const ISO: &str = "ISO 4343, NC processor output: postprocessor words";
 const APT: &str = "ANSI X3.37, APT";
@@ -29,14 +29,6 @@ const THREAD: Treatment = Refused {
     reason: "its motion is the controller's own cycle",
     remedy: "take it into a file of its own",
 };
-
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
 
 /// What is done with each word of APT and CLDATA. A word that is not here is refused with its line; words that begin with
 /// `CSI_` are carried.

@@ -1,7 +1,7 @@
 //! What is done with each statement of Heidenhain's conversational language, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, line};
 
 const PATHS: &str = "HEIDENHAIN, conversational programming: path functions";
 const PROGRAMS: &str = "HEIDENHAIN, conversational programming: fundamentals";
@@ -33,63 +33,55 @@ const TABLES: Treatment = Refused {
     remedy: "write the places into the program",
 };
 
-const fn row_of(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
-
 /// What is done with each statement of Heidenhain's conversational language. A statement that is not here is refused with its
 /// line. Miscellaneous functions that are not here are the machine builder's: carried, with a remark.
 #[rustfmt::skip]
 pub const HEIDENHAIN_STATEMENTS: &[StatementRow] = &[
-    row_of("BEGIN", Understood, PROGRAMS),
-    row_of("END", Understood, PROGRAMS),
-    row_of("BLK", Carried, PROGRAMS),
-    row_of("TOOL", Understood, PROGRAMS),
-    row_of("STOP", Carried, PROGRAMS),
-    row_of("L", Understood, PATHS),
-    row_of("LP", Understood, PATHS),
-    row_of("LN", Understood, AXES),
-    row_of("CC", Understood, PATHS),
-    row_of("C", Understood, PATHS),
-    row_of("CP", Understood, PATHS),
-    row_of("CR", Understood, PATHS),
-    row_of("CT", Understood, PATHS),
-    row_of("CTP", Understood, PATHS),
-    row_of("RND", ROUNDED, PATHS),
-    row_of("CHF", ROUNDED, PATHS),
-    row_of("APPR", APPROACH, PATHS),
-    row_of("DEP", APPROACH, PATHS),
-    row_of("FPOL", CONTOUR, PATHS),
-    row_of("FL", CONTOUR, PATHS),
-    row_of("FLT", CONTOUR, PATHS),
-    row_of("FC", CONTOUR, PATHS),
-    row_of("FCT", CONTOUR, PATHS),
-    row_of("FSELECT", CONTOUR, PATHS),
-    row_of("SPL", CONTOUR, PATHS),
-    row_of("LBL", Understood, LABELS),
-    row_of("CALL", Understood, LABELS),
-    row_of("SEL", TABLES, LABELS),
-    row_of("PATTERN", TABLES, CYCLES),
-    row_of("CONTOUR", CONTOUR, CYCLES),
-    row_of("FN", Understood, PARAMETERS),
-    row_of("Q", Understood, PARAMETERS),
-    row_of("QL", Understood, PARAMETERS),
-    row_of("QR", Understood, PARAMETERS),
-    row_of("QS", Carried, PARAMETERS),
-    row_of("CYCL", Understood, CYCLES),
-    row_of("CYCLE", Understood, CYCLES),
-    row_of("TRANS", Understood, CYCLES),
-    row_of("TCH", PROBED, CYCLES),
-    row_of("PRESET", TABLES, CYCLES),
-    row_of("PLANE", Understood, AXES),
-    row_of("FUNCTION", Understood, AXES),
-    row_of("M", Understood, MISCELLANEOUS),
-    row_of("F", Understood, PATHS),
-    row_of("MB", Carried, MISCELLANEOUS),
+    line("BEGIN", Understood, PROGRAMS),
+    line("END", Understood, PROGRAMS),
+    line("BLK", Carried, PROGRAMS),
+    line("TOOL", Understood, PROGRAMS),
+    line("STOP", Carried, PROGRAMS),
+    line("L", Understood, PATHS),
+    line("LP", Understood, PATHS),
+    line("LN", Understood, AXES),
+    line("CC", Understood, PATHS),
+    line("C", Understood, PATHS),
+    line("CP", Understood, PATHS),
+    line("CR", Understood, PATHS),
+    line("CT", Understood, PATHS),
+    line("CTP", Understood, PATHS),
+    line("RND", ROUNDED, PATHS),
+    line("CHF", ROUNDED, PATHS),
+    line("APPR", APPROACH, PATHS),
+    line("DEP", APPROACH, PATHS),
+    line("FPOL", CONTOUR, PATHS),
+    line("FL", CONTOUR, PATHS),
+    line("FLT", CONTOUR, PATHS),
+    line("FC", CONTOUR, PATHS),
+    line("FCT", CONTOUR, PATHS),
+    line("FSELECT", CONTOUR, PATHS),
+    line("SPL", CONTOUR, PATHS),
+    line("LBL", Understood, LABELS),
+    line("CALL", Understood, LABELS),
+    line("SEL", TABLES, LABELS),
+    line("PATTERN", TABLES, CYCLES),
+    line("CONTOUR", CONTOUR, CYCLES),
+    line("FN", Understood, PARAMETERS),
+    line("Q", Understood, PARAMETERS),
+    line("QL", Understood, PARAMETERS),
+    line("QR", Understood, PARAMETERS),
+    line("QS", Carried, PARAMETERS),
+    line("CYCL", Understood, CYCLES),
+    line("CYCLE", Understood, CYCLES),
+    line("TRANS", Understood, CYCLES),
+    line("TCH", PROBED, CYCLES),
+    line("PRESET", TABLES, CYCLES),
+    line("PLANE", Understood, AXES),
+    line("FUNCTION", Understood, AXES),
+    line("M", Understood, MISCELLANEOUS),
+    line("F", Understood, PATHS),
+    line("MB", Carried, MISCELLANEOUS),
 ];
 
 /// The row of a statement's first word.

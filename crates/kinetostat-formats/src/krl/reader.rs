@@ -10,6 +10,7 @@ use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
 use crate::krl::walk::Walker;
+use crate::model::external::moving_axis;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::target::Target;
@@ -88,7 +89,11 @@ pub fn read_krl(
     walker.walk(main);
     let resolved = resolve(walker, main);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(&files, &resolved.motions));
+        faults.extend(moving_axis(
+            &files,
+            resolved.motions.iter().map(external),
+            |axis| format!("E{}", axis + 1),
+        ));
     }
     if !faults.is_empty() {
         let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
@@ -158,28 +163,8 @@ fn left(motions: &[Motion]) -> Vec<Finding> {
     findings
 }
 
-/// The first motion at which an external axis is elsewhere than at the motions before it.
-fn moving_axis(files: &[SourceFile], motions: &[Motion]) -> Option<ProgramError> {
-    let mut known: [Option<f64>; 6] = [None; 6];
-    for motion in motions {
-        let external = motion.target.pose().map_or(&[][..], |pose| &pose.external);
-        for (axis, value) in external.iter().enumerate().take(6) {
-            match (known[axis], value) {
-                (None, Some(_)) => known[axis] = *value,
-                (Some(before), Some(value)) if before != *value => {
-                    return Some(ProgramError::at(
-                        &files[motion.file],
-                        motion.span.clone(),
-                        format!(
-                            "external axis E{} moves from {before} to {value}: the arm stands elsewhere then",
-                            axis + 1
-                        ),
-                        "read with external axes carried if they do not move the arm or the part",
-                    ));
-                }
-                _ => {}
-            }
-        }
-    }
-    None
+/// A motion with its external axes.
+fn external(motion: &Motion) -> (&Motion, &[Option<f64>]) {
+    let all = motion.target.pose().map_or(&[][..], |pose| &pose.external);
+    (motion, &all[..all.len().min(6)])
 }

@@ -1,7 +1,7 @@
 //! What is done with each statement of KRL, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, comes_before, line};
 use crate::text::name::Name;
 
 const KSS: &str =
@@ -99,14 +99,6 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
 /// carried with a finding; any other word that begins a line is refused.
 pub const KRL_STATEMENTS: &[StatementRow] = &SORTED;
 
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
-
 const COUNT: usize = OTHERS.len() + MOTIONS.len();
 
 /// Motions and others in order of their names.
@@ -132,17 +124,6 @@ const fn sorted() -> [StatementRow; COUNT] {
         filled += 1;
     }
     all
-}
-
-const fn comes_before(one: &[u8], other: &[u8]) -> bool {
-    let mut at = 0;
-    while at < one.len() && at < other.len() {
-        if one[at] != other[at] {
-            return one[at] < other[at];
-        }
-        at += 1;
-    }
-    one.len() < other.len()
 }
 
 #[rustfmt::skip]

@@ -11,6 +11,7 @@ use crate::ls::order::Order;
 use crate::ls::positions::{Held, Positions};
 use crate::ls::program::{Place, Program};
 use crate::ls::step::{Step, positions_read, step_of};
+use crate::model::external::moving_axis;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::program::{Finding, Language, RobotProgram};
@@ -378,27 +379,8 @@ impl Reader<'_> {
 
     /// The first motion at which an external axis or a further group is elsewhere than before.
     fn moving_axis(&self, files: &[SourceFile]) -> Option<ProgramError> {
-        let mut known: Vec<Option<f64>> = Vec::new();
-        for (motion, external) in self.motions.iter().zip(&self.external) {
-            known.resize(known.len().max(external.len()), None);
-            for (axis, value) in external.iter().enumerate() {
-                match (known[axis], value) {
-                    (None, Some(_)) => known[axis] = *value,
-                    (Some(before), Some(value)) if before != *value => {
-                        return Some(ProgramError::at(
-                            &files[motion.file],
-                            motion.span.clone(),
-                            format!(
-                                "external axis or group axis {} moves from {before} to {value}: the arm stands elsewhere then",
-                                axis + 1
-                            ),
-                            "read with external axes carried if they do not move the arm or the part",
-                        ));
-                    }
-                    _ => {}
-                }
-            }
-        }
-        None
+        let motions = self.motions.iter().zip(&self.external);
+        let motions = motions.map(|(motion, external)| (motion, external.as_slice()));
+        moving_axis(files, motions, |axis| format!("or group axis {}", axis + 1))
     }
 }

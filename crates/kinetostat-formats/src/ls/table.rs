@@ -1,7 +1,7 @@
 //! What is done with each statement of FANUC TP programs, and with each option of a motion, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, line};
 
 const BASIC: &str =
     "FANUC, R-30iB controller, operator's manual (basic operation), chapter 4, Program structure";
@@ -33,14 +33,6 @@ const FRAME_DATA: Treatment = Refused {
     reason: "it says which frame a number means while the program runs",
     remedy: "set the frame on the controller and take this statement into a program of its own",
 };
-
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
 
 /// What is done with each statement of FANUC TP programs. A statement that is not here is refused with its line.
 #[rustfmt::skip]

@@ -3,6 +3,7 @@
 //! A reader fills it, [`crate::write()`] takes it. It knows no language; lengths are in mm, angles in degrees where the name
 //! says so, poses in the axes of the work object as written.
 
+pub(crate) mod external;
 pub(crate) mod frame;
 pub(crate) mod motion;
 pub(crate) mod orientation;

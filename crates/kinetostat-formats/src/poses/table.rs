@@ -1,7 +1,7 @@
 //! What is done with each name of a column or a key, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, line};
 
 /// What a table needs.
 pub(crate) const TABLE_HELP: &str =
@@ -25,14 +25,6 @@ const MOVES: Treatment = Refused {
     reason: "it can move the tool, and how is not stated",
     remedy: "let the places be those of the tool; write rapid (1 or 0) for the way",
 };
-
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
 
 /// What is done with each name of a column (CSV) or a key (YAML) of a list of poses. Other names are carried as they are.
 #[rustfmt::skip]

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::error::ProgramError;
+use crate::model::external::moving_axis;
 use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::MotionKind;
+use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::target::Target;
 use crate::options::{ExternalAxes, ReadOptions};
@@ -91,7 +92,11 @@ pub fn read_rapid(
     let mut targets = Targets::default();
     let walked = walk(&mut values, &mut targets, options, &mut faults);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(&files, &walked.motions));
+        faults.extend(moving_axis(
+            &files,
+            walked.motions.iter().map(external),
+            |axis| format!("eax_{}", char::from(b'a' + axis as u8)),
+        ));
     }
     let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
     if !faults.is_empty() {
@@ -150,27 +155,8 @@ pub fn read_rapid(
     })
 }
 
-/// The first motion at which an external axis is elsewhere than at the motions before it.
-fn moving_axis(files: &[SourceFile], motions: &[Followed]) -> Option<ProgramError> {
-    let mut known: [Option<f64>; 6] = [None; 6];
-    for Followed { motion, external } in motions {
-        for (axis, value) in external.iter().enumerate().take(6) {
-            match (known[axis], value) {
-                (None, Some(_)) => known[axis] = *value,
-                (Some(before), Some(value)) if before != *value => {
-                    let letter = char::from(b'a' + axis as u8);
-                    return Some(ProgramError::at(
-                        &files[motion.file],
-                        motion.span.clone(),
-                        format!(
-                            "external axis eax_{letter} moves from {before} to {value}: the arm stands elsewhere then"
-                        ),
-                        "read with external axes carried if they do not move the arm or the part",
-                    ));
-                }
-                _ => {}
-            }
-        }
-    }
-    None
+/// A motion with its external axes.
+fn external(followed: &Followed) -> (&Motion, &[Option<f64>]) {
+    let all = followed.external.as_slice();
+    (&followed.motion, &all[..all.len().min(6)])
 }

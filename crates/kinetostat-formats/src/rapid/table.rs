@@ -1,7 +1,7 @@
 //! What is done with each statement of RAPID, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, comes_before, line};
 use crate::text::name::Name;
 
 const KERNEL: &str = "ABB, Technical reference manual - RAPID kernel";
@@ -149,14 +149,6 @@ pub(crate) fn row(name: &Name) -> Option<&'static StatementRow> {
 /// are carried with a finding.
 pub const RAPID_STATEMENTS: &[StatementRow] = &SORTED;
 
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
-
 const COUNT: usize = OTHERS.len() + MOTIONS.len();
 
 /// Motions and others in order of their names in capitals.
@@ -182,18 +174,6 @@ const fn sorted() -> [StatementRow; COUNT] {
         filled += 1;
     }
     all
-}
-
-const fn comes_before(one: &[u8], other: &[u8]) -> bool {
-    let mut at = 0;
-    while at < one.len() && at < other.len() {
-        let (a, b) = (one[at].to_ascii_uppercase(), other[at].to_ascii_uppercase());
-        if a != b {
-            return a < b;
-        }
-        at += 1;
-    }
-    one.len() < other.len()
 }
 
 #[rustfmt::skip]

@@ -1,7 +1,7 @@
 //! What is done with each word of the SINUMERIK 840D, as data.
 
 use crate::table::Treatment::{Carried, Refused, Understood};
-use crate::table::{StatementRow, Treatment};
+use crate::table::{StatementRow, Treatment, line};
 
 const FUNDAMENTALS: &str = "Siemens, SINUMERIK 840D sl / 828D, Programming Manual Fundamentals";
 const WORK: &str = "Siemens, SINUMERIK 840D sl / 828D, Programming Manual Job Planning";
@@ -67,14 +67,6 @@ const PASSED: Treatment = Refused {
     reason: "how fast the tool goes between the ends is not known",
     remedy: "write FNORM, and feeds by G94",
 };
-
-const fn line(name: &'static str, treatment: Treatment, source: &'static str) -> StatementRow {
-    StatementRow {
-        name,
-        treatment,
-        source,
-    }
-}
 
 /// What is done with each word of a SINUMERIK program. A word that is not here is refused with its line; M, H and S words and
 /// variables are carried.
