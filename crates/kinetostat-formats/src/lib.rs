@@ -91,6 +91,8 @@ pub use path::fault::PathError;
 pub use path::of_program::{RobotPath, path_of};
 pub use path::options::PathOptions;
 pub use path::tools::tool_number;
+#[cfg(feature = "parquet")]
+pub use poses::parquet::text::{parquet_of_table, table_of_parquet};
 pub use poses::reader::read_poses;
 pub use poses::table::POSES_STATEMENTS;
 pub use rapid::reader::read_rapid;

@@ -64,9 +64,9 @@ pub(crate) const LANGUAGES: [Language; 8] = [
     },
     Language {
         name: "poses",
-        title: "lists of poses: tables (CSV) and YAML",
-        endings: &["csv", "tsv", "yaml", "yml"],
-        written: "Written: numbers in place, in their unit; further poses as copies of the row (CSV) or of the item (YAML) before it, with all its other cells and keys. The first pose of a raster stays a motion in air, which is not divided.",
+        title: "lists of poses: tables (CSV, Parquet) and YAML",
+        endings: &["csv", "tsv", "parquet", "yaml", "yml"],
+        written: "Written: numbers in place, in their unit; further poses as copies of the row (CSV, Parquet) or of the item (YAML) before it, with all its other cells and keys. The first pose of a raster stays a motion in air, which is not divided.",
         words: Words::Statements(POSES_STATEMENTS),
     },
     Language {

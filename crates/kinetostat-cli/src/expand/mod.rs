@@ -68,6 +68,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         language,
         files: vec![SourceFile::new(name.to_string_lossy(), bytes)],
         paths: Vec::new(),
+        parquet: None,
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };
     let (text, flat) = flat_text(&source)?;

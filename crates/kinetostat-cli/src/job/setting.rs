@@ -1,5 +1,6 @@
 //! Everything that decides a run, the machine apart: options go over the job file.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -66,6 +67,14 @@ impl Setting {
             failure.plain = flat.with_sources(&failure.plain.replace(&named, "line "));
         }
         failure
+    }
+
+    /// A program that was written, in the form of its file.
+    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<Cow<'b, [u8]>> {
+        match &self.robot {
+            Some(source) => source.as_file(written),
+            None => Ok(Cow::Borrowed(written)),
+        }
     }
 
     /// Warnings of the expansion of the program.

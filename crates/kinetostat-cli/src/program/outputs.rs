@@ -89,7 +89,7 @@ impl RunOutputs {
             self.files.fill(index, &setting.program)?;
         }
         if let (Some(index), Some(written)) = (self.program, &run.written) {
-            self.files.fill(index, &written.bytes)?;
+            self.files.fill(index, &setting.as_file(&written.bytes)?)?;
             for (index, (_, bytes)) in self.beside.iter().zip(&written.beside) {
                 self.files.fill(*index, bytes)?;
             }

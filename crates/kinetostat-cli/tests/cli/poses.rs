@@ -78,6 +78,33 @@ fn a_table_of_poses_is_compensated_and_is_one_again() {
     assert!(refused.err.contains("compensated already"), "{refused:?}");
 }
 
+/// The same four poses, which pyarrow wrote, with types that text cannot say.
+#[cfg(feature = "parquet")]
+#[test]
+fn a_table_in_parquet_is_compensated_and_is_parquet_again() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let slot = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../kinetostat-formats/tests/formats/fixtures/slot.parquet"
+    );
+    std::fs::copy(slot, here.join("slot.parquet")).unwrap();
+    let line = |force: &str| {
+        format!(
+            "compensate --model heavy_6r --program slot.parquet --milling {force} --tolerance-um 10 --correct pose --json out.json {PLACED}"
+        )
+    };
+    run(here, &words(&line("300 -100 -50"))).answered();
+    let written = std::fs::read(here.join("slot-compensated.parquet")).unwrap();
+    assert!(written.starts_with(b"PAR1") && written.ends_with(b"PAR1"));
+    let out: Value = serde_json::from_str(&read(here, "out.json")).unwrap();
+    within(&out["summary"], 0.1, 0.0201);
+    let again = format!(
+        "deflect heavy_6r --program slot-compensated.parquet --milling 300 -100 -50 --json again.json {PLACED}"
+    );
+    run(here, &words(&again)).answered();
+}
+
 #[test]
 fn the_unit_of_lengths_is_stated_or_the_list_is_refused() {
     let here = tempfile::tempdir().unwrap();

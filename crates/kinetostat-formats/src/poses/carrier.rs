@@ -27,7 +27,7 @@ impl Carrier {
     pub(crate) fn of(file: &SourceFile) -> Self {
         let ending = file.name().rsplit_once('.').map(|(_, ending)| ending);
         match ending.map(str::to_ascii_lowercase).as_deref() {
-            Some("csv" | "tsv") => return Self::Table,
+            Some("csv" | "tsv" | "parquet") => return Self::Table,
             Some("yaml" | "yml") => return Self::Yaml,
             _ => {}
         }

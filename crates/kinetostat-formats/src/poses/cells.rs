@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use crate::text::number::NumberText;
 
+/// The column of a table made of one in Parquet that says which row of the file a row is.
+pub(crate) const PARQUET_ROW: &str = "parquet_row";
+
 /// The separator of a table by its line of names: of comma, semicolon and tab the one that stands there most often.
 pub(crate) fn separator_of(line: &[u8]) -> u8 {
     let mut quoted = false;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::poses::carrier::beginning;
-use crate::poses::cells::{cells_of, number_of, separator_of};
+use crate::poses::cells::{PARQUET_ROW, cells_of, number_of, separator_of};
 use crate::poses::layout::{Named, layout_of};
 use crate::poses::row::{PART, RowContext, Rows, row_of};
 use crate::poses::table::TABLE_HELP;
@@ -52,7 +52,7 @@ pub(crate) fn read_table(file: &SourceFile) -> (Rows, Option<crate::options::Len
     };
     let carried: Vec<&str> = (layout.carried.iter())
         .map(|cell| names[*cell].name.as_str())
-        .filter(|name| !name.is_empty())
+        .filter(|name| !name.is_empty() && *name != PARQUET_ROW)
         .collect();
     if !carried.is_empty() {
         let message = format!(

@@ -11,6 +11,8 @@ pub(crate) mod cells;
 pub(crate) mod columns;
 pub(crate) mod csv;
 pub(crate) mod layout;
+#[cfg(feature = "parquet")]
+pub(crate) mod parquet;
 pub(crate) mod reader;
 pub(crate) mod row;
 pub(crate) mod table;

@@ -23,8 +23,7 @@ const MOST_BYTES: usize = 1 << 28;
 const PARQUET: &[u8] = b"PAR1";
 
 const PARQUET_REASON: &str = "the table is in Parquet, which is not read here";
-const PARQUET_REMEDY: &str =
-    "write it as CSV: in Python  pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)";
+const PARQUET_REMEDY: &str = "write it as CSV (in Python  pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)), or build kinetostat with its feature `parquet`";
 
 /// Reads lists of poses: tables (`.csv`, `.tsv`) and YAML (`.yaml`, `.yml`).
 ///

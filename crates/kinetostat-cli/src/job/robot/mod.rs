@@ -7,6 +7,7 @@ pub(crate) mod configuration;
 pub(crate) mod flat;
 pub(crate) mod frames;
 pub(crate) mod machine;
+pub(crate) mod parquet;
 pub(crate) mod read_program;
 pub(crate) mod settings;
 pub(crate) mod source;

@@ -1,5 +1,6 @@
 //! The files of a robot's program.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use kinetostat_formats::{Language, SourceFile, language_of, odd_program};
@@ -9,6 +10,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
+use crate::job::robot::parquet;
 use crate::job::robot::settings::{RobotSettings, settings};
 use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
@@ -21,6 +23,18 @@ pub(crate) struct RobotSource {
     pub(crate) files: Vec<SourceFile>,
     pub(crate) paths: Vec<PathBuf>,
     pub(crate) settings: RobotSettings,
+    /// The program in Parquet of which `files` hold the text.
+    pub(crate) parquet: Option<Vec<u8>>,
+}
+
+impl RobotSource {
+    /// A program that was written, in the form of its file: bytes as they are, or a table in Parquet.
+    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<Cow<'b, [u8]>> {
+        match &self.parquet {
+            None => Ok(Cow::Borrowed(written)),
+            Some(original) => parquet::of_text(original, written).map(Cow::Owned),
+        }
+    }
 }
 
 /// The program where it is one of a robot; none where it is G-code.
@@ -55,9 +69,14 @@ pub(crate) fn robot_source(
         )));
     }
     let settings = settings(job, flags, (language, usual_axis(language)))?;
+    let text = parquet::as_text(bytes)?;
     let mut source = RobotSource {
         language,
-        files: vec![SourceFile::new(name, bytes)],
+        parquet: text.as_ref().map(|_| bytes.to_vec()),
+        files: vec![match text {
+            Some(text) => SourceFile::new(name, text),
+            None => SourceFile::new(name, bytes),
+        }],
         paths: Vec::new(),
         settings,
     };

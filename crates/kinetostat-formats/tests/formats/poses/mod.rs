@@ -2,6 +2,8 @@
 
 mod broken;
 mod corrections;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod properties;
 mod random;
 pub mod real;
