@@ -3,9 +3,9 @@
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
-use crate::heidenhain::expand::run::expand_heidenhain;
-use crate::heidenhain::reader::read_heidenhain;
-use crate::heidenhain::write::write_heidenhain;
+use crate::heidenhain::expand::flat::expand_heidenhain;
+use crate::heidenhain::reading::reader::read_heidenhain;
+use crate::heidenhain::writing::write::write_heidenhain;
 use crate::krl::reader::read_krl;
 use crate::krl::write::KrlSyntax;
 use crate::ls::reader::read_ls;
