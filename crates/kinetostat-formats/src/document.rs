@@ -18,7 +18,7 @@ use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
 use crate::siemens::flat::expand_siemens;
 use crate::siemens::reader::read_siemens;
-use crate::siemens::write::write_siemens;
+use crate::siemens::writing::write::write_siemens;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
