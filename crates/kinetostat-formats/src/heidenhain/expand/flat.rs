@@ -56,6 +56,10 @@ pub fn expand_within(
         let fault = ProgramError::at(&none, 0..0, "no file is given", "give a program");
         return Err(vec![fault]);
     };
+    let equal: Vec<ProgramError> = main.equal_labels().collect();
+    if !equal.is_empty() {
+        return Err(equal);
+    }
     if !main.needs() {
         return Ok(unchanged(main.file));
     }

@@ -1,6 +1,7 @@
 //! Where the run goes on: labels, repeats, other programs, jumps.
 
 use crate::heidenhain::expand::expression::value_of;
+use crate::heidenhain::expand::program::called_name;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::words::Word;
@@ -85,18 +86,18 @@ impl Run<'_> {
     fn call_program(&mut self, at: (usize, usize), word: &Word) -> Result<Next, Fault> {
         let program = &self.programs[at.0];
         let block = &program.blocks[at.1];
-        let from = word.span.start + b"PGM".len();
-        let text = program.file.part(&(from..block.text.end));
-        let text = text.split(|byte| *byte == b';').next().unwrap_or_default();
-        let name = String::from_utf8_lossy(text).trim().to_owned();
+        let name = called_name(program.file.bytes(), block, word);
         let found = (self.programs.iter()).position(|program| program.is_named(&name));
         let Some(found) = found.filter(|_| !name.is_empty()) else {
             return Err(self.fault(
                 at,
                 format!("the program `{name}` that it calls is not among the files"),
-                "give its file together with this one",
+                "give its file together with this one (--subprograms FOLDER)",
             ));
         };
+        if let Some(fault) = self.programs[found].equal_labels().next() {
+            return Err(fault);
+        }
         let Some(begin) = self.programs[found].begin else {
             return Err(self.fault(
                 at,

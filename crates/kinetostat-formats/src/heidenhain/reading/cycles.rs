@@ -13,7 +13,7 @@ impl Reader<'_> {
             return self.fault(span, "the cycle has no number", "state it");
         };
         if kind.is("CALL") {
-            let place = self.state.place;
+            let place = self.state.counts_from();
             return self.called(block, words, span, place);
         }
         if kind.is("END") {

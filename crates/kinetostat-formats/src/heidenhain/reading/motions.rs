@@ -135,7 +135,7 @@ impl Reader<'_> {
         self.found.ways.push(Way {
             block: block.clone(),
             shape,
-            start: self.state.place,
+            start: self.state.counts_from(),
             end,
             datum: self.state.datum,
             unit_mm: self.unit_mm,

@@ -38,6 +38,11 @@ impl Reader<'_> {
             Err(odd) => {
                 let (at, reason, remedy) = match odd {
                     Odd::Parameter(at) => (at, BY_PARAMETER, EXPAND),
+                    Odd::Unknown(at) if is_exponent(words, at) => (
+                        at,
+                        "a number with an exponent, which the control does not read",
+                        "write the number out: X+100.5",
+                    ),
                     Odd::Unknown(at) => (
                         at,
                         "the word is not known here, or has no number",
@@ -118,4 +123,12 @@ impl Reader<'_> {
         }
         acts
     }
+}
+
+/// Whether a word is the `e20` of `X+1e20`.
+fn is_exponent(words: &[Word], at: usize) -> bool {
+    let before = at.checked_sub(1).and_then(|before| words.get(before));
+    let stands_against = before
+        .is_some_and(|before| before.number().is_some() && before.span.end == words[at].span.start);
+    words[at].is("E") && stands_against
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::apt::places::Frames;
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
-use crate::heidenhain::flow::{Step, labels_of, order, step_of};
+use crate::heidenhain::flow::{LABEL_TWICE, NAME_IT, Step, labels_of, order, step_of};
 use crate::heidenhain::reading::found::Found;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
@@ -120,11 +120,7 @@ impl Reader<'_> {
         let (labels, twice) = labels_of(bytes, &blocks);
         for index in twice {
             let text = blocks[index].text.clone();
-            self.fault(
-                &text,
-                "there is a label of this name above",
-                "name it otherwise",
-            );
+            self.fault(&text, LABEL_TWICE, NAME_IT);
         }
         let calls = |block: &Block| {
             let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');
@@ -164,6 +160,21 @@ impl Reader<'_> {
                     self.block(block);
                 }
             }
+        }
+        let ends = |block: &Block| {
+            let is_end = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'E');
+            is_end
+                && block
+                    .words(bytes)
+                    .first()
+                    .is_some_and(|word| word.is("END"))
+        };
+        if !blocks[first..].iter().rev().any(ends) {
+            let span = blocks.last().map_or(0..0, |block| block.text.clone());
+            self.finding(
+                &span,
+                "no block END PGM ends the program: give the whole program, if this is a part of it".to_owned(),
+            );
         }
         let left = blocks.iter().skip(last + 1);
         let left = left.filter(|block| {

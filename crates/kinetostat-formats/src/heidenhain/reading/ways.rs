@@ -55,7 +55,7 @@ impl Reader<'_> {
         }
         if !parsed.moves() {
             if acts.calls {
-                let place = self.state.place;
+                let place = self.state.counts_from();
                 self.called(block, words, span, place);
             }
             return;

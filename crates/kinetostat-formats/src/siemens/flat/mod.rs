@@ -16,5 +16,6 @@ mod run;
 mod runner;
 mod statements;
 mod structure;
+pub(crate) mod unresolved;
 
 pub use expand::{expand_siemens, expand_within};
