@@ -110,9 +110,9 @@ pub(crate) fn machine_setup(
     flags: &ProgramArgs,
     (frames, inputs): (Option<&RobotFrames>, &mut Vec<PathBuf>),
 ) -> Answer<(MachineSetup, Model)> {
-    let read = read_model(files, job, flag_model)?;
-    inputs.extend(read.path);
-    let model = with_deviations(read.model, job)?;
+    let named = read_model(files, job, flag_model)?;
+    inputs.extend(named.path);
+    let model = with_deviations(named.model, job)?;
     let fingerprint = fingerprint(&model);
     let (mut tool, mut tool_words) = tool(job, flags)?;
     if let Some(frames) = frames {
@@ -152,7 +152,7 @@ pub(crate) fn machine_setup(
     let run_inputs = {
         let mut run_inputs = RunInputs::default();
         run_inputs.model = model.name().to_owned();
-        run_inputs.model_source = read.source;
+        run_inputs.model_source = named.source;
         run_inputs.model_deviations = deviation_descriptions(&model);
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
@@ -161,7 +161,7 @@ pub(crate) fn machine_setup(
         run_inputs.cut.extend(log);
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
-        run_inputs.files = vec![read.file];
+        run_inputs.files = vec![named.file];
         run_inputs.files.extend(files_of_cut);
         run_inputs
     };
