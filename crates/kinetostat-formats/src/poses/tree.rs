@@ -1,12 +1,12 @@
 //! YAML as nodes with their bytes.
 //!
-//! The parser counts characters; it is given one character for each byte, so that its places are bytes.
+//! The parser counts characters; it is given one character for each byte ([`crate::poses::characters`]), so that its places are bytes.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
+use crate::poses::characters::Characters;
 use crate::text::source::beginning;
 
 /// A node.
@@ -50,8 +50,7 @@ struct Open {
 /// Where the file is no YAML.
 pub(crate) fn documents_of(bytes: &[u8]) -> Result<Vec<Node>, TreeFault> {
     let from = beginning(bytes);
-    let text = ascii(&bytes[from..]);
-    let mut parser = Parser::new_from_str(&text);
+    let mut parser = Parser::new(Characters::of(&bytes[from..]));
     let mut open: Vec<Open> = Vec::new();
     let mut documents = Vec::new();
     while let Some(next) = parser.next_event() {
@@ -109,22 +108,6 @@ pub(crate) fn documents_of(bytes: &[u8]) -> Result<Vec<Node>, TreeFault> {
         }
     }
     Ok(documents)
-}
-
-/// A text with one character for each byte.
-fn ascii(bytes: &[u8]) -> Cow<'_, str> {
-    if let Some(text) = std::str::from_utf8(bytes)
-        .ok()
-        .filter(|text| text.is_ascii())
-    {
-        return Cow::Borrowed(text);
-    }
-    let characters = bytes.iter().map(|byte| match byte {
-        0..=0x7f => char::from(*byte),
-        // What is not ASCII is never a number or a name that counts.
-        _ => 'x',
-    });
-    Cow::Owned(characters.collect())
 }
 
 /// A list or map whose end was read.
