@@ -10,6 +10,8 @@
 #[path = "../tests/formats/chance.rs"]
 mod chance;
 mod fuzzing;
+#[path = "../tests/formats/harness.rs"]
+mod harness;
 #[path = "../tests/formats/krl/random.rs"]
 mod random;
 

@@ -1,4 +1,5 @@
-//! How many motions a second are read, and written with a correction each, in every language, on one core: `speed [MOTIONS]`.
+//! How many motions a second are read, and written with a correction each, in every language or in one, on one core:
+//! `speed [MOTIONS] [NAME]`.
 //! Prints the figures of `cargo xtask figures`.
 
 #![allow(clippy::print_stdout, reason = "a tool for developers")]
@@ -125,8 +126,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         Some(word) => word.parse()?,
         None => 100_000,
     };
+    let only = std::env::args().nth(2);
     let options = ReadOptions::default();
     for (name, text) in programs(count) {
+        if only
+            .as_ref()
+            .is_some_and(|only| !name.starts_with(only.as_str()))
+        {
+            continue;
+        }
         let language = language_of(name, text.as_bytes()).ok_or("no language")?;
         let files = vec![SourceFile::new(name, text)];
         let start = Instant::now();

@@ -1,11 +1,14 @@
 //! Reading and writing by language.
 
+use std::collections::BTreeSet;
+
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
-use crate::heidenhain::expand::run::expand_heidenhain;
-use crate::heidenhain::reader::read_heidenhain;
-use crate::heidenhain::write::write_heidenhain;
+use crate::heidenhain::expand::flat::expand_heidenhain;
+use crate::heidenhain::expand::program::called as called_by_heidenhain;
+use crate::heidenhain::reading::reader::read_heidenhain;
+use crate::heidenhain::writing::write::write_heidenhain;
 use crate::krl::reader::read_krl;
 use crate::krl::write::KrlSyntax;
 use crate::ls::reader::read_ls;
@@ -17,8 +20,9 @@ use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
 use crate::siemens::flat::expand_siemens;
+use crate::siemens::flat::unresolved::called as called_by_siemens;
 use crate::siemens::reader::read_siemens;
-use crate::siemens::write::write_siemens;
+use crate::siemens::writing::write::write_siemens;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
@@ -78,6 +82,29 @@ pub fn expand(
         Language::Siemens => expand_siemens(&files).map(Some),
         _ => Ok(None),
     }
+}
+
+/// Files of other programs that a program may call, by the names under which controls keep them, each once; of languages whose
+/// programs are run once and written flat ([`expand`]).
+///
+/// ```
+/// use kinetostat_formats::{Language, SourceFile, called_files};
+///
+/// let main = SourceFile::new("MAIN.MPF", "G0 Z10\nHOLE(5)\nL20\nHOLE(7)\nM30\n");
+/// assert_eq!(called_files(Language::Siemens, &main), ["HOLE.SPF", "L20.SPF"]);
+/// let main = SourceFile::new("A.H", "0 BEGIN PGM A MM\n1 CALL PGM TNC:\\parts\\B.H\n2 END PGM A MM\n");
+/// assert_eq!(called_files(Language::Heidenhain, &main), ["B.H"]);
+/// ```
+#[must_use]
+pub fn called_files(language: Language, file: &SourceFile) -> Vec<String> {
+    let (names, ending) = match language {
+        Language::Siemens => (called_by_siemens(file), "SPF"),
+        Language::Heidenhain => (called_by_heidenhain(file), "H"),
+        _ => return Vec::new(),
+    };
+    let mut known = BTreeSet::new();
+    let names = names.into_iter().filter(|name| known.insert(name.clone()));
+    names.map(|name| format!("{name}.{ending}")).collect()
 }
 
 /// The files of a program with pieces in place of its motions: names and bytes, in the order of the files.

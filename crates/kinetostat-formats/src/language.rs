@@ -5,13 +5,49 @@ use crate::model::program::Language;
 /// Bytes of a file that are looked at for its language.
 const LOOKED_AT: usize = 1 << 16;
 
-/// Endings that no file in G-code has, and what a file of the language holds.
-const OWN_ENDINGS: [(&[&str], &str, &str); 4] = [
-    (&["mod", "modx"], "RAPID", "MODULE"),
-    (&["src"], "KRL", "DEF"),
-    (&["ls"], "FANUC", "/PROG"),
-    (&["apt", "aptsource", "cls", "cldata"], "APT", "GOTO"),
-];
+/// Endings that files in G-code or of other kinds have, too.
+const SHARED: [&str; 7] = ["prg", "sys", "sysx", "dat", "sub", "cl", "h"];
+
+/// Endings of files of a language, in small letters, the usual one first.
+///
+/// ```
+/// use kinetostat_formats::{Language, endings_of};
+///
+/// assert_eq!(endings_of(Language::Siemens), ["mpf", "spf"]);
+/// assert!(Language::ALL.iter().all(|language| !endings_of(*language).is_empty()));
+/// ```
+#[must_use]
+pub const fn endings_of(language: Language) -> &'static [&'static str] {
+    match language {
+        Language::Rapid => &["mod", "modx", "prg", "sys", "sysx"],
+        Language::Krl => &["src", "dat", "sub"],
+        Language::FanucLs => &["ls"],
+        Language::Apt => &["apt", "cls", "cl", "aptsource", "apt_source", "cldata"],
+        Language::Poses => &["csv", "tsv", "yaml", "yml", "parquet"],
+        Language::Siemens => &["mpf", "spf"],
+        Language::Heidenhain => &["h"],
+    }
+}
+
+/// What a file of a language holds where its ending alone does not say it, and a short name of the language.
+fn held_by(language: Language) -> Option<(&'static str, &'static str)> {
+    match language {
+        Language::Rapid => Some(("MODULE", "RAPID")),
+        Language::Krl => Some(("DEF", "KRL")),
+        Language::FanucLs => Some(("/PROG", "FANUC")),
+        Language::Apt => Some(("GOTO", "APT")),
+        Language::Heidenhain => Some(("BEGIN PGM", "Heidenhain")),
+        // None of them is ever anything else that is read.
+        Language::Poses | Language::Siemens => None,
+    }
+}
+
+/// The language whose files have an ending.
+fn by_ending(ending: &str) -> Option<Language> {
+    let all = Language::ALL.into_iter();
+    all.into_iter()
+        .find(|language| endings_of(*language).contains(&ending))
+}
 
 /// Words in which a language differs from G-code, and the ending that its files have.
 const OWN_WORDS: [(&str, &str, &str); 4] = [
@@ -35,10 +71,9 @@ pub fn odd_program(name: &str, bytes: &[u8]) -> Option<String> {
     let ending = name
         .rsplit_once('.')
         .map(|(_, ending)| ending.to_ascii_lowercase());
-    let by_ending = OWN_ENDINGS
-        .iter()
-        .find(|(endings, _, _)| ending.as_deref().is_some_and(|e| endings.contains(&e)));
-    if let Some((_, language, word)) = by_ending {
+    let own = ending.filter(|ending| !SHARED.contains(&ending.as_str()));
+    let known = own.and_then(|ending| by_ending(&ending));
+    if let Some((word, language)) = known.and_then(held_by) {
         return Some(format!(
             "its ending is that of {language}, and no `{word}` stands in it: give the program as the controller saves it"
         ));
@@ -73,22 +108,12 @@ pub fn language_of(name: &str, bytes: &[u8]) -> Option<Language> {
             .windows(word.len())
             .any(|part| part == word.as_bytes())
     };
-    match ending.as_str() {
-        "ls" if holds("/PROG") => Some(Language::FanucLs),
-        "apt" | "aptsource" | "apt_source" | "cls" | "cl" | "cldata" if holds("GOTO") => {
-            Some(Language::Apt)
-        }
-        "mod" | "modx" | "prg" | "sys" | "sysx" if holds("MODULE") => Some(Language::Rapid),
-        "src" | "dat" | "sub" if holds("DEF") => Some(Language::Krl),
-        // None of them is ever anything else that is read.
-        "csv" | "tsv" | "yaml" | "yml" | "parquet" => Some(Language::Poses),
-        "mpf" | "spf" => Some(Language::Siemens),
-        "nc" | "cnc" | "tap" | "ngc" | "iso" | "txt" if is_siemens(&beginning) => {
-            Some(Language::Siemens)
-        }
-        "h" if holds("BEGIN PGM") => Some(Language::Heidenhain),
-        _ => None,
+    if let Some(language) = by_ending(&ending) {
+        let is_held = held_by(language).is_none_or(|(word, _)| holds(word));
+        return is_held.then_some(language);
     }
+    let shared = ["nc", "cnc", "tap", "ngc", "iso", "txt"].contains(&ending.as_str());
+    (shared && is_siemens(&beginning)).then_some(Language::Siemens)
 }
 
 /// Whether a program that may as well be G-code has lines that only a SINUMERIK reads; in capitals.

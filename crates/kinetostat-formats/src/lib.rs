@@ -59,14 +59,14 @@ mod writing;
 
 pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
-pub use document::{expand, read, write};
+pub use document::{called_files, expand, read, write};
 pub use error::{ProgramError, WriteError};
-pub use heidenhain::expand::run::expand_heidenhain;
-pub use heidenhain::reader::read_heidenhain;
+pub use heidenhain::expand::flat::expand_heidenhain;
+pub use heidenhain::reading::reader::read_heidenhain;
 pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
 pub use krl::reader::read_krl;
 pub use krl::table::KRL_STATEMENTS;
-pub use language::{language_of, odd_program};
+pub use language::{endings_of, language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
 pub use making::compare::Kept;

@@ -92,7 +92,7 @@ fn made(
 ) -> Answer<Made> {
     let refused = |all: Vec<MakeError>| refused(setting, template, &all);
     if let Some(robot) = read.robot() {
-        let done = make_of_robot(&robot.program, &robot.path, &template.template, language);
+        let done = make_of_robot(robot.program, robot.path, &template.template, language);
         return done.map_err(refused);
     }
     if language == MakeLanguage::Gcode {

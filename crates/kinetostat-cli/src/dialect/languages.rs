@@ -1,8 +1,8 @@
 //! The languages that are read, and what their writers keep.
 
 use kinetostat_formats::{
-    APT_STATEMENTS, HEIDENHAIN_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, POSES_STATEMENTS,
-    RAPID_STATEMENTS, SIEMENS_STATEMENTS, StatementRow,
+    APT_STATEMENTS, HEIDENHAIN_STATEMENTS, KRL_STATEMENTS, LS_STATEMENTS, Language as Format,
+    POSES_STATEMENTS, RAPID_STATEMENTS, SIEMENS_STATEMENTS, StatementRow, endings_of,
 };
 
 /// Where the table of a language is.
@@ -37,49 +37,49 @@ pub(crate) const LANGUAGES: [Language; 8] = [
     Language {
         name: "rapid",
         title: "ABB RAPID",
-        endings: &["mod", "modx", "prg", "sys", "sysx"],
+        endings: endings_of(Format::Rapid),
         written: "Written: numbers of targets in place, declarations edited or copied under a free name of at most 32 characters, further motions as MoveL with the same speed, tool and work object. A divided motion stops at its end alone; circles that are corrected become straight motions.",
         words: Words::Statements(RAPID_STATEMENTS),
     },
     Language {
         name: "krl",
         title: "KUKA KRL",
-        endings: &["src", "dat", "sub"],
+        endings: endings_of(Format::Krl),
         written: "Written: numbers in place, in the program or in its data list; points that several motions use copied under a free name of at most 24 characters, with the texts of their FOLDs; further motions as LIN with the same approximation. S, T and external axes stay as they are.",
         words: Words::Statements(KRL_STATEMENTS),
     },
     Language {
         name: "ls",
         title: "FANUC TP programs as text",
-        endings: &["ls"],
+        endings: endings_of(Format::FanucLs),
         written: "Written: numbers of positions in place and in their columns; further motions as L with positions of their own at the end of /POS, lines numbered again and LINE_COUNT raised, since a controller loads only lines that follow one another.",
         words: Words::Statements(LS_STATEMENTS),
     },
     Language {
         name: "apt",
         title: "APT and CLDATA of SolidWorks CAM, NX, CATIA and others",
-        endings: &["apt", "cls", "cl", "aptsource", "cldata"],
+        endings: endings_of(Format::Apt),
         written: "Written: numbers of GOTO in place, further places as GOTO before it; circles that are corrected become straight motions.",
         words: Words::Statements(APT_STATEMENTS),
     },
     Language {
         name: "poses",
         title: "lists of poses: tables (CSV, Parquet) and YAML",
-        endings: &["csv", "tsv", "parquet", "yaml", "yml"],
+        endings: endings_of(Format::Poses),
         written: "Written: numbers in place, in their unit; further poses as copies of the row (CSV, Parquet) or of the item (YAML) before it, with all its other cells and keys. The first pose of a raster stays a motion in air, which is not divided.",
         words: Words::Statements(POSES_STATEMENTS),
     },
     Language {
         name: "siemens",
         title: "Siemens SINUMERIK 840D",
-        endings: &["mpf", "spf"],
+        endings: endings_of(Format::Siemens),
         written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
         words: Words::Statements(SIEMENS_STATEMENTS),
     },
     Language {
         name: "heidenhain",
         title: "Heidenhain conversational programs of TNC 426 to TNC 640",
-        endings: &["h"],
+        endings: endings_of(Format::Heidenhain),
         written: "Written: numbers in place with the file's signs, at most 4 decimals in mm and 5 in inches, as the control takes them (from -99999.9999 to 99999.9999); a coordinate that a block took over from a corrected one is stated. Further blocks stand before the block, with its feed and radius compensation; a function acts on the first or the last of them as it acts on a block. Circles and polar blocks that are corrected become L blocks. Where a file numbers its blocks and gets further ones, all are numbered again. Programs with labels, Q parameters, jumps and drilling cycles are written flat first: at most 5 million blocks.",
         words: Words::Statements(HEIDENHAIN_STATEMENTS),
     },

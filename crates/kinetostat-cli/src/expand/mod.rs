@@ -14,9 +14,11 @@ use crate::expand::arguments::ExpandArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{Existing, Outputs, written};
 use crate::job::expansion::flat::{Flattened, flattened};
-use crate::job::expansion::settings::settings;
+use crate::job::expansion::settings::{folders, settings};
 use crate::job::reading::reading;
+use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::flat_text;
+use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings as robot_settings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot_arguments::RobotArgs;
@@ -58,24 +60,30 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
 
 /// A program of SINUMERIK or Heidenhain.
 fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<()> {
-    if let Some(option) = args.with.given() {
+    if let Some(option) = args.with.given_for_gcode() {
         return Err(Failure::input(format!(
             "{option} is for programs in G-code; leave it out"
         )));
     }
+    let folders = folders(&args.with)?;
     let name = args.program.file_name().unwrap_or_default();
-    let source = RobotSource {
+    let mut source = RobotSource {
         language,
         files: vec![SourceFile::new(name.to_string_lossy(), bytes)],
         paths: Vec::new(),
         parquet: None,
+        reading: Reading::new(),
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };
+    let called = with_called_files(&mut source, &args.program, &folders)?;
     let (text, flat) = flat_text(&source)?;
     let Some(out) = &args.out else {
         return print(text.file.bytes());
     };
-    let inputs = vec![args.program.clone()];
+    let called = called.into_iter().map(|(path, _)| path);
+    let inputs = std::iter::once(args.program.clone())
+        .chain(called)
+        .collect();
     let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
     let index = outputs.claim("flat program", out)?;
     outputs.fill(index, text.file.bytes())?;

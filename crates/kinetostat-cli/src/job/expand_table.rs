@@ -24,5 +24,19 @@ pub(crate) struct ExpandTable {
     pub comments: Option<bool>,
 }
 
+impl ExpandTable {
+    /// The first key that says something of G-code alone.
+    pub(crate) fn given_for_gcode(&self) -> Option<&'static str> {
+        let all = [
+            ("tool_diameters_mm", self.tool_diameters_mm.is_some()),
+            ("parameters", self.parameters.is_some()),
+            ("dialect", self.dialect.is_some()),
+            ("comments", self.comments.is_some()),
+        ];
+        all.into_iter()
+            .find_map(|(name, given)| given.then_some(name))
+    }
+}
+
 /// Numbers with a value each.
 pub(crate) type NumberedTable = Spanned<BTreeMap<Spanned<String>, Spanned<f64>>>;

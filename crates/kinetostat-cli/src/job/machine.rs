@@ -48,14 +48,22 @@ pub(crate) struct MachineSetup {
     pub(crate) fingerprint: u64,
 }
 
-/// The machine, its tool, the placement and the load.
-pub(crate) fn machine_setup(
+/// A model as it was read.
+struct ReadModel {
+    model: Model,
+    /// None of a preset.
+    path: Option<PathBuf>,
+    file: FileRead,
+    /// Its file, or the name of a preset.
+    source: String,
+}
+
+/// The model that an option or the job names.
+fn read_model(
     files: &InputFiles,
     job: Option<&JobFile>,
     flag_model: Option<&str>,
-    flags: &ProgramArgs,
-    (frames, inputs): (Option<&RobotFrames>, &mut Vec<PathBuf>),
-) -> Answer<(MachineSetup, Model)> {
+) -> Answer<ReadModel> {
     let table = job.and_then(|j| j.job.model.as_ref());
     let (named, base) = match (flag_model, table) {
         (Some(named), _) => (named.to_owned(), PathBuf::new()),
@@ -74,8 +82,7 @@ pub(crate) fn machine_setup(
         }
     };
     let (model, path) = files.model(&named, &base)?;
-    inputs.extend(path.clone());
-    let model_file = match &path {
+    let file = match &path {
         Some(path) => origin::file("model", path, &files.bytes("model", path)?),
         None => origin::file(
             "model",
@@ -83,7 +90,29 @@ pub(crate) fn machine_setup(
             model.text.as_bytes(),
         ),
     };
-    let model = with_deviations(model, job)?;
+    let source = match &path {
+        Some(_) => named,
+        None => format!("preset {named}"),
+    };
+    Ok(ReadModel {
+        model,
+        path,
+        file,
+        source,
+    })
+}
+
+/// The machine, its tool, the placement and the load.
+pub(crate) fn machine_setup(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    flag_model: Option<&str>,
+    flags: &ProgramArgs,
+    (frames, inputs): (Option<&RobotFrames>, &mut Vec<PathBuf>),
+) -> Answer<(MachineSetup, Model)> {
+    let named = read_model(files, job, flag_model)?;
+    inputs.extend(named.path);
+    let model = with_deviations(named.model, job)?;
     let fingerprint = fingerprint(&model);
     let (mut tool, mut tool_words) = tool(job, flags)?;
     if let Some(frames) = frames {
@@ -120,14 +149,10 @@ pub(crate) fn machine_setup(
         let described = (&mut tool_words, &mut given);
         tools = tools_of_robot(frames, &model.mechanism, load, described)?;
     }
-    let source = match &path {
-        Some(_) => named,
-        None => format!("preset {named}"),
-    };
     let run_inputs = {
         let mut run_inputs = RunInputs::default();
         run_inputs.model = model.name().to_owned();
-        run_inputs.model_source = source;
+        run_inputs.model_source = named.source;
         run_inputs.model_deviations = deviation_descriptions(&model);
         run_inputs.placement = placement_description(&placement);
         run_inputs.tool = tool_words;
@@ -136,7 +161,7 @@ pub(crate) fn machine_setup(
         run_inputs.cut.extend(log);
         run_inputs.tool_orientation = orientation::description(&placement.tool_orientation);
         run_inputs.stiffnesses = stiffness_list::stiffnesses(&model);
-        run_inputs.files = vec![model_file];
+        run_inputs.files = vec![named.file];
         run_inputs.files.extend(files_of_cut);
         run_inputs
     };

@@ -17,6 +17,7 @@ use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, beside_program, output_paths};
 use crate::job::reading::reading;
+use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::flat_text;
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::read_program::read_robot;
@@ -150,7 +151,11 @@ pub(crate) fn setting(
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());
-        if expand.is_some() {
+        if let Some(expand) = &expand {
+            for (path, read) in with_called_files(&mut source, &path, &expand.folders)? {
+                program_files.push(read);
+                inputs.push(path);
+            }
             let (text, flat) = flat_text(&source)?;
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             source.files = vec![text.file];

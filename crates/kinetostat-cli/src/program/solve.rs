@@ -190,7 +190,7 @@ pub(crate) fn solve(
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {
-        let other = other_configuration(&read.program, &read.path, &run.points);
+        let other = other_configuration(read.program, read.path, &run.points);
         run.result.warnings.extend(other);
     }
     if let Some(limit) = setting.max_blocks_per_second

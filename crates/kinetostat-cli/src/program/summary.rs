@@ -3,7 +3,7 @@
 use kinetostat_machining::number::{
     MISSING, Rounding, against, largest, largest_length, significant, with_unit,
 };
-use kinetostat_machining::{Figures, PointResult, RunResult};
+use kinetostat_machining::{Figures, PointResult, RunResult, Summary};
 
 use crate::program::flat_lines::listed_under;
 use crate::ui::layout::{columns, item, wrapped};
@@ -86,120 +86,156 @@ pub(crate) fn result_text(result: &RunResult) -> String {
     text
 }
 
+/// Rows of figures: a name, and what it is before and after.
+struct Table {
+    compensated: bool,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn row(&mut self, name: &str, before: &str, after: &str) {
+        let cells = match self.compensated {
+            true => vec![name, before, after],
+            false => vec![name, before],
+        };
+        self.rows
+            .push(cells.into_iter().map(str::to_owned).collect());
+    }
+
+    /// A figure of the run, in the last column.
+    fn last(&mut self, name: &str, value: &str) {
+        match self.compensated {
+            true => self.row(name, "", value),
+            false => self.row(name, value, ""),
+        }
+    }
+}
+
 /// The figures: a name, and what it is before and after.
 fn figures(result: &RunResult) -> String {
     let s = &result.summary;
     let f = Figures::of(result);
-    let mut rows = Vec::new();
-    let compensated = result.run_inputs.compensated;
-    let mut row = |name: &str, before: &str, after: &str| {
-        let cells = match compensated {
-            true => vec![name, before, after],
-            false => vec![name, before],
-        };
-        rows.push(cells.into_iter().map(str::to_owned).collect());
+    let mut table = Table {
+        compensated: result.run_inputs.compensated,
+        rows: Vec::new(),
     };
-    if compensated {
-        row("", "before", "after");
+    if table.compensated {
+        table.row("", "before", "after");
     }
-    row("largest position error", &f.error_before, &f.error_after);
-    row("root mean square of it", &f.rms_before, &f.rms_after);
-    if compensated {
-        row("of that by rounding", "", &f.rounding);
-        let allowed = against(s.max_position_error_after_mm, result.tolerance.allowed_mm).1;
-        row("error allowed in all", "", &allowed);
-        row("largest correction", "", &f.correction);
-        if let (Some(value), Some(change)) = (&f.change, &s.largest_change_mm_per_mm) {
-            row(
-                &format!("largest change outside steps, line {}", change.line),
-                "",
-                value,
-            );
-            if let Some(stated) = change.stated {
-                row("largest one stated", "", &format!("{stated} mm/mm"));
-            }
+    table.row("largest position error", &f.error_before, &f.error_after);
+    table.row("root mean square of it", &f.rms_before, &f.rms_after);
+    match table.compensated {
+        true => {
+            corrections(&mut table, result, &f);
+            steps(&mut table, s, &f);
+            sizes(&mut table, s, &f);
         }
-        row("tool tilt that stays", "", &f.rotation);
-        // Pieces whose feed is limited are slower, and have a row of their own.
-        let speed = match s.feed_limited_pieces {
-            0 => "speed along the part, error",
-            _ => "its error where no feed is limited",
-        };
-        if s.feed_limited_pieces > 0 {
-            let slowest = s.slowest_limited_speed_percent.unwrap_or(f64::NAN);
-            let slowest = with_unit(&significant(slowest, 2, Rounding::Down), "%");
-            row("slowest speed along the part", "", &slowest);
+        false => {
+            table.row("tilt of the tool", &f.rotation, "");
+            table.row("blocks", &s.blocks.to_string(), "");
         }
-        row(speed, "", &f.speed);
-        let of = |count: usize| count.to_string();
-        if s.feed_limited_pieces > 0 {
-            row(
-                "pieces slower, feed limited",
-                "",
-                &of(s.feed_limited_pieces),
-            );
-        }
-        if let Some(longest) = &f.corner_step {
-            row("corner steps", "", &of(s.corner_steps));
-            row("longest of them", "", longest);
-        }
-        if let Some(longest) = &f.entry_step {
-            row("steps where a rapid ends", "", &of(s.entry_steps));
-            row("longest of these", "", longest);
-        }
-        if s.corner_steps + s.entry_steps > 0 {
-            let backwards = largest_length(s.largest_backward_step_mm);
-            row("longest way backwards", "", &backwards);
-        }
-        let mm = |value: f64| with_unit(&significant(value, 5, Rounding::Nearest), "mm");
-        let (before, after) = (mm(s.feed_length_before_mm), mm(s.feed_length_after_mm));
-        row("length at feed", &before, &after);
-        if let (Some(before), Some(after)) = (s.feed_time_before_s, s.feed_time_after_s) {
-            let seconds = |value: f64| with_unit(&significant(value, 4, Rounding::Nearest), "s");
-            row("time at feed", &seconds(before), &seconds(after));
-        }
-        row("blocks", &of(s.blocks), &of(s.blocks_out));
-        row("bytes", &of(s.bytes_in), &of(s.bytes_out));
-        if let Some(shortest) = &f.shortest_piece {
-            row("shortest piece of a divided block", "", shortest);
-        }
-        let rate =
-            |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |r| largest(r, "1/s"));
-        let mean = |rate: Option<f64>| {
-            let nearest = |r| with_unit(&significant(r, 3, Rounding::Nearest), "1/s");
-            rate.map_or_else(|| MISSING.to_owned(), nearest)
-        };
-        row(
-            "blocks per second",
-            &mean(s.mean_blocks_per_second_before),
-            &mean(s.mean_blocks_per_second_after),
-        );
-        row(
-            "most of 16 in a row",
-            &rate(s.peak_blocks_per_second_before),
-            &rate(s.peak_blocks_per_second_after),
-        );
-    } else {
-        row("tilt of the tool", &f.rotation, "");
-        row("blocks", &s.blocks.to_string(), "");
     }
-    let mut last = |name: &str, value: &str| match compensated {
-        true => row(name, "", value),
-        false => row(name, value, ""),
-    };
-    last("path at feed", &f.feed_length);
-    last("points solved", &s.points.to_string());
-    last("smallest stiffness against a force", &f.stiffness);
+    table.last("path at feed", &f.feed_length);
+    table.last("points solved", &s.points.to_string());
+    table.last("smallest stiffness against a force", &f.stiffness);
     if let Some(share) = &f.share_to_buckling {
-        last("share of the way to buckling", share);
+        table.last("share of the way to buckling", share);
     }
     if let Some(distance) = &f.nearest_limit {
-        last("smallest distance to a limit", distance);
+        table.last("smallest distance to a limit", distance);
     }
     if let Some(share) = &f.share_of_rating {
-        last("largest share of a rating", share);
+        table.last("largest share of a rating", share);
     }
-    columns(&rows, 2)
+    columns(&table.rows, 2)
+}
+
+/// How large corrections are, and what they leave.
+fn corrections(table: &mut Table, result: &RunResult, f: &Figures) {
+    let s = &result.summary;
+    table.row("of that by rounding", "", &f.rounding);
+    let allowed = against(s.max_position_error_after_mm, result.tolerance.allowed_mm).1;
+    table.row("error allowed in all", "", &allowed);
+    table.row("largest correction", "", &f.correction);
+    if let (Some(value), Some(change)) = (&f.change, &s.largest_change_mm_per_mm) {
+        table.row(
+            &format!("largest change outside steps, line {}", change.line),
+            "",
+            value,
+        );
+        if let Some(stated) = change.stated {
+            table.row("largest one stated", "", &format!("{stated} mm/mm"));
+        }
+    }
+    table.row("tool tilt that stays", "", &f.rotation);
+    // Pieces whose feed is limited are slower, and have a row of their own.
+    let speed = match s.feed_limited_pieces {
+        0 => "speed along the part, error",
+        _ => "its error where no feed is limited",
+    };
+    if s.feed_limited_pieces > 0 {
+        let slowest = s.slowest_limited_speed_percent.unwrap_or(f64::NAN);
+        let slowest = with_unit(&significant(slowest, 2, Rounding::Down), "%");
+        table.row("slowest speed along the part", "", &slowest);
+    }
+    table.row(speed, "", &f.speed);
+    let of = |count: usize| count.to_string();
+    if s.feed_limited_pieces > 0 {
+        table.row(
+            "pieces slower, feed limited",
+            "",
+            &of(s.feed_limited_pieces),
+        );
+    }
+}
+
+/// Steps that the corrected path has at corners and at ends of rapids.
+fn steps(table: &mut Table, s: &Summary, f: &Figures) {
+    let of = |count: usize| count.to_string();
+    if let Some(longest) = &f.corner_step {
+        table.row("corner steps", "", &of(s.corner_steps));
+        table.row("longest of them", "", longest);
+    }
+    if let Some(longest) = &f.entry_step {
+        table.row("steps where a rapid ends", "", &of(s.entry_steps));
+        table.row("longest of these", "", longest);
+    }
+    if s.corner_steps + s.entry_steps > 0 {
+        let backwards = largest_length(s.largest_backward_step_mm);
+        table.row("longest way backwards", "", &backwards);
+    }
+}
+
+/// Length, time and blocks of the program before and after.
+fn sizes(table: &mut Table, s: &Summary, f: &Figures) {
+    let of = |count: usize| count.to_string();
+    let mm = |value: f64| with_unit(&significant(value, 5, Rounding::Nearest), "mm");
+    let (before, after) = (mm(s.feed_length_before_mm), mm(s.feed_length_after_mm));
+    table.row("length at feed", &before, &after);
+    if let (Some(before), Some(after)) = (s.feed_time_before_s, s.feed_time_after_s) {
+        let seconds = |value: f64| with_unit(&significant(value, 4, Rounding::Nearest), "s");
+        table.row("time at feed", &seconds(before), &seconds(after));
+    }
+    table.row("blocks", &of(s.blocks), &of(s.blocks_out));
+    table.row("bytes", &of(s.bytes_in), &of(s.bytes_out));
+    if let Some(shortest) = &f.shortest_piece {
+        table.row("shortest piece of a divided block", "", shortest);
+    }
+    let rate = |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |r| largest(r, "1/s"));
+    let mean = |rate: Option<f64>| {
+        let nearest = |r| with_unit(&significant(r, 3, Rounding::Nearest), "1/s");
+        rate.map_or_else(|| MISSING.to_owned(), nearest)
+    };
+    table.row(
+        "blocks per second",
+        &mean(s.mean_blocks_per_second_before),
+        &mean(s.mean_blocks_per_second_after),
+    );
+    table.row(
+        "most of 16 in a row",
+        &rate(s.peak_blocks_per_second_before),
+        &rate(s.peak_blocks_per_second_after),
+    );
 }
 
 fn actuators(result: &RunResult) -> String {

@@ -53,3 +53,58 @@ fn what_cannot_be_run_is_named_and_nothing_is_written() {
         assert_eq!(names.len(), 1, "{names:?}");
     }
 }
+
+/// Main program and subprogram of a control, with the flat text and the names of the files.
+const CONTROLS: [(&str, &str, &str, &str, &str); 2] = [
+    (
+        "main.mpf",
+        "G0 X0 Y0 Z5\nHOLE(3)\nM30\n",
+        "Hole.spf",
+        "PROC HOLE(REAL DEPTH)\nG1 Z=-DEPTH F100\nG0 Z5\nRET\n",
+        "G0 X0 Y0 Z5\nG1 Z=-3 F100\nG0 Z5\nM30\n",
+    ),
+    (
+        "MAIN.H",
+        "BEGIN PGM MAIN MM\nL X+0 Y+0 Z+5 FMAX\nCALL PGM TNC:\\HOLES\\HOLE.H\nEND PGM MAIN MM\n",
+        "hole.h",
+        "BEGIN PGM HOLE MM\nL Z-3 F100\nL Z+5 FMAX\nEND PGM HOLE MM\n",
+        "BEGIN PGM MAIN MM\nL X+0 Y+0 Z+5 FMAX\nL Z-3 F100\nL Z+5 FMAX\nEND PGM MAIN MM\n",
+    ),
+];
+
+#[test]
+fn programs_of_controls_find_their_subprograms_in_folders() {
+    for (main, text, name, subprogram, flat) in CONTROLS {
+        let here = tempfile::tempdir().unwrap();
+        std::fs::write(here.path().join(main), text).unwrap();
+        let expand = |more: &[&str]| run(here.path(), &[&["expand", main][..], more].concat());
+        let said = expand(&[]);
+        assert_eq!(said.code, 1, "{said:?}");
+        assert!(said.err.contains("--subprograms FOLDER"), "{said:?}");
+        assert!(said.err.contains("line "), "{said:?}");
+        std::fs::create_dir(here.path().join("parts")).unwrap();
+        std::fs::write(here.path().join("parts").join(name), subprogram).unwrap();
+        let said = expand(&["--subprograms", "parts"]);
+        assert_eq!((said.code, said.out.as_str()), (0, flat), "{said:?}");
+        // The folder of the program is one, too; what is read is never overwritten.
+        std::fs::write(here.path().join(name), subprogram).unwrap();
+        let said = expand(&[]);
+        assert_eq!((said.code, said.out.as_str()), (0, flat), "{said:?}");
+        let said = expand(&["--out", name, "--force-overwrite"]);
+        assert_eq!(said.code, 1, "{said:?}");
+        assert_eq!(
+            std::fs::read_to_string(here.path().join(name)).unwrap(),
+            subprogram
+        );
+        let said = expand(&["--subprograms", "nowhere"]);
+        assert!(
+            said.err.contains("--subprograms: 'nowhere' is no folder"),
+            "{said:?}"
+        );
+        let said = expand(&["--parameter", "1=2"]);
+        assert!(
+            said.err.contains("--parameter is for programs in G-code"),
+            "{said:?}"
+        );
+    }
+}

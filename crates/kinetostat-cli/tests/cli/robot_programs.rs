@@ -369,6 +369,9 @@ fn programs_of_controls_with_loops_are_run_once_and_compensated_flat() {
             table.lines().next().unwrap().contains("source_line"),
             "{table}"
         );
+        let odd = run(here, &words(&format!("{line} --expand --parameter 1=2")));
+        assert_eq!(odd.code, 1);
+        assert!(odd.err.contains("--parameter is for G-code"), "{odd:?}");
         let pose = run(
             here,
             &words(&format!("{line} --expand --correct pose --force-overwrite")),

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::heidenhain::words::{Word, words_of};
+use crate::text::source::beginning;
 
 /// A block.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +56,11 @@ fn block(bytes: &[u8], lines: Range<usize>) -> Block {
             .take_while(|byte| matches!(byte, b' ' | b'\t'));
         from + blanks.count()
     };
-    let mut at = blanks(lines.start);
+    let mark = match lines.start {
+        0 => beginning(&bytes[lines.clone()]),
+        _ => 0,
+    };
+    let mut at = blanks(lines.start + mark);
     let mut skipped = false;
     let mut number = None;
     // The sign stands before the number or behind it.

@@ -47,6 +47,15 @@ impl Ends<'_> {
     /// The end of a path block and its way, in the programmed axes.
     pub(crate) fn of(&mut self, words: &[Word], parsed: &PathWords) -> Result<Went, Reason> {
         let unit = self.unit_mm;
+        let kind = words[0].letters;
+        let along_z = kind.is("L")
+            && parsed
+                .places
+                .iter()
+                .all(|at| words[*at].is("Z") || words[*at].is("IZ"));
+        if !along_z {
+            self.state.settle();
+        }
         let mut end = self.state.place;
         for axis in 0..3 {
             if let Some(Coordinate { value, step, .. }) = parsed.axes[axis] {
@@ -56,7 +65,6 @@ impl Ends<'_> {
                 };
             }
         }
-        let kind = words[0].letters;
         let is_polar = matches!(kind.letters(), b"LP" | b"CP" | b"CTP");
         if !is_polar && (parsed.radius.is_some() || parsed.angle.is_some()) {
             return Err((

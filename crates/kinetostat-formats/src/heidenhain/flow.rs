@@ -20,6 +20,10 @@ pub(crate) fn label_name(bytes: &[u8], word: &Word) -> Option<String> {
     }
 }
 
+/// What is said of a second label of one name, and what to do.
+pub(crate) const LABEL_TWICE: &str = "there is a label of this name above";
+pub(crate) const NAME_IT: &str = "name it otherwise";
+
 /// The labels of a file, and blocks that state one a second time.
 pub(crate) fn labels_of(bytes: &[u8], blocks: &[Block]) -> (Labels, Vec<usize>) {
     let (mut labels, mut twice) = (Labels::new(), Vec::new());

@@ -19,6 +19,8 @@ pub(crate) struct Pole {
 pub(crate) struct State {
     /// Where the tool is in the programmed axes, mm; none where that is not known.
     pub place: [Option<f64>; 3],
+    /// A rotation began or ended, and X and Y were not stated since: where a block with one of them goes is not known.
+    pub unsettled: bool,
     pub pole: Option<Pole>,
     /// The last polar radius about this pole, mm.
     pub radius_mm: Option<f64>,
@@ -49,6 +51,7 @@ impl State {
     pub(crate) fn new() -> Self {
         Self {
             place: [None; 3],
+            unsettled: false,
             pole: None,
             radius_mm: None,
             direction: None,
@@ -66,9 +69,24 @@ impl State {
         }
     }
 
-    /// Where it is in the plane.
+    /// Where it is in the plane, as far as words count from there.
     pub(crate) fn in_plane(&self) -> Option<Vector2<f64>> {
-        Some(Vector2::new(self.place[0]?, self.place[1]?))
+        let [x, y, _] = self.counts_from();
+        Some(Vector2::new(x?, y?))
+    }
+
+    /// The place that words of a block count from.
+    pub(crate) fn counts_from(&self) -> [Option<f64>; 3] {
+        match self.unsettled {
+            true => [None, None, self.place[2]],
+            false => self.place,
+        }
+    }
+
+    /// A block moves in the plane.
+    pub(crate) fn settle(&mut self) {
+        self.place = self.counts_from();
+        self.unsettled = false;
     }
 
     /// The tool's length or the machine's axes are others now.
@@ -89,7 +107,8 @@ impl State {
         }
     }
 
-    /// Mirrors, turns or scales. What is not stated again behind it is not known.
+    /// Mirrors, turns or scales. What is not stated again behind it is not known; behind a rotation the tool stays where it is
+    /// until X or Y is stated.
     pub(crate) fn bend(&mut self, bend: Bend) {
         if bend == self.datum.bend {
             return;
@@ -101,12 +120,18 @@ impl State {
                 Bend::None | Bend::Rotation(_)
             )
         );
+        let before = self.datum;
         self.datum.bend = bend;
-        self.place[0] = None;
-        self.place[1] = None;
-        if !in_plane {
-            self.place[2] = None;
-        }
+        self.place = match (in_plane, self.place) {
+            (true, [Some(x), Some(y), z]) => {
+                self.unsettled = true;
+                let there = before.preset(&Vector3::new(x, y, 0.0));
+                let here = self.datum.programmed(&there);
+                [Some(here.x), Some(here.y), z]
+            }
+            (true, [_, _, z]) => [None, None, z],
+            (false, _) => [None; 3],
+        };
         self.pole = None;
         self.direction = None;
     }

@@ -56,6 +56,9 @@ impl Word {
     }
 }
 
+/// Larger than any length, feed or angle of a program.
+const LARGEST: f64 = 1e9;
+
 /// Letters longer than this are no word of the language: they are cut.
 const LONGEST: usize = 32;
 
@@ -165,7 +168,8 @@ fn value(bytes: &[u8], from: usize, end: usize, sign_alone: bool) -> (Value, usi
                 other => char::from(*other),
             })
             .collect();
-        if let Ok(size) = text.parse::<f64>() {
+        // What is larger is no number of a program.
+        if let Some(size) = text.parse::<f64>().ok().filter(|size| *size < LARGEST) {
             let value = sign.unwrap_or(1.0) * size;
             let span = start..body + count;
             return (Value::Number(NumberText { span, value }), body + count);

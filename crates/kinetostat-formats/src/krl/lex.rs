@@ -11,7 +11,7 @@ use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
 use crate::text::name::Name;
-use crate::text::source::SourceFile;
+use crate::text::source::{SourceFile, beginning};
 
 type Input<'i> = LocatingSlice<&'i [u8]>;
 type Nothing = winnow::error::EmptyError;
@@ -68,10 +68,7 @@ impl<'a> TokenFile<'a> {
         let bytes = source.bytes();
         let mut tokens = Vec::with_capacity(bytes.len() / 4);
         let mut lines = Vec::new();
-        let mut start = match bytes.starts_with(b"\xef\xbb\xbf") {
-            true => 3,
-            false => 0,
-        };
+        let mut start = beginning(bytes);
         while start < bytes.len() {
             let length = bytes[start..].iter().position(|byte| *byte == b'\n');
             let end = length.map_or(bytes.len(), |length| start + length);

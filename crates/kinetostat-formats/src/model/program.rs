@@ -26,6 +26,19 @@ pub enum Language {
     Heidenhain,
 }
 
+impl Language {
+    /// Each language once.
+    pub const ALL: [Self; 7] = [
+        Self::Rapid,
+        Self::Krl,
+        Self::FanucLs,
+        Self::Apt,
+        Self::Siemens,
+        Self::Heidenhain,
+        Self::Poses,
+    ];
+}
+
 /// Something that a person should know of a program that was taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {

@@ -5,8 +5,8 @@ use kinetostat_program::COMPENSATED_MARK;
 use crate::heidenhain::numbering;
 use crate::ls::write::numbered_again;
 use crate::model::program::Language;
-use crate::poses::carrier::beginning;
 use crate::text::source::SourceFile;
+use crate::text::source::beginning;
 
 /// Prefix of every header line.
 const PREFIX: &str = "kinetostat: ";

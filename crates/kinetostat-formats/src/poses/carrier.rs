@@ -1,6 +1,6 @@
 //! Whether a list of poses is a table or YAML.
 
-use crate::text::source::SourceFile;
+use crate::text::source::{SourceFile, beginning};
 
 /// How a list of poses is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,18 +10,6 @@ pub(crate) enum Carrier {
     /// YAML.
     Yaml,
 }
-
-/// Bytes that some editors write before the first character of a file in UTF-8.
-pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
-/// Where the text of a file begins.
-pub(crate) fn beginning(bytes: &[u8]) -> usize {
-    match bytes.starts_with(BYTE_ORDER_MARK) {
-        true => BYTE_ORDER_MARK.len(),
-        false => 0,
-    }
-}
-
 impl Carrier {
     /// By the ending of the name; where that says nothing, by the first line that is neither empty nor a comment.
     pub(crate) fn of(file: &SourceFile) -> Self {

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use crate::poses::carrier::beginning;
 use crate::poses::cells::{PARQUET_ROW, cells_of, number_of, separator_of};
 use crate::poses::layout::{Named, layout_of};
 use crate::poses::row::{PART, RowContext, Rows, row_of};
 use crate::poses::table::TABLE_HELP;
 use crate::text::source::SourceFile;
+use crate::text::source::beginning;
 
 const QUOTE: (&str, &str) = (
     "a quote is not closed on its line, or something stands behind it",

@@ -1,6 +1,6 @@
 //! Lists of poses and of joint values as tables (CSV) and as YAML.
 //!
-//! Which of the two a file is, [`carrier`] says; [`cells`] finds the cells of a line, [`tree`] the nodes of YAML. What a name means,
+//! Which of the two a file is, [`carrier`] says; [`cells`] finds the cells of a line, [`tree`] the nodes of YAML ([`characters`]). What a name means,
 //! [`columns`] says, and [`layout`] what all names of a row mean together; [`row`] reads the row. [`units`] decides what a length
 //! is: a wrong factor of 1000 is the worst fault of such a list. What each name is taken for stands in [`table`].
 //!
@@ -8,6 +8,7 @@
 
 pub(crate) mod carrier;
 pub(crate) mod cells;
+pub(crate) mod characters;
 pub(crate) mod columns;
 pub(crate) mod csv;
 pub(crate) mod layout;

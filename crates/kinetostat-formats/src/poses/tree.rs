@@ -1,12 +1,13 @@
 //! YAML as nodes with their bytes.
 //!
-//! The parser counts characters; it is given one character for each byte, so that its places are bytes.
+//! The parser counts characters; it is given one character for each byte ([`crate::poses::characters`]), so that its places are bytes.
 
 use std::ops::Range;
 
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
-use crate::poses::carrier::beginning;
+use crate::poses::characters::Characters;
+use crate::text::source::beginning;
 
 /// A node.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,15 +50,7 @@ struct Open {
 /// Where the file is no YAML.
 pub(crate) fn documents_of(bytes: &[u8]) -> Result<Vec<Node>, TreeFault> {
     let from = beginning(bytes);
-    let text: String = bytes[from..]
-        .iter()
-        .map(|byte| match byte {
-            0..=0x7f => char::from(*byte),
-            // What is not ASCII is never a number or a name that counts.
-            _ => 'x',
-        })
-        .collect();
-    let mut parser = Parser::new_from_str(&text);
+    let mut parser = Parser::new(Characters::of(&bytes[from..]));
     let mut open: Vec<Open> = Vec::new();
     let mut documents = Vec::new();
     while let Some(next) = parser.next_event() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::options::LengthUnit;
 use crate::poses::cells::number_of;
 use crate::poses::columns::{Column, Refusal, column_of};
-use crate::poses::layout::{Named, layout_of};
+use crate::poses::layout::{Layout, Named, layout_of};
 use crate::poses::row::{PART, RowContext, Rows, row_of};
 use crate::poses::tree::{Kind, Node, documents_of};
 use crate::text::source::SourceFile;
@@ -18,6 +18,8 @@ pub(crate) struct YamlRows {
     pub unit: Option<LengthUnit>,
     /// It has the headers of ROS messages, whose lengths are metres by definition.
     pub is_ros: bool,
+    /// The names of the last item, and what they mean: those of the next one are mostly the same.
+    last: (Vec<Named>, Layout),
 }
 
 /// Reads the rasters of a file.
@@ -189,16 +191,23 @@ impl YamlRows {
         if self.rows.faults.len() > before {
             return;
         }
-        let names: Vec<Named> = cells.iter().map(|(named, _)| named.clone()).collect();
-        let layout = match layout_of(&names, &item.span) {
-            Ok(layout) => layout,
-            Err(faults) => {
-                for (span, reason, remedy) in faults {
-                    self.rows.fault(file, &span, reason, remedy);
+        let known = &self.last.0;
+        let mut pairs = known.iter().zip(&cells);
+        let same =
+            known.len() == cells.len() && pairs.all(|(own, (named, _))| own.name == named.name);
+        if !same || cells.is_empty() {
+            let names: Vec<Named> = cells.iter().map(|(named, _)| named.clone()).collect();
+            match layout_of(&names, &item.span) {
+                Ok(layout) => self.last = (names, layout),
+                Err(faults) => {
+                    for (span, reason, remedy) in faults {
+                        self.rows.fault(file, &span, reason, remedy);
+                    }
+                    return;
                 }
-                return;
             }
-        };
+        }
+        let layout = &self.last.1;
         if self.unit.is_some() && self.unit != layout.unit {
             let reason = "its place is in another unit than the ones before";
             let remedy = "write all places in one unit";
@@ -209,7 +218,7 @@ impl YamlRows {
         let spans: Vec<Range<usize>> = cells.into_iter().map(|(_, span)| span).collect();
         let dash = dash_of(file, item);
         let context = RowContext {
-            layout: &layout,
+            layout,
             span: dash.unwrap_or(item.span.start)..item.span.end,
             first,
             frame: &own,

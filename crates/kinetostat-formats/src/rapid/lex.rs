@@ -10,6 +10,8 @@ use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
+use crate::text::source::BYTE_ORDER_MARK;
+
 type Input<'i> = LocatingSlice<&'i [u8]>;
 type Nothing = winnow::error::EmptyError;
 
@@ -53,7 +55,7 @@ pub(crate) fn tokens_of(bytes: &[u8]) -> Vec<Token> {
     let mut tokens = Vec::with_capacity(bytes.len() / 3);
     let mut input = LocatingSlice::new(bytes);
     // What editors put at the beginning of UTF-8.
-    let _: Result<_, Nothing> = opt(b"\xef\xbb\xbf").parse_next(&mut input);
+    let _: Result<_, Nothing> = opt(BYTE_ORDER_MARK).parse_next(&mut input);
     let _ = header(&mut input);
     // `token` takes at least one byte and matches every byte, so the loop ends with the file.
     while let Ok((kind, span)) = token.with_span().parse_next(&mut input) {

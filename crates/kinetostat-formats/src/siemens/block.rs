@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::siemens::expression::{Cursor, Expression};
 use crate::siemens::tokens::{Broken, Kind, Sign, Token, tokens_of};
+use crate::text::source::beginning;
 
 /// A block: a line of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +95,12 @@ impl Block {
     /// # Errors
     /// What cannot be read in it.
     pub(crate) fn of(bytes: &[u8], line: Range<usize>) -> Result<(Self, Vec<Token>), Broken> {
-        let start = line.start + leading_blanks(&bytes[line.clone()]);
+        let mark = match line.start {
+            0 => beginning(&bytes[line.clone()]),
+            _ => 0,
+        };
+        let text = line.start + mark..line.end;
+        let start = text.start + leading_blanks(&bytes[text]);
         let mut block = Self {
             span: start..start,
             skip: false,

@@ -1,13 +1,15 @@
 //! SINUMERIK 840D: part programs and subprograms as text.
 //!
-//! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`]) and what blocks do
+//! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`], [`codes`], [`axes_beside`]) and what blocks do
 //! ([`motion`], [`arcs`], [`frames`]) along a program that runs straight on ([`scan`]). Programs with jumps, loops, calls and
-//! drilling cycles are run once and written flat ([`flat`]). What each word is taken for stands in [`table`].
+//! drilling cycles are run once and written flat ([`flat`]); what is corrected is written by [`writing`]. What each word is taken for stands in [`table`].
 //!
 //! Source: Siemens, SINUMERIK 840D sl / 828D, Programming Manuals Fundamentals, Job Planning and Cycles, and public programs.
 
 pub(crate) mod arcs;
+mod axes_beside;
 pub(crate) mod block;
+mod codes;
 pub(crate) mod declarations;
 pub(crate) mod expression;
 mod files;
@@ -24,4 +26,4 @@ pub(crate) mod tokens;
 pub(crate) mod values;
 mod walker;
 mod words;
-pub(crate) mod write;
+pub(crate) mod writing;

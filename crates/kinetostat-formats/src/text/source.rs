@@ -2,6 +2,17 @@
 
 use std::ops::Range;
 
+/// What some editors write before the first letter of a text.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Where the text of a file begins.
+pub(crate) fn beginning(bytes: &[u8]) -> usize {
+    match bytes.starts_with(BYTE_ORDER_MARK) {
+        true => BYTE_ORDER_MARK.len(),
+        false => 0,
+    }
+}
+
 /// A file of a program as it was read; nothing in it is ever changed.
 ///
 /// ```

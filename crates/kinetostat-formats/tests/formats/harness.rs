@@ -15,6 +15,8 @@ pub struct Kind {
     pub options: ReadOptions,
     /// Whether an orientation can be turned by itself.
     pub turns: bool,
+    /// Whether speeds are changed, too.
+    pub speeds: bool,
     /// Words that break a text.
     pub words: &'static [&'static str],
     pub place_mm: f64,
@@ -35,7 +37,7 @@ pub fn broken(chance: &mut Chance, text: &str, kind: &Kind) -> Vec<u8> {
                 bytes.splice(to..to, copy);
             }
             2 => {
-                let symbols = b";,:[](){}/$'\"!%=\n+-.E9\xffA ";
+                let symbols = b";,:[](){}/\\&$#'\"!%=\n+-.E9\xffA ";
                 bytes[at] = symbols[chance.below(symbols.len())];
             }
             3 => {
@@ -52,8 +54,22 @@ pub fn broken(chance: &mut Chance, text: &str, kind: &Kind) -> Vec<u8> {
 }
 
 pub fn read_bytes(kind: &Kind, bytes: &[u8]) -> Result<RobotProgram, Vec<ProgramError>> {
-    let files = vec![SourceFile::new("a.txt", bytes)];
-    read(kind.language, files, &kind.options)
+    read_files(kind, &[bytes.to_vec()])
+}
+
+/// A program of several files; the second is its data list.
+pub fn read_files(kind: &Kind, files: &[Vec<u8>]) -> Result<RobotProgram, Vec<ProgramError>> {
+    let named = NAMES.iter().zip(files);
+    let files = named.map(|(name, bytes)| SourceFile::new(*name, bytes.as_slice()));
+    read(kind.language, files.collect(), &kind.options)
+}
+
+/// Names of files.
+const NAMES: [&str; 2] = ["a.txt", "a.dat"];
+
+/// What was written, without the names.
+fn bytes_of(files: Vec<(String, Vec<u8>)>) -> Vec<Vec<u8>> {
+    files.into_iter().map(|(_, bytes)| bytes).collect()
 }
 
 /// Corrections by chance for the motions of a program.
@@ -84,6 +100,9 @@ pub fn corrections(chance: &mut Chance, program: &RobotProgram, kind: &Kind) -> 
             let turn = UnitQuaternion::from_euler_angles(angles[0], angles[1], angles[2]);
             piece.orientation = Some(turn * end.orientation);
         }
+        if kind.speeds && chance.below(4) == 0 && motion.speed.mm_per_s.is_some() {
+            piece.speed_factor = 1.0 + chance.within(0.1);
+        }
         let near = |place: Vector3<f64>| place.norm() < 9e5;
         if near(piece.position_mm) && piece.via_mm.is_none_or(near) {
             pieces.push(piece);
@@ -96,8 +115,8 @@ pub fn corrections(chance: &mut Chance, program: &RobotProgram, kind: &Kind) -> 
 pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> Result<(), String> {
     let files =
         write(program, pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
-    let again =
-        read_bytes(kind, &files[0].1).map_err(|errors| format!("read again: {}", errors[0]))?;
+    let again = read_files(kind, &bytes_of(files))
+        .map_err(|errors| format!("read again: {}", errors[0]))?;
     if again.motions.len() != program.motions.len() {
         return Err("another number of motions".to_owned());
     }
@@ -106,6 +125,10 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> 
         place.add((found.position_mm - to).norm());
         turn.add(found.orientation.angle_to(&orientation));
     };
+    // In KRL a speed that is stated and restored in a loop is not that of every way any more, as far as the reader looks; and
+    // one that was known by two ways with different words may be known with the words of the restored one.
+    let changed = pieces.iter().any(|piece| piece.speed_factor != 1.0);
+    let is_open = changed && kind.language == Language::Krl;
     for (index, (before, after)) in program.motions.iter().zip(&again.motions).enumerate() {
         let (Some(old), Some(new)) = (before.target.pose(), after.target.pose()) else {
             continue;
@@ -120,6 +143,11 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> 
         {
             let to = piece.and_then(|piece| piece.via_mm);
             compare(new, to.unwrap_or(old.position_mm), old.orientation);
+        }
+        if kind.speeds {
+            let factor = piece.map_or(1.0, |piece| piece.speed_factor);
+            speed_is_kept(before, after, factor, is_open)
+                .map_err(|what| format!("motion {index}: {what}"))?;
         }
         if (
             before.zone,
@@ -142,6 +170,24 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> 
     match place <= kind.place_mm && turn <= kind.turn_rad {
         true => Ok(()),
         false => Err(format!("{place} mm and {turn} rad away")),
+    }
+}
+
+/// What is wrong with the speed of a motion that was written, if anything.
+fn speed_is_kept(
+    before: &Motion,
+    after: &Motion,
+    factor: f64,
+    is_open: bool,
+) -> Result<(), &'static str> {
+    let (old, new) = (before.speed.mm_per_s, after.speed.mm_per_s);
+    if is_open && (old.is_none() || new.is_none()) {
+        return Ok(());
+    }
+    let away = new.unwrap_or(0.0) - factor * old.unwrap_or(0.0);
+    match away.abs() <= 1e-4 {
+        true => Ok(()),
+        false => Err("another speed"),
     }
 }
 
@@ -180,7 +226,7 @@ pub fn divide_and_read(
     let files =
         write(program, &pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
     let again =
-        read_bytes(kind, &files[0].1).map_err(|errors| format!("divided: {}", errors[0]))?;
+        read_files(kind, &bytes_of(files)).map_err(|errors| format!("divided: {}", errors[0]))?;
     let found: Vec<Option<Vector3<f64>>> = again
         .motions
         .iter()
@@ -204,15 +250,29 @@ pub fn divide_and_read(
 
 /// One case of the fuzz: whether it was read.
 pub fn check(seed: u64, chance: &mut Chance, bytes: &[u8], kind: &Kind) -> Result<bool, String> {
+    check_files(seed, chance, &[bytes.to_vec()], kind)
+}
+
+/// One case of several files.
+pub fn check_files(
+    seed: u64,
+    chance: &mut Chance,
+    files: &[Vec<u8>],
+    kind: &Kind,
+) -> Result<bool, String> {
     let at = |what: String| format!("case {seed}: {what}");
-    let program = match read_bytes(kind, bytes) {
+    let program = match read_files(kind, files) {
         Ok(program) => program,
         Err(errors) => {
-            let lines = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
+            let place = |error: &ProgramError| NAMES.iter().position(|name| *name == error.file);
             let fits = |error: &ProgramError| {
+                let Some(bytes) = place(error).and_then(|file| files.get(file)) else {
+                    return false;
+                };
+                let lines = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
                 (1..=lines).contains(&error.line) && error.span.end <= bytes.len()
             };
-            let ordered = errors.is_sorted_by_key(|error| error.line);
+            let ordered = errors.is_sorted_by_key(|error| (place(error), error.line));
             return match !errors.is_empty() && ordered && errors.iter().all(fits) {
                 true => Ok(false),
                 false => Err(at("an error has no place, or not its place".to_owned())),
@@ -220,7 +280,7 @@ pub fn check(seed: u64, chance: &mut Chance, bytes: &[u8], kind: &Kind) -> Resul
         }
     };
     let same = write(&program, &[], &WriteOptions::default());
-    if same.map_err(|error| at(error.to_string()))?[0].1 != bytes {
+    if bytes_of(same.map_err(|error| at(error.to_string()))?) != files {
         return Err(at("bytes changed without pieces".to_owned()));
     }
     let is_far = |motion: &Motion| {

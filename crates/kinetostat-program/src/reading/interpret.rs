@@ -367,6 +367,63 @@ impl<'o> Interpreter<'o> {
         })
     }
 
+    /// Coordinates that were shifted by what the program does not say are at no known place.
+    fn refuse_shifted(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        match (0..3).find(|axis| self.shifts.now[*axis]) {
+            None => Ok(()),
+            Some(axis) => Err(block.refuse(
+                ProgramErrorKind::Ambiguous, None,
+                &format!(
+                    "line {} shifted the {} coordinates by an offset that is not in the program",
+                    self.shifts.line,
+                    char::from(COORDINATES[axis])
+                ),
+                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+            )),
+        }
+    }
+
+    /// The way of a move: a line, or an arc from a place that the program has stated.
+    fn curve_of_move(
+        &self,
+        block: &Block<'_>,
+        (motion, mm_per_unit): (Motion, f64),
+        (start, end): (Vector3<f64>, Vector3<f64>),
+        known_before: [bool; 3],
+    ) -> Result<Curve, ProgramError> {
+        match motion {
+            Motion::Clockwise | Motion::CounterClockwise => {
+                if let Some(axis) = (0..3).find(|axis| {
+                    !known_before[*axis]
+                        && (self.places.known[*axis] || self.modes.plane[..2].contains(axis))
+                }) {
+                    return Err(block.refuse(
+                        ProgramErrorKind::Ambiguous, None,
+                        &format!(
+                            "the arc starts at a place whose {} the program has not stated",
+                            char::from(COORDINATES[axis])
+                        ),
+                        "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                    ));
+                }
+                Ok(Curve::Arc(arc::read(
+                    block,
+                    &ArcFrame {
+                        start,
+                        end,
+                        axes: self.modes.plane,
+                        clockwise: motion == Motion::Clockwise,
+                        absolute_centre: self.modes.absolute_centre,
+                        mm_per_unit,
+                        offset_mm: self.work_offset_mm() + self.offset.active_mm,
+                        tolerance_mm: self.options.arc_tolerance_mm,
+                    },
+                )?))
+            }
+            _ => Ok(Curve::Line),
+        }
+    }
+
     fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         let motion = match self.modes.motion {
             Some(Motion::Off) | None => {
@@ -379,17 +436,7 @@ impl<'o> Interpreter<'o> {
             Some(motion) => motion,
         };
         self.warn_of_systems_without_offsets(block.line_number);
-        if let Some(axis) = (0..3).find(|axis| self.shifts.now[*axis]) {
-            return Err(block.refuse(
-                ProgramErrorKind::Ambiguous, None,
-                &format!(
-                    "line {} shifted the {} coordinates by an offset that is not in the program",
-                    self.shifts.line,
-                    char::from(COORDINATES[axis])
-                ),
-                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
-            ));
-        }
+        self.refuse_shifted(block)?;
         let mm_per_unit = self.modes.mm_per_unit(block)?;
         let kind = if motion == Motion::Rapid {
             MoveKind::Rapid
@@ -410,37 +457,8 @@ impl<'o> Interpreter<'o> {
         let start = self.places.position;
         let known_before = self.places.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        let curve = match motion {
-            Motion::Clockwise | Motion::CounterClockwise => {
-                if let Some(axis) = (0..3).find(|axis| {
-                    !known_before[*axis]
-                        && (self.places.known[*axis] || self.modes.plane[..2].contains(axis))
-                }) {
-                    return Err(block.refuse(
-                        ProgramErrorKind::Ambiguous, None,
-                        &format!(
-                            "the arc starts at a place whose {} the program has not stated",
-                            char::from(COORDINATES[axis])
-                        ),
-                        "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
-                    ));
-                }
-                Curve::Arc(arc::read(
-                    block,
-                    &ArcFrame {
-                        start,
-                        end,
-                        axes: self.modes.plane,
-                        clockwise: motion == Motion::Clockwise,
-                        absolute_centre: self.modes.absolute_centre,
-                        mm_per_unit,
-                        offset_mm: self.work_offset_mm() + self.offset.active_mm,
-                        tolerance_mm: self.options.arc_tolerance_mm,
-                    },
-                )?)
-            }
-            _ => Curve::Line,
-        };
+        let ends = (start, end);
+        let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
         self.places.position = end;
         let angles = self.rotary.angles(&self.modes);
         let extra = self.modes.extra.read(block, self.modes.incremental);

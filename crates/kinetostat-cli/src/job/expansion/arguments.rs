@@ -29,8 +29,13 @@ pub(crate) struct ExpansionArgs {
 impl ExpansionArgs {
     /// The first option that was given.
     pub(crate) fn given(&self) -> Option<&'static str> {
+        let subprograms = (!self.subprograms.is_empty()).then_some("--subprograms");
+        subprograms.or(self.given_for_gcode())
+    }
+
+    /// The first option that was given and says something of G-code alone.
+    pub(crate) fn given_for_gcode(&self) -> Option<&'static str> {
         let all = [
-            ("--subprograms", !self.subprograms.is_empty()),
             ("--tool-diameter-mm", !self.tool_diameter_mm.is_empty()),
             ("--parameter", !self.parameter.is_empty()),
             ("--dialect", self.dialect.is_some()),

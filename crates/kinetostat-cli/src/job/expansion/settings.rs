@@ -60,15 +60,7 @@ pub(crate) fn settings(
     let in_job = table.and_then(|(_, table)| table.dialect);
     let dialect = args.dialect.or(in_job).map(DialectWord::dialect);
     options.dialect = dialect.unwrap_or_default();
-    let mut folders = args.subprograms.clone();
-    for folder in &folders {
-        if !folder.is_dir() {
-            return Err(Failure::input(format!(
-                "--subprograms: {}",
-                no_folder(folder)
-            )));
-        }
-    }
+    let mut folders = folders(args)?;
     if let Some((j, table)) = table {
         comments = comments && table.comments.unwrap_or(true);
         options.tool_diameters_mm = of_table(j, table.tool_diameters_mm.as_ref(), diameter)?;
@@ -96,6 +88,17 @@ pub(crate) fn settings(
         folders,
         words,
     })
+}
+
+/// Folders of subprograms that options name.
+pub(crate) fn folders(args: &ExpansionArgs) -> Answer<Vec<PathBuf>> {
+    match args.subprograms.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => Err(Failure::input(format!(
+            "--subprograms: {}",
+            no_folder(folder)
+        ))),
+        None => Ok(args.subprograms.clone()),
+    }
 }
 
 fn dialect_name(dialect: Dialect) -> &'static str {

@@ -1,10 +1,13 @@
 //! A robot's program read, with its path.
 
+use std::sync::Arc;
+
 use kinetostat::Directions;
 use kinetostat_formats::{
     Correctable, Language, Motion, RobotPath, RobotProgram, Target, path_of, read,
 };
 
+use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot::stated_frames::warnings;
@@ -14,8 +17,8 @@ use crate::ui::fault_list::fault_list_text;
 /// A robot's program with its path.
 #[derive(Debug)]
 pub(crate) struct RobotRead<'s> {
-    pub(crate) program: RobotProgram,
-    pub(crate) path: RobotPath,
+    pub(crate) program: &'s RobotProgram,
+    pub(crate) path: &'s RobotPath,
     settings: &'s RobotSettings,
 }
 
@@ -33,8 +36,8 @@ impl RobotRead<'_> {
     /// The program as a run takes it.
     pub(crate) fn correctable(&self) -> Correctable<'_> {
         Correctable {
-            program: &self.program,
-            path: &self.path,
+            program: self.program,
+            path: self.path,
             reading: &self.settings.reading,
             making: &self.settings.making,
             writing: &self.settings.writing,
@@ -42,8 +45,23 @@ impl RobotRead<'_> {
     }
 }
 
-/// Reads the files of a program; of a faulty one all faults.
+/// The program, read when it is first asked for; of a faulty one all faults.
 pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
+    let read = match source.reading.get() {
+        Some(read) => read,
+        None => {
+            let read = Arc::new(read_files(source)?);
+            source.reading.get_or_init(|| read)
+        }
+    };
+    Ok(RobotRead {
+        program: &read.program,
+        path: &read.path,
+        settings: &source.settings,
+    })
+}
+
+fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     let settings = &source.settings;
     let program = read(source.language, source.files.clone(), &settings.reading)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
@@ -70,11 +88,7 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
-    Ok(RobotRead {
-        program,
-        path,
-        settings,
-    })
+    Ok(ReadOnce { program, path })
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use kinetostat_formats::{Language, SourceFile, language_of, odd_program};
+use kinetostat_formats::{Language, SourceFile, endings_of, language_of, odd_program};
 use nalgebra::Vector3;
 
 use crate::files::input_files::InputFiles;
@@ -11,6 +11,7 @@ use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::robot::parquet;
+use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
 use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
@@ -25,6 +26,8 @@ pub(crate) struct RobotSource {
     pub(crate) settings: RobotSettings,
     /// The program in Parquet of which `files` hold the text.
     pub(crate) parquet: Option<Vec<u8>>,
+    /// The program as it was read.
+    pub(crate) reading: Reading,
 }
 
 impl RobotSource {
@@ -52,12 +55,16 @@ pub(crate) fn robot_source(
         }
         return match (flags.given(), table) {
             (Some(option), _) => Err(Failure::input(format!(
-                "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls; lists of poses: .csv, .yaml): it is read as G-code; leave {option} out"
+                "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
+                known_endings()
             ))),
             (None, Some((j, table))) => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
-                "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt, .csv, .yaml)",
+                &format!(
+                    "leave it out, or give the program the ending of its language ({})",
+                    known_endings()
+                ),
             )),
             (None, None) => Ok(None),
         };
@@ -79,6 +86,7 @@ pub(crate) fn robot_source(
         }],
         paths: Vec::new(),
         settings,
+        reading: Reading::new(),
     };
     let mut read = Vec::new();
     let mut take = |path: PathBuf| -> Answer<()> {
@@ -99,6 +107,13 @@ pub(crate) fn robot_source(
         }
     }
     Ok(Some((source, read)))
+}
+
+/// The usual endings of all languages: `.mod, .src, ...`.
+fn known_endings() -> String {
+    let first = |language: &Language| Some(format!(".{}", endings_of(*language).first()?));
+    let all: Vec<String> = Language::ALL.iter().filter_map(first).collect();
+    all.join(", ")
 }
 
 /// From the tool's tip to its holder, in axes of the tool, as is usual.

@@ -53,9 +53,49 @@ fn frames(program: &RobotProgram) -> BTreeMap<String, (usize, &FrameUse)> {
     used
 }
 
+/// Whether a program may state a frame by itself: it gives the name a value, or the controller has it.
+fn may_state(source: &RobotSource, name: &str) -> bool {
+    let name = key(name);
+    let is_first = ["TOOL0", "WOBJ0"].contains(&name.as_str())
+        || name.ends_with("[0]")
+        || name.ends_with(":0");
+    is_first
+        || source
+            .files
+            .iter()
+            .any(|file| assigns(file.bytes(), name.as_bytes()))
+}
+
+/// Whether `name =` or `name :=` stands somewhere, in capitals or not, with blanks or without.
+fn assigns(text: &[u8], name: &[u8]) -> bool {
+    let Some(first) = name.first() else {
+        return false;
+    };
+    let begins = (text.iter().enumerate()).filter(|(_, byte)| byte.eq_ignore_ascii_case(first));
+    begins.into_iter().any(|(at, _)| {
+        let mut rest = text[at..]
+            .iter()
+            .filter(|byte| !matches!(byte, b' ' | b'\t'));
+        let is_name = name.iter().all(|letter| {
+            let next = rest.next();
+            next.is_some_and(|next| next.eq_ignore_ascii_case(letter))
+        });
+        is_name
+            && matches!(
+                (rest.next(), rest.next()),
+                (Some(b'='), _) | (Some(b':'), Some(b'='))
+            )
+    })
+}
+
 /// Frames that the program states, too, and not the same: the job counts.
 fn otherwise(source: &RobotSource, used: &BTreeMap<String, (usize, &FrameUse)>) -> Vec<Warning> {
     let mut reading = source.settings.reading.clone();
+    // A large program is not read a second time for a frame that it does not state.
+    let mut names = reading.frames.keys();
+    if !names.any(|name| used.contains_key(&key(name)) && may_state(source, name)) {
+        return Vec::new();
+    }
     reading.frames.clear();
     let Ok(own) = read(source.language, source.files.clone(), &reading) else {
         return Vec::new();

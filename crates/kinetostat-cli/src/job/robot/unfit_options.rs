@@ -1,6 +1,9 @@
 //! Options and keys that are for G-code alone, where the program is one of a robot.
 
+use serde_spanned::Spanned;
+
 use crate::job::arguments::ProgramArgs;
+use crate::job::expand_table::ExpandTable;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
@@ -44,6 +47,17 @@ pub(crate) fn refuse_unfit(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer
     });
     if given {
         return refuse("[reading] in the job file", words);
+    }
+    let flat = "what a control's program needs to be run once, it says itself";
+    if let Some(option) = flags.expansion.with.given_for_gcode() {
+        return refuse(option, flat);
+    }
+    let table = job.and_then(|j| j.job.expand.as_ref());
+    let given = table
+        .map(Spanned::get_ref)
+        .and_then(ExpandTable::given_for_gcode);
+    if let Some(key) = given {
+        return refuse(&format!("{key} under [expand]"), flat);
     }
     let in_job = job.is_some_and(|j| j.job.placement.scale.is_some());
     match flags.scale.is_some() || in_job {

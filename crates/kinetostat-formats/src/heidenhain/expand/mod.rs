@@ -1,8 +1,18 @@
 //! Programs that repeat, jump, count or drill by cycles: run once and written flat.
 //!
-//! From the files ([`program`]), the expressions of Q parameters ([`expression`]) and the blocks of drilling cycles ([`drill`]) to the run ([`run`]).
+//! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`drill`])
+//! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
+//! [`cycles`] and [`path_block`] what is drilled. The way in is [`flat`].
 
+pub(crate) mod cycles;
 pub(crate) mod drill;
 pub(crate) mod expression;
+pub(crate) mod flat;
+pub(crate) mod jumps;
+pub(crate) mod numbers;
+pub(crate) mod parameters;
+pub(crate) mod path_block;
 pub(crate) mod program;
 pub(crate) mod run;
+pub(crate) mod steps;
+pub(crate) mod values;

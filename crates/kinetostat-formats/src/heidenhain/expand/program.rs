@@ -1,7 +1,8 @@
 //! A file of a program: its blocks, its labels, whether anything of it is to be flattened.
 
+use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
-use crate::heidenhain::flow::{Labels, labels_of, order, step_of};
+use crate::heidenhain::flow::{LABEL_TWICE, Labels, NAME_IT, labels_of, order, step_of};
 use crate::heidenhain::words::{Value, Word};
 use crate::text::source::SourceFile;
 
@@ -10,6 +11,8 @@ pub(crate) struct Program<'f> {
     pub file: &'f SourceFile,
     pub blocks: Vec<Block>,
     pub labels: Labels,
+    /// Blocks that state a label a second time.
+    pub twice: Vec<usize>,
     /// The block BEGIN PGM.
     pub begin: Option<usize>,
 }
@@ -17,7 +20,7 @@ pub(crate) struct Program<'f> {
 impl<'f> Program<'f> {
     pub(crate) fn of(file: &'f SourceFile) -> Self {
         let blocks = blocks_of(file.bytes());
-        let (labels, _) = labels_of(file.bytes(), &blocks);
+        let (labels, twice) = labels_of(file.bytes(), &blocks);
         let begins = |block: &Block| {
             let letter = file.bytes().get(block.text.start);
             letter.is_some_and(|letter| letter.eq_ignore_ascii_case(&b'B'))
@@ -31,6 +34,7 @@ impl<'f> Program<'f> {
             file,
             blocks,
             labels,
+            twice,
             begin,
         }
     }
@@ -49,6 +53,15 @@ impl<'f> Program<'f> {
     pub(crate) fn is_named(&self, name: &str) -> bool {
         let own = stem(self.file.name());
         own.eq_ignore_ascii_case(&stem(name))
+    }
+
+    /// What is said of labels that are stated a second time.
+    pub(crate) fn equal_labels(&self) -> impl Iterator<Item = ProgramError> + '_ {
+        let fault = |index: &usize| {
+            let text = self.blocks[*index].text.clone();
+            ProgramError::at(self.file, text, LABEL_TWICE, NAME_IT)
+        };
+        self.twice.iter().map(fault)
     }
 
     /// Whether anything is to be flattened.
@@ -89,6 +102,34 @@ impl<'f> Program<'f> {
             })
             .is_err()
     }
+}
+
+/// Names of the programs that a file calls, as often as they stand there.
+pub(crate) fn called(file: &SourceFile) -> Vec<String> {
+    let bytes = file.bytes();
+    let mut names = Vec::new();
+    for block in blocks_of(bytes) {
+        let begins = bytes.get(block.text.start).map(u8::to_ascii_uppercase);
+        if begins != Some(b'C') {
+            continue;
+        }
+        let words = block.words(bytes);
+        if let [call, program, ..] = words.as_slice()
+            && call.is("CALL")
+            && program.is("PGM")
+        {
+            names.push(stem(&called_name(bytes, &block, program)));
+        }
+    }
+    names
+}
+
+/// What CALL PGM calls; the word is PGM.
+pub(crate) fn called_name(bytes: &[u8], block: &Block, program: &Word) -> String {
+    let from = program.span.start + b"PGM".len();
+    let text = &bytes[from.min(block.text.end)..block.text.end];
+    let text = text.split(|byte| *byte == b';').next().unwrap_or_default();
+    String::from_utf8_lossy(text).trim().to_owned()
 }
 
 /// A name of a file without folders and ending.

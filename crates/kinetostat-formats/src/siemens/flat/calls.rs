@@ -5,6 +5,7 @@ use crate::siemens::expression::Expression;
 use crate::siemens::flat::modes::Modes;
 use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
+use crate::siemens::flat::unresolved::{REASON, REMEDY, is_call};
 use crate::siemens::values::{Value, Variable};
 
 /// A subprogram that a block calls.
@@ -29,6 +30,7 @@ impl<'r> Runner<'r> {
         let mut rest = &items[1..];
         let numbered =
             word.len() > 1 && word[0] == b'L' && word[1..].iter().all(|byte| byte.is_ascii_digit());
+        let by_name = word == b"PCALL";
         let called = match word.as_slice() {
             b"PCALL" => match (&first.what, rest.first()) {
                 (What::Name, Some(item)) => {
@@ -51,12 +53,9 @@ impl<'r> Runner<'r> {
         let called = program_name(&format!("{}.SPF", String::from_utf8_lossy(&called)));
         let is_value = matches!(first.what, What::Value { .. });
         let Some(unit) = self.names.get(&called).copied().filter(|_| !is_value) else {
-            return match numbered && !is_value {
-                true => Err(self.fault(
-                    &first.span,
-                    "the subprogram is not among the files",
-                    "give its file with the program, or take the call out",
-                )),
+            let is_call = is_call(self.file(), first) || by_name;
+            return match (numbered || is_call) && !is_value {
+                true => Err(self.fault(&first.span, REASON, REMEDY)),
                 false => Ok(None),
             };
         };

@@ -9,6 +9,7 @@ use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::run::MOST_STEPS;
 use crate::siemens::flat::runner::Runner;
 use crate::siemens::flat::structure::Unit;
+use crate::siemens::flat::unresolved::note_calls;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
@@ -64,6 +65,10 @@ pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, 
         return Err(faults);
     }
     if !needs(file, &names) {
+        note_calls(file, &mut faults);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
         return Ok(FlatText {
             file: file.clone(),
             origins: (1..=file.line_count()).map(|line| (main, line)).collect(),

@@ -1,9 +1,10 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
-//! [`structure`] reads the control flow of a file, [`run`] follows it, [`print`] writes the blocks with numbers in place of
+//! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`print`] writes the blocks with numbers in place of
 //! expressions, [`holes`] the blocks of drilling cycles.
 
 mod calls;
+mod control;
 mod drilling;
 mod expand;
 mod holes;
@@ -13,6 +14,8 @@ mod numbers;
 mod print;
 mod run;
 mod runner;
+mod statements;
 mod structure;
+pub(crate) mod unresolved;
 
 pub use expand::{expand_siemens, expand_within};

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
+use crate::siemens::flat::control::{Control, Jump, Way};
 use crate::siemens::flat::runner::{Fault, Runner, Section, Written};
-use crate::siemens::flat::structure::{Control, Jump, Way};
 use crate::siemens::values::Value;
 
 /// Most blocks that are written.

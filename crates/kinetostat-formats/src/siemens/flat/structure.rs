@@ -1,15 +1,16 @@
 //! The control flow of one program.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::siemens::block::{Block, What};
-use crate::siemens::declarations::type_of;
-use crate::siemens::expression::{Cursor, Expression};
+use crate::siemens::expression::Cursor;
+use crate::siemens::flat::control::Control;
+use crate::siemens::flat::statements::{
+    Parameter, case, condition, for_loop, jump, procedure, repeat,
+};
 use crate::siemens::table::row;
-use crate::siemens::tokens::{Broken, Kind, Token};
-use crate::siemens::values::Type;
+use crate::siemens::tokens::{Broken, Token};
 use crate::table::Treatment;
 use crate::text::source::SourceFile;
 
@@ -35,82 +36,6 @@ pub(super) struct Line {
     pub control: Control,
     /// Tokens of a DEF.
     pub tokens: Vec<Token>,
-}
-
-/// A parameter of PROC.
-#[derive(Debug, Clone)]
-pub(super) struct Parameter {
-    pub name: Vec<u8>,
-    pub kind: Type,
-    pub by_reference: bool,
-    pub default: Option<Expression>,
-}
-
-/// A jump.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Jump {
-    pub way: Way,
-    /// Label or number.
-    pub to: Range<usize>,
-    pub number: Option<u64>,
-}
-
-/// Where the destination of a jump is looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
-    Forward,
-    Back,
-    Both,
-    /// As both, and no fault where there is none.
-    IfThere,
-}
-
-/// What a line does besides its words. Lines of others are indices of the unit.
-#[derive(Debug, Clone)]
-pub(super) enum Control {
-    None,
-    Define,
-    /// PROC, EXTERN.
-    Skip,
-    If {
-        condition: Expression,
-        otherwise: usize,
-    },
-    /// ELSE: behind it.
-    Else(usize),
-    /// ENDIF, and others that only mark a place.
-    Mark,
-    JumpIf(Vec<(Expression, Jump)>),
-    Jump(Jump),
-    Case {
-        of: Expression,
-        cases: Vec<(Option<Expression>, Jump)>,
-    },
-    While {
-        condition: Expression,
-        end: usize,
-    },
-    /// ENDWHILE, ENDLOOP: back there.
-    Back(usize),
-    For {
-        variable: Range<usize>,
-        indices: Vec<Expression>,
-        from: Expression,
-        to: Expression,
-        end: usize,
-    },
-    EndFor(usize),
-    Until {
-        condition: Expression,
-        start: usize,
-    },
-    /// REPEAT and REPEATB of a section.
-    Repeat {
-        from: Range<usize>,
-        to: Option<Range<usize>>,
-        one_block: bool,
-        count: Option<Expression>,
-    },
 }
 
 impl Unit {
@@ -280,7 +205,9 @@ impl Unit {
             b"DEF" => return Ok(Control::Define),
             b"EXTERN" => return Ok(Control::Skip),
             b"PROC" => {
-                self.procedure(&mut cursor)?;
+                let (parameters, saves) = procedure(&mut cursor)?;
+                self.parameters = parameters;
+                self.saves |= saves;
                 return Ok(Control::Skip);
             }
             b"CALL" => {
@@ -308,160 +235,4 @@ impl Unit {
             }),
         }
     }
-
-    fn procedure(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Broken> {
-        cursor.at += 1;
-        if cursor.takes(b'(') && !cursor.takes(b')') {
-            loop {
-                let by_reference = cursor.is_next("VAR");
-                cursor.at += usize::from(by_reference);
-                let kind = type_of(cursor)?;
-                let name = cursor.place();
-                cursor.at += 1;
-                if cursor.takes(b'[') {
-                    // An array of any size has commas alone.
-                    while cursor.peek().is_some_and(|token| token.is(b',')) {
-                        cursor.at += 1;
-                    }
-                    cursor.list(b']')?;
-                }
-                let default = match cursor.takes(b'=') {
-                    true => Some(cursor.expression()?),
-                    false => None,
-                };
-                self.parameters.push(Parameter {
-                    name: cursor.text(&name).to_ascii_uppercase(),
-                    kind,
-                    by_reference,
-                    default,
-                });
-                if cursor.takes(b')') {
-                    break;
-                }
-                if !cursor.takes(b',') {
-                    return Err(cursor.broken("a comma is missing between parameters"));
-                }
-            }
-        }
-        while cursor.peek().is_some() {
-            self.saves |= cursor.is_next("SAVE");
-            cursor.at += 1;
-        }
-        Ok(())
-    }
-}
-
-fn jump(cursor: &mut Cursor<'_>) -> Result<Jump, Broken> {
-    let way = match () {
-        () if cursor.is_next("GOTOF") => Way::Forward,
-        () if cursor.is_next("GOTOB") => Way::Back,
-        () if cursor.is_next("GOTO") => Way::Both,
-        () if cursor.is_next("GOTOC") => Way::IfThere,
-        () => return Err(cursor.broken("a jump is missing")),
-    };
-    cursor.at += 1;
-    let numbered = cursor.is_next("N")
-        && (cursor.peek_second()).is_some_and(|token| matches!(token.kind, Kind::Number(_)));
-    cursor.at += usize::from(numbered);
-    let missing = cursor.broken("the destination of a jump is missing");
-    let token = cursor.next().ok_or(missing.clone())?;
-    match (token.kind, numbered) {
-        (Kind::Name, false) => Ok(Jump {
-            way,
-            to: token.span.clone(),
-            number: None,
-        }),
-        (Kind::Number(number), true) => Ok(Jump {
-            way,
-            to: token.span.clone(),
-            number: Some(number as u64),
-        }),
-        _ => Err(missing),
-    }
-}
-
-/// IF of a structure, or one or more with jumps.
-fn condition(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
-    let mut jumps = Vec::new();
-    while cursor.is_next("IF") {
-        cursor.at += 1;
-        let condition = cursor.expression()?;
-        if cursor.peek().is_none() && jumps.is_empty() {
-            return Ok(Control::If {
-                condition,
-                otherwise: 0,
-            });
-        }
-        jumps.push((condition, jump(cursor)?));
-    }
-    Ok(Control::JumpIf(jumps))
-}
-
-fn for_loop(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
-    let variable = cursor.place();
-    cursor.at += 1;
-    let indices = match cursor.takes(b'[') {
-        true => cursor.list(b']')?,
-        false => Vec::new(),
-    };
-    if !cursor.takes(b'=') {
-        return Err(cursor.broken("the first value of FOR is missing"));
-    }
-    let from = cursor.expression()?;
-    if !cursor.is_next("TO") {
-        return Err(cursor.broken("TO is missing"));
-    }
-    cursor.at += 1;
-    let to = cursor.expression()?;
-    Ok(Control::For {
-        variable,
-        indices,
-        from,
-        to,
-        end: 0,
-    })
-}
-
-fn repeat(cursor: &mut Cursor<'_>, one_block: bool) -> Result<Control, Broken> {
-    let from = cursor.place();
-    cursor.at += 1;
-    let second = cursor.peek().filter(|token| {
-        token.kind == Kind::Name && !cursor.text(&token.span).eq_ignore_ascii_case(b"P")
-    });
-    let to = second.map(|token| token.span.clone());
-    cursor.at += usize::from(to.is_some());
-    let count = match cursor.is_next("P") {
-        true => {
-            cursor.at += 1;
-            cursor.takes(b'=');
-            Some(cursor.expression()?)
-        }
-        false => None,
-    };
-    Ok(Control::Repeat {
-        from,
-        to,
-        one_block,
-        count,
-    })
-}
-
-fn case(cursor: &mut Cursor<'_>) -> Result<Control, Broken> {
-    let of = cursor.expression()?;
-    if !cursor.is_next("OF") {
-        return Err(cursor.broken("OF is missing"));
-    }
-    cursor.at += 1;
-    let mut cases = Vec::new();
-    while cursor.peek().is_some() {
-        let value = match cursor.is_next("DEFAULT") {
-            true => {
-                cursor.at += 1;
-                None
-            }
-            false => Some(cursor.expression()?),
-        };
-        cases.push((value, jump(cursor)?));
-    }
-    Ok(Control::Case { of, cases })
 }

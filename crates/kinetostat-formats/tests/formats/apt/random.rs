@@ -9,6 +9,7 @@ pub fn kind() -> Kind {
         language: Language::Apt,
         options: ReadOptions::default(),
         turns: false,
+        speeds: false,
         words: &[
             "GOTO/",
             "GOTO/1,2,3\n",

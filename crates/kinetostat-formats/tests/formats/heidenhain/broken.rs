@@ -131,6 +131,14 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         ("L X F100", "the word is not known here, or has no number"),
         (
+            "L X+1e20",
+            "`e20`: a number with an exponent, which the control does not read; write the number out: X+100.5",
+        ),
+        (
+            "L X+100000000000",
+            "the word is not known here, or has no number",
+        ),
+        (
             "X+10 R0 F100",
             "the block has coordinates and no L; write L before them",
         ),
@@ -242,6 +250,24 @@ fn what_is_stated_is_taken() {
     };
     assert!(said("a cycle is called"));
     assert!(said("M25 is the machine builder's"));
+}
+
+#[test]
+fn a_program_without_its_last_block_is_said_to_be_a_part() {
+    let text = "BEGIN PGM A MM\nL X+1 Y+1 Z+1 FMAX\nL X+5 F100\n";
+    let findings = |text: &str| {
+        let program = read_with(text.as_bytes(), &ReadOptions::default()).unwrap();
+        let found = program.findings.into_iter();
+        found
+            .map(|finding| (finding.line, finding.message))
+            .collect::<Vec<_>>()
+    };
+    let [(line, message)] = &findings(text)[..] else {
+        panic!("{:?}", findings(text));
+    };
+    assert_eq!(*line, 3);
+    assert!(message.contains("no block END PGM ends the program"));
+    assert_eq!(findings(&format!("{text}END PGM A MM\n")), []);
 }
 
 #[test]

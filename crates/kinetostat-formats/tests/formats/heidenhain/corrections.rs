@@ -224,3 +224,23 @@ fn what_cannot_be_written_is_said() {
     rapid.speed_factor = 0.5;
     assert!(refused(rapid).contains("its speed cannot be changed"));
 }
+
+#[test]
+fn along_the_tool_behind_a_rotation_the_tool_stays_over_its_place() {
+    let body = text("CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+90\nL Z-1 F200\nL X+3 Y+0\n");
+    let program = program(&body);
+    let places: Vec<[f64; 3]> = (0..3).map(|motion| place(&program, motion)).collect();
+    assert_eq!(places[1], [0.0, 0.0, -1.0]);
+    let away = Vector3::from(places[2]) - Vector3::new(0.0, 3.0, -1.0);
+    assert!(away.norm() < 1e-12, "{places:?}");
+    // Beside its place: X and Y are both stated, in the turned axes.
+    let piece = Piece::to(1, Vector3::new(0.25, 0.0, -1.0));
+    let output = written(&program, &[piece]);
+    assert!(output.contains("L X+0.000 Y-0.250 Z-1 F200\n"), "{output}");
+    assert!(output.contains("\nL X+3 Y+0\n"), "{output}");
+    // X alone: whether Y turns with it, controls do not say.
+    let odd = body.replace("L X+3 Y+0", "L X+3");
+    let options = ReadOptions::default();
+    let errors = read_heidenhain(vec![SourceFile::new("a.h", odd)], &options).unwrap_err();
+    assert_eq!((errors.len(), errors[0].line), (1, 7), "{errors:?}");
+}

@@ -230,6 +230,10 @@ fn runs_are_bounded_and_faults_name_their_line() {
         ),
         ("L X+1 M99\n", "no cycle is defined"),
         (
+            "LBL 1\nL X+1\nLBL 1\nCALL LBL 1 REP 2\n",
+            "line 4: `LBL 1`: there is a label of this name above; name it otherwise",
+        ),
+        (
             "CYCL DEF 207 RIGID TAPPING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
             "line 5: `L X+1 M99`: cycle 207 is called, and what it does is not followed",
         ),

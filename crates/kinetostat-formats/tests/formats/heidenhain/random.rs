@@ -10,6 +10,7 @@ pub fn kind() -> Kind {
         language: Language::Heidenhain,
         options: ReadOptions::default(),
         turns: false,
+        speeds: false,
         words: &[
             "L X+1 Y+2 Z+3 FMAX\n",
             "L IX+1\n",

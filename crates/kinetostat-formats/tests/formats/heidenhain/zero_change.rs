@@ -13,6 +13,7 @@ fn every_byte_comes_back_with_any_line_ending() {
         EVERYTHING.as_bytes().to_vec(),
         EVERYTHING.replace('\n', "\r\n").into_bytes(),
         EVERYTHING.trim_end().as_bytes().to_vec(),
+        [b"\xef\xbb\xbf", EVERYTHING.as_bytes()].concat(),
         [b"; \xff before\n", EVERYTHING.as_bytes(), b"\n; \xfe\n\n"].concat(),
     ] {
         let program = read_with(&bytes, &ReadOptions::default()).unwrap();

@@ -2,10 +2,37 @@
 //! with a line; what is read comes back byte for byte, and with corrections is read again with those corrections.
 
 use kinetostat_formats::*;
-use kinetostat_testing::Worst;
-use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::chance::Chance;
+use crate::harness::{Chance, Kind, PLACE_MM, broken, check_files, read_files};
+
+pub fn kind() -> Kind {
+    Kind {
+        language: Language::Krl,
+        options: ReadOptions::default(),
+        turns: true,
+        speeds: true,
+        words: &[
+            "\nEND\n",
+            "\nIF ",
+            " THEN\n",
+            "\nENDIF\n",
+            "DEF x()\n",
+            "CASE 1\n",
+            "LIN ",
+            "DECL POS ",
+            "=",
+            "\n;FOLD ",
+            "\n;ENDFOLD",
+            "\nGOTO a\na:\n",
+            " CA 30",
+            " C_DIS ",
+            "WITH $VEL.CP=0.1,",
+        ],
+        place_mm: PLACE_MM,
+        // Half of the fifth decimal of a degree about each of three axes, which may add up.
+        turn_rad: 3.0e-7,
+    }
+}
 
 fn number(chance: &mut Chance, size: f64) -> String {
     let value = chance.within(size);
@@ -131,203 +158,35 @@ pub fn module(chance: &mut Chance) -> [String; 2] {
     }
 }
 
-/// Bytes of a text, some of them lost, doubled or changed.
-pub fn broken(chance: &mut Chance, text: &str) -> Vec<u8> {
-    let mut bytes = text.as_bytes().to_vec();
-    for _ in 0..chance.below(4) {
-        if bytes.is_empty() {
-            break;
-        }
-        let at = chance.below(bytes.len());
-        let end = (at + chance.below(40)).min(bytes.len());
-        match chance.below(5) {
-            0 => drop(bytes.drain(at..end)),
-            1 => {
-                let copy = bytes[at..end].to_vec();
-                let to = chance.below(bytes.len());
-                bytes.splice(to..to, copy);
-            }
-            2 => {
-                let symbols = b";,:[](){}'\"!%=\n+-.E9\xffA &$#";
-                bytes[at] = symbols[chance.below(symbols.len())];
-            }
-            3 => {
-                let words = [
-                    "\nEND\n",
-                    "\nIF ",
-                    " THEN\n",
-                    "\nENDIF\n",
-                    "DEF x()\n",
-                    "CASE 1\n",
-                    "LIN ",
-                    "DECL POS ",
-                    "=",
-                    "\n;FOLD ",
-                    "\n;ENDFOLD",
-                    "\nGOTO a\na:\n",
-                    " CA 30",
-                    " C_DIS ",
-                    "WITH $VEL.CP=0.1,",
-                ];
-                bytes.splice(at..at, chance.of(&words).bytes());
-            }
-            _ => bytes.truncate(at.max(1)),
-        }
-    }
-    bytes
-}
+/// What a writer may say of a correction that it cannot write.
+const SAID: [&str; 4] = [
+    "states only some of",
+    "states no orientation",
+    "a piece has no finite place",
+    "its speed cannot be changed",
+];
 
-/// The program that bytes are.
-pub fn read_bytes(files: &[Vec<u8>; 2]) -> Result<RobotProgram, Vec<ProgramError>> {
-    let [source, data] = files.clone();
-    read_krl(
-        vec![
-            SourceFile::new("part.src", source),
-            SourceFile::new("part.dat", data),
-        ],
-        &ReadOptions::default(),
-    )
-}
-
-/// Corrections by chance for the motions of a program.
-pub fn corrections(chance: &mut Chance, program: &RobotProgram) -> Vec<Piece> {
-    let mut pieces = Vec::new();
-    for (index, motion) in program.motions.iter().enumerate() {
-        let Some(end) = motion.target.pose().filter(|_| chance.below(3) > 0) else {
-            continue;
-        };
-        let mut shift = || Vector3::new(chance.within(0.5), chance.within(0.5), chance.within(0.5));
-        let mut piece = Piece::to(index, end.position_mm + shift());
-        if let MotionKind::Circular { via } = &motion.kind {
-            piece.via_mm = via.pose().map(|via| via.position_mm + shift());
-        }
-        if chance.below(2) == 0 {
-            let turn = UnitQuaternion::from_euler_angles(
-                chance.within(1e-2),
-                chance.within(1e-2),
-                chance.within(1e-2),
-            );
-            piece.orientation = Some(turn * end.orientation);
-        }
-        if chance.below(4) == 0 && motion.speed.mm_per_s.is_some() {
-            piece.speed_factor = 1.0 + chance.within(0.1);
-        }
-        pieces.push(piece);
-    }
-    pieces
-}
-
-/// What is wrong with the writing of a program, if anything: the farthest place in mm and the largest turn in rad.
-pub fn write_and_read(program: &RobotProgram, pieces: &[Piece]) -> Result<(f64, f64), String> {
-    let files =
-        write(program, pieces, &WriteOptions::default()).map_err(|error| error.to_string())?;
-    let again = read_bytes(&[files[0].1.clone(), files[1].1.clone()])
-        .map_err(|errors| format!("read again: {}", errors[0]))?;
-    if again.motions.len() != program.motions.len() {
-        return Err("another number of motions".to_owned());
-    }
-    let (mut place, mut turn) = (Worst::new(), Worst::new());
-    let mut compare = |found: &PoseTarget, to: Vector3<f64>, orientation: UnitQuaternion<f64>| {
-        place.add((found.position_mm - to).norm());
-        turn.add(found.orientation.angle_to(&orientation));
-    };
-    for (index, (before, after)) in program.motions.iter().zip(&again.motions).enumerate() {
-        let (Some(old), Some(new)) = (before.target.pose(), after.target.pose()) else {
-            continue;
-        };
-        let piece = pieces.iter().find(|piece| piece.motion == index);
-        let to = piece.map_or(old.position_mm, |piece| piece.position_mm);
-        compare(
-            new,
-            to,
-            piece
-                .and_then(|piece| piece.orientation)
-                .unwrap_or(old.orientation),
-        );
-        if let (MotionKind::Circular { via: old }, MotionKind::Circular { via: new }) =
-            (&before.kind, &after.kind)
-            && let (Some(old), Some(new)) = (old.pose(), new.pose())
-        {
-            let to = piece
-                .and_then(|piece| piece.via_mm)
-                .unwrap_or(old.position_mm);
-            compare(new, to, old.orientation);
-        }
-        let speed =
-            before.speed.mm_per_s.unwrap_or(0.0) * piece.map_or(1.0, |piece| piece.speed_factor);
-        // A speed that is stated and restored in a loop is not that of every way any more, as far as the reader looks.
-        let stated = pieces.iter().any(|piece| piece.speed_factor != 1.0);
-        // And one that was known by two ways with different words may be known with the words of the restored one.
-        let open = stated && (after.speed.mm_per_s.is_none() || before.speed.mm_per_s.is_none());
-        if !open && (after.speed.mm_per_s.unwrap_or(0.0) - speed).abs() > 1e-4 {
-            return Err(format!("motion {index}: another speed"));
-        }
-        if (before.zone, &before.tool, &before.work_object, before.runs)
-            != (after.zone, &after.tool, &after.work_object, after.runs)
-        {
-            return Err(format!("motion {index}: another zone, tool or work object"));
-        }
-    }
-    let largest = |worst: &Worst| worst.measured().unwrap_or(0.0);
-    Ok((largest(&place), largest(&turn)))
+/// A fault, unless the writer may say it.
+pub fn unless_said(found: Result<(), String>) -> Result<(), String> {
+    found.or_else(|what| match SAID.iter().any(|said| what.contains(said)) {
+        true => Ok(()),
+        false => Err(what),
+    })
 }
 
 /// One case of the fuzz: whether it was read.
 pub fn check(seed: u64) -> Result<bool, String> {
     let mut chance = Chance::new(seed);
-    let [source, data] = module(&mut chance);
-    let bytes = [broken(&mut chance, &source), broken(&mut chance, &data)];
-    let at = |what: String| format!("case {seed}: {what}");
-    let program = match read_bytes(&bytes) {
-        Ok(program) => program,
-        Err(errors) => {
-            let fits = |error: &ProgramError| {
-                let of = &bytes[usize::from(error.file == "part.dat")];
-                let lines = of.iter().filter(|byte| **byte == b'\n').count() + 1;
-                (1..=lines).contains(&error.line) && error.span.end <= of.len()
-            };
-            return match !errors.is_empty() && errors.iter().all(fits) {
-                true => Ok(false),
-                false => Err(at("an error has no place".to_owned())),
-            };
-        }
-    };
-    let same =
-        write(&program, &[], &WriteOptions::default()).map_err(|error| at(error.to_string()))?;
-    if same
-        .iter()
-        .zip(&bytes)
-        .any(|((_, written), given)| written != given)
-    {
-        return Err(at("bytes changed without pieces".to_owned()));
-    }
-    let pieces = corrections(&mut chance, &program);
+    let kind = kind();
+    let whole = module(&mut chance);
+    let files = whole.map(|text| broken(&mut chance, &text, &kind));
     // Ends that leave something open go with the motion before, which is said.
-    if program
-        .findings
-        .iter()
-        .any(|finding| finding.message.contains("states only some of"))
-    {
+    let is_open = |finding: &Finding| finding.message.contains(SAID[0]);
+    if read_files(&kind, &files).is_ok_and(|program| program.findings.iter().any(is_open)) {
         return Ok(true);
     }
-    let said = [
-        "states only some of",
-        "states no orientation",
-        "a piece has no finite place",
-        "its speed cannot be changed",
-    ];
-    let (place, turn) = match write_and_read(&program, &pieces) {
-        Err(what) if said.iter().any(|reason| what.contains(reason)) => return Ok(true),
-        found => found.map_err(at)?,
-    };
-    match place <= PLACE_MM && turn <= TURN_RAD {
-        true => Ok(true),
-        false => Err(at(format!("{place} mm and {turn} rad away"))),
+    match check_files(seed, &mut chance, &files, &kind) {
+        Err(what) => unless_said(Err(what)).map(|()| true),
+        found => found,
     }
 }
-
-/// Half of the third decimal along each axis, in the axes of a tool anywhere: times the root of three.
-pub const PLACE_MM: f64 = 0.866e-3 + 1e-6;
-
-/// Half of the fifth decimal of a degree about each of three axes, which may add up.
-pub const TURN_RAD: f64 = 3.0e-7;

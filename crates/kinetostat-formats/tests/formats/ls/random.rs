@@ -9,6 +9,7 @@ pub fn kind() -> Kind {
         language: Language::FanucLs,
         options: ReadOptions::default(),
         turns: true,
+        speeds: false,
         words: &[
             "/POS\n",
             "/MN\n",

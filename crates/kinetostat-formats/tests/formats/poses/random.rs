@@ -12,6 +12,7 @@ pub fn kind() -> Kind {
         language: Language::Poses,
         options,
         turns: true,
+        speeds: false,
         words: &[
             "x_mm,",
             "y_m;",

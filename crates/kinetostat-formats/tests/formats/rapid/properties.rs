@@ -2,12 +2,8 @@
 
 use proptest::prelude::*;
 
-use crate::chance::Chance;
-
-use super::random::{
-    PLACE_MM, TURN_RAD, check, corrections, divide_and_read, module, write_and_read,
-};
-use super::{program, written};
+use super::random::{check, kind, program};
+use crate::harness::{Chance, corrections, divide_and_read, read_bytes, write_and_read};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -15,14 +11,12 @@ proptest! {
     #[test]
     fn whole_programs_come_back_and_take_corrections(seed in any::<u64>()) {
         let mut chance = Chance::new(seed);
-        let text = module(&mut chance);
-        let program = program(&text);
-        prop_assert_eq!(written(&program, &[]), text);
-        let pieces = corrections(&mut chance, &program);
-        let (place, turn) = write_and_read(&program, &pieces).map_err(TestCaseError::fail)?;
-        prop_assert!(place <= PLACE_MM, "{} mm away", place);
-        prop_assert!(turn <= TURN_RAD, "{} rad away", turn);
-        divide_and_read(&mut chance, &program).map_err(TestCaseError::fail)?;
+        let (text, kind) = (program(&mut chance), kind());
+        let read = read_bytes(&kind, text.as_bytes());
+        let program = read.map_err(|errors| TestCaseError::fail(format!("{errors:?}\n{text}")))?;
+        let pieces = corrections(&mut chance, &program, &kind);
+        write_and_read(&program, &pieces, &kind).map_err(TestCaseError::fail)?;
+        divide_and_read(&mut chance, &program, &kind).map_err(TestCaseError::fail)?;
     }
 
     #[test]

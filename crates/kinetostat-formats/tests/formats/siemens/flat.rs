@@ -201,7 +201,15 @@ fn what_cannot_be_run_is_refused_by_line() {
         ("GOTOF AA\nX1\n", "the jump has no destination"),
         (
             "L20\n",
-            "line 1: `L20`: the subprogram is not among the files; give its file",
+            "line 1: `L20`: no file of a subprogram of this name is given, and it is no word of the control that is known; give its file together with the program (--subprograms FOLDER), or take the call out",
+        ),
+        (
+            "R1=1\nIF R1==1\nHOLE(5)\nENDIF\n",
+            "line 3: `HOLE(5)`: no file of a subprogram of this name",
+        ),
+        (
+            "PCALL HOLE(5)\n",
+            "line 1: `PCALL`: no file of a subprogram of this name",
         ),
         ("CALL \"A\"\n", "what is called is stated by a text"),
         (
@@ -234,6 +242,23 @@ fn what_cannot_be_run_is_refused_by_line() {
         let found = fault(text);
         assert!(found.contains(part), "{text}: {found}");
     }
+}
+
+#[test]
+fn all_calls_without_a_file_are_named_where_nothing_else_is_run() {
+    let files = [SourceFile::new(
+        "m.mpf",
+        "G0 X1\nHOLE(5)\nG1 X2 F100\nOTHER\nM30\n",
+    )];
+    let lines: Vec<usize> = expand_siemens(&files)
+        .unwrap_err()
+        .iter()
+        .map(|fault| fault.line)
+        .collect();
+    assert_eq!(lines, [2, 4]);
+    // What is not run calls nothing.
+    let text = "R1=0\nIF R1==1\nHOLE(5)\nENDIF\nM30\n";
+    assert_eq!(flat_of(&[("m.mpf", text)]).file.bytes(), b"M30\n");
 }
 
 #[test]

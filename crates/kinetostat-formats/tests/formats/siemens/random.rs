@@ -9,6 +9,7 @@ pub fn kind() -> Kind {
         language: Language::Siemens,
         options: ReadOptions::default(),
         turns: false,
+        speeds: false,
         words: &[
             "G1 X1 Y2 Z3\n",
             "G91 ",

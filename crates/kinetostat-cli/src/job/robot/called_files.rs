@@ -1,0 +1,84 @@
+//! Files of the programs that a program calls: in its own folder, and in folders of subprograms.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_formats::{SourceFile, called_files};
+use kinetostat_machining::FileRead;
+
+use crate::files::input_files::InputFiles;
+use crate::files::origin;
+use crate::job::robot::source::RobotSource;
+use crate::ui::failure::Answer;
+
+/// Most files of one program.
+const MOST_FILES: usize = 1000;
+
+/// Most names of a folder that are looked at.
+const MOST_NAMES: usize = 100_000;
+
+/// Adds the files that a program calls, those that these call, and so on, as far as they are there: their places, and how they were
+/// read. A file that the job names stands for its name.
+pub(crate) fn with_called_files(
+    source: &mut RobotSource,
+    program: &Path,
+    others: &[PathBuf],
+) -> Answer<Vec<(PathBuf, FileRead)>> {
+    let own = program
+        .parent()
+        .map(|folder| match folder.as_os_str().is_empty() {
+            true => PathBuf::from("."),
+            false => folder.to_owned(),
+        });
+    let folders: Vec<Folder> = own
+        .iter()
+        .chain(others)
+        .map(|path| Folder::of(path))
+        .collect();
+    let inputs = InputFiles::default();
+    let mut read = Vec::new();
+    let mut at = 0;
+    while at < source.files.len() && source.files.len() < MOST_FILES {
+        for name in called_files(source.language, &source.files[at]) {
+            let known = |file: &SourceFile| file.name().eq_ignore_ascii_case(&name);
+            if source.files.iter().any(known) {
+                continue;
+            }
+            let Some(path) = folders.iter().find_map(|folder| folder.file(&name)) else {
+                continue;
+            };
+            let bytes = inputs.bytes("subprogram", &path)?;
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            source.files.push(SourceFile::new(name, bytes.as_slice()));
+            read.push((path.clone(), origin::file("subprogram", &path, &bytes)));
+        }
+        at += 1;
+    }
+    Ok(read)
+}
+
+/// A folder with the names of its files: controls do not tell capitals from small letters.
+struct Folder {
+    path: PathBuf,
+    names: Vec<String>,
+}
+
+impl Folder {
+    fn of(path: &Path) -> Self {
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut names: Vec<String> = names.take(MOST_NAMES).collect();
+        names.sort();
+        Self {
+            path: path.to_owned(),
+            names,
+        }
+    }
+
+    /// The file of a name: as it is written, else in other letters.
+    fn file(&self, name: &str) -> Option<PathBuf> {
+        let same = self.names.iter().find(|own| *own == name);
+        let alike = || self.names.iter().find(|own| own.eq_ignore_ascii_case(name));
+        let found = self.path.join(same.or_else(alike)?);
+        found.is_file().then_some(found)
+    }
+}

@@ -1,0 +1,165 @@
+//! Cycles: what they define, and the holes that their calls drill.
+
+use crate::heidenhain::expand::drill::{Hole, Retract, Stroke};
+use crate::heidenhain::expand::expression::Parameters;
+use crate::heidenhain::expand::numbers::{length, trimmed};
+use crate::heidenhain::expand::run::{Fault, Run};
+use crate::heidenhain::expand::values::begins_value;
+use crate::heidenhain::words::{Word, words_of};
+use crate::options::UnknownTargets;
+
+/// Parameters of the drilling cycles.
+const OWN: [&str; 15] = [
+    "Q200", "Q201", "Q202", "Q203", "Q204", "Q205", "Q206", "Q208", "Q210", "Q211", "Q212", "Q213",
+    "Q256", "Q379", "Q395",
+];
+
+impl Run<'_> {
+    pub(crate) fn cycle(&mut self, at: (usize, usize), words: &[Word]) -> Result<(), Fault> {
+        let file = self.programs[at.0].file;
+        let Some(kind) = words.get(1) else {
+            return self.substituted(at, words).map(|_| ());
+        };
+        if kind.is("CALL") {
+            let plain = words.len() == 2 || words[2].is("M");
+            if !plain {
+                return Err(self.fault(
+                    at,
+                    "the cycle is called at places of its own",
+                    "call it with M99 or CYCL CALL",
+                ));
+            }
+            let text = self.text(at, words)?;
+            let rest = match text
+                .windows(4)
+                .position(|part| part.eq_ignore_ascii_case(b"CALL"))
+            {
+                Some(call) => text[call + 4..].trim_ascii().to_vec(),
+                None => Vec::new(),
+            };
+            if self.is_left(at)? {
+                return self.write(&text, at);
+            }
+            if rest.first().is_some_and(|byte| *byte != b';') {
+                self.write(&rest, at)?;
+            }
+            return self.drill(at);
+        }
+        let number = kind.number().filter(|_| kind.is("DEF"));
+        let Some(number) = number else {
+            self.substituted(at, words)?;
+            return Ok(());
+        };
+        let text = String::from_utf8_lossy(file.part(&number.span)).into_owned();
+        let mut parts = text.splitn(2, ['.', ',']);
+        let mut part = || parts.next().and_then(|text| text.parse::<u32>().ok());
+        let (cycle, part) = (part().unwrap_or(0), part().unwrap_or(0));
+        let has_values = words
+            .windows(2)
+            .any(|pair| pair[0].is("Q") && begins_value(&pair[1], file.bytes()));
+        if matches!(cycle, 200 | 201 | 203) {
+            // What a cycle before said, says nothing of this one.
+            for name in OWN {
+                self.parameters.0.remove(name);
+            }
+            self.rapid_out = false;
+        }
+        if has_values {
+            self.assign(at, &words[2..])?;
+        }
+        match cycle {
+            // They act where they are defined.
+            7..=11 | 13 | 14 | 19 | 20 | 26 | 32 | 39 | 220..=299 | 400..=499
+                if !(240..=246).contains(&cycle) && !(250..=290).contains(&cycle) =>
+            {
+                self.substituted(at, words)?;
+            }
+            200 | 201 | 203 => {
+                self.cycle = Some(cycle);
+                self.modal = false;
+            }
+            1 => {
+                if part == 0 {
+                    self.pecking = [None; 6];
+                    self.cycle = Some(1);
+                    self.modal = false;
+                }
+                let flat = self.text(at, words)?;
+                let flat_words = words_of(&flat, &(0..flat.len()));
+                let value = flat_words.iter().skip(2).find_map(Word::value);
+                if let Some(slot) = self.pecking.get_mut(part as usize) {
+                    *slot = value;
+                }
+            }
+            _ => {
+                self.cycle = Some(cycle);
+                self.modal = false;
+                self.substituted(at, words)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the cycle that is called stays a cycle.
+    pub(crate) fn is_left(&self, at: (usize, usize)) -> Result<bool, Fault> {
+        match self.cycle {
+            None => Err(self.fault(at, "no cycle is defined that could be called", "define it before")),
+            Some(1 | 200 | 201 | 203) => Ok(false),
+            Some(number) if self.options.unknown_targets == UnknownTargets::Refused => Err(self
+                .fault(
+                    at,
+                    format!("cycle {number} is called, and what it does is not followed"),
+                    "leave such motions as written by an option, or let the CAM system write L blocks",
+                )),
+            Some(_) => Ok(true),
+        }
+    }
+
+    /// The blocks of a hole.
+    pub(crate) fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
+        let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);
+        let cycle = self.cycle.unwrap_or(0);
+        if cycle != 1 && value("Q395") != 0.0 {
+            return Err(self.fault(
+                at,
+                "the depth is that of the drill's full diameter (Q395), which its tip says",
+                "state the depth of the tip: Q395=+0",
+            ));
+        }
+        let hole = match cycle {
+            1 => Hole::pecked(&self.pecking, self.unit_mm),
+            _ => {
+                let retract = match self.rapid_out {
+                    true => Retract::Rapid,
+                    false => Retract::Feed(value("Q208")),
+                };
+                Hole::drilled(cycle, value, retract, self.unit_mm)
+            }
+        };
+        let strokes = hole.strokes();
+        let strokes =
+            strokes.map_err(|reason| self.fault(at, reason, "mend the cycle's values"))?;
+        for stroke in strokes {
+            let (letters, value, feed) = match stroke {
+                Stroke::To(to, feed) => ("Z", to, feed),
+                Stroke::By(by, feed) => ("IZ", by, feed),
+                Stroke::Dwell(seconds) => {
+                    self.write(b"CYCL DEF 9.0 DWELL TIME", at)?;
+                    let text = format!("CYCL DEF 9.1 DWELL {}", trimmed(seconds, 3));
+                    self.write(text.as_bytes(), at)?;
+                    continue;
+                }
+            };
+            let feed = match feed {
+                Some(feed) => {
+                    self.feed_lost = true;
+                    format!("F{}", trimmed(feed, 3))
+                }
+                None => "FMAX".to_owned(),
+            };
+            let text = format!("L {letters}{} R0 {feed}", length(value, self.unit_mm));
+            self.write(text.as_bytes(), at)?;
+        }
+        Ok(())
+    }
+}

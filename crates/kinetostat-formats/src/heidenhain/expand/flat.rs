@@ -1,0 +1,112 @@
+//! A program run once and written flat.
+
+use std::collections::BTreeMap;
+
+use crate::error::ProgramError;
+use crate::heidenhain::expand::program::Program;
+use crate::heidenhain::expand::run::Run;
+use crate::heidenhain::expand::values::Values;
+use crate::heidenhain::numbering::is_numbered;
+use crate::options::ReadOptions;
+use crate::text::flat::FlatText;
+use crate::text::source::SourceFile;
+
+/// Most blocks of a flat program.
+const MOST_BLOCKS: usize = 5_000_000;
+
+/// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
+/// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1. Each line says where it is from. A program
+/// without anything of that comes back byte for byte.
+///
+/// Coordinates that parameters say are written with 4 decimals in mm (5 in inches), as the control resolves them. Holes become
+/// `L` blocks along the tool's axis, their dwell cycle 9; the feed of before is stated again behind them. Other cycles that are
+/// called are refused, or stay as written with [`crate::UnknownTargets::LeftAsWritten`].
+///
+/// ```
+/// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain};
+///
+/// let text = "0 BEGIN PGM A MM\n1 LBL 1\n2 L IX+10 F300\n3 CALL LBL 1 REP 2/2\n4 END PGM A MM\n";
+/// let flat = expand_heidenhain(vec![SourceFile::new("a.h", text)], &ReadOptions::default()).unwrap();
+/// let expected = "0 BEGIN PGM A MM\n1 L IX+10 F300\n2 L IX+10 F300\n3 L IX+10 F300\n4 END PGM A MM\n";
+/// assert_eq!(String::from_utf8_lossy(flat.file.bytes()), expected);
+/// assert_eq!(flat.origins[3], (0, 3));
+/// ```
+///
+/// # Errors
+/// What cannot be followed, by file and line: the run ends there.
+pub fn expand_heidenhain(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<FlatText, Vec<ProgramError>> {
+    expand_within(files, options, MOST_BLOCKS)
+}
+
+/// The same with at most so many blocks.
+///
+/// # Errors
+/// As there.
+pub fn expand_within(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+    most_blocks: usize,
+) -> Result<FlatText, Vec<ProgramError>> {
+    let programs: Vec<Program<'_>> = files.iter().map(Program::of).collect();
+    let Some(main) = programs.first() else {
+        let none = SourceFile::new("", "");
+        let fault = ProgramError::at(&none, 0..0, "no file is given", "give a program");
+        return Err(vec![fault]);
+    };
+    let equal: Vec<ProgramError> = main.equal_labels().collect();
+    if !equal.is_empty() {
+        return Err(equal);
+    }
+    if !main.needs() {
+        return Ok(unchanged(main.file));
+    }
+    let mut run = Run {
+        options,
+        programs: &programs,
+        unit_mm: main.unit_mm(),
+        number: is_numbered(main.file.bytes()).then_some(0),
+        ending: main.file.line_ending(),
+        parameters: Values(BTreeMap::new()),
+        frames: Vec::new(),
+        output: Vec::with_capacity(main.file.bytes().len()),
+        origins: Vec::new(),
+        cycle: None,
+        pecking: [None; 6],
+        rapid_out: false,
+        modal: false,
+        feed: None,
+        feed_lost: false,
+        steps: 0,
+        silent: 0,
+        most_blocks,
+    };
+    let outcome = run.whole();
+    let Run {
+        output, origins, ..
+    } = run;
+    outcome.map_err(|fault| vec![fault])?;
+    let changed = output != main.file.bytes();
+    let file = SourceFile::new(main.file.name(), output);
+    Ok(FlatText {
+        file,
+        origins,
+        changed,
+    })
+}
+
+fn unchanged(file: &SourceFile) -> FlatText {
+    // What follows the last line ending is a line only where something stands there.
+    let bytes = file.bytes();
+    let count = match bytes.last() {
+        None | Some(b'\n') => file.line_count() - 1,
+        Some(_) => file.line_count(),
+    };
+    FlatText {
+        file: file.clone(),
+        origins: (1..=count).map(|line| (0, line)).collect(),
+        changed: false,
+    }
+}

@@ -1,0 +1,161 @@
+//! Where the run goes on: labels, repeats, other programs, jumps.
+
+use crate::heidenhain::expand::expression::value_of;
+use crate::heidenhain::expand::program::called_name;
+use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
+use crate::heidenhain::flow::label_name;
+use crate::heidenhain::words::Word;
+
+impl Run<'_> {
+    /// END PGM: the program that called goes on.
+    pub(crate) fn program_ends(&mut self, at: (usize, usize)) -> Result<Next, Fault> {
+        let open = self
+            .frames
+            .iter()
+            .rposition(|frame| matches!(frame, Frame::Program { .. }));
+        let in_sub = |frames: &[Frame]| frames.iter().any(|f| matches!(f, Frame::Sub { .. }));
+        let from = open.map_or(0, |open| open + 1);
+        if in_sub(&self.frames[from..]) {
+            return Err(self.fault(at, "the program ends in a subprogram", "end it with LBL 0"));
+        }
+        let Some(open) = open else {
+            return Ok(Next::End);
+        };
+        let Frame::Program { file, caller } = self.frames[open] else {
+            return Ok(Next::End);
+        };
+        self.frames.truncate(open);
+        Ok(Next::At(file, caller + 1))
+    }
+
+    fn label(&self, at: (usize, usize), word: Option<&Word>) -> Result<usize, Fault> {
+        let program = &self.programs[at.0];
+        let name = word
+            .filter(|word| word.is("LBL"))
+            .and_then(|word| label_name(program.file.bytes(), word));
+        let to = name.as_ref().and_then(|name| program.labels.get(name));
+        to.copied().ok_or_else(|| {
+            let name = name.map_or_else(|| "of this name".to_owned(), |name| format!("LBL {name}"));
+            self.fault(
+                at,
+                format!("there is no {name}"),
+                "write the label, or take this out",
+            )
+        })
+    }
+
+    pub(crate) fn call(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
+        let what = words.get(1);
+        if what.is_some_and(|word| word.is("PGM")) {
+            return self.call_program(at, &words[1]);
+        }
+        let to = self.label(at, what)?;
+        let Some(again) = words.get(2) else {
+            self.enter(at, Frame::Sub { caller: at.1 })?;
+            return Ok(Next::At(at.0, to));
+        };
+        let text = self.programs[at.0].file.part(&again.span).to_vec();
+        let count = match again.is("REP") {
+            true => value_of(&text[3.min(text.len())..], &self.parameters).ok(),
+            false => None,
+        };
+        let count = count.filter(|count| count.fract() == 0.0 && (1.0..=65_534.0).contains(count));
+        let Some(count) = count else {
+            return Err(self.fault(
+                at,
+                "how often it repeats is not a whole number from 1 to 65534",
+                "write CALL LBL 1 REP 2",
+            ));
+        };
+        // Is it the repeat that is running?
+        if let Some(Frame::Again { by, left }) = self.frames.last_mut()
+            && *by == at.1
+        {
+            if *left == 0 {
+                self.frames.pop();
+                return Ok(Next::Block);
+            }
+            *left -= 1;
+            return Ok(Next::At(at.0, to));
+        }
+        let left = count as u64 - 1;
+        self.enter(at, Frame::Again { by: at.1, left })?;
+        Ok(Next::At(at.0, to))
+    }
+
+    fn call_program(&mut self, at: (usize, usize), word: &Word) -> Result<Next, Fault> {
+        let program = &self.programs[at.0];
+        let block = &program.blocks[at.1];
+        let name = called_name(program.file.bytes(), block, word);
+        let found = (self.programs.iter()).position(|program| program.is_named(&name));
+        let Some(found) = found.filter(|_| !name.is_empty()) else {
+            return Err(self.fault(
+                at,
+                format!("the program `{name}` that it calls is not among the files"),
+                "give its file together with this one (--subprograms FOLDER)",
+            ));
+        };
+        if let Some(fault) = self.programs[found].equal_labels().next() {
+            return Err(fault);
+        }
+        let Some(begin) = self.programs[found].begin else {
+            return Err(self.fault(
+                at,
+                format!("`{name}` has no block BEGIN PGM"),
+                "give a program",
+            ));
+        };
+        self.enter(
+            at,
+            Frame::Program {
+                file: at.0,
+                caller: at.1,
+            },
+        )?;
+        Ok(Next::At(found, begin))
+    }
+
+    pub(crate) fn jump(&mut self, at: (usize, usize), words: &[Word]) -> Result<Next, Fault> {
+        let bytes = self.programs[at.0].file.bytes();
+        let place = |name: &str| words.iter().position(|word| word.is(name));
+        let (Some(from), Some(goes)) = (place("IF"), place("GOTO")) else {
+            return Err(self.fault(
+                at,
+                "the jump is not whole",
+                "write IF .. EQU .. GOTO LBL ..",
+            ));
+        };
+        let compares = ["EQU", "NE", "GT", "LT"];
+        let by = compares.iter().find_map(|name| Some((*name, place(name)?)));
+        let behind = |index: usize| words[index].span.start + words[index].letters.letters().len();
+        let is_true = match by {
+            Some((name, at_word)) if from < at_word && at_word < goes => {
+                let value = |text: &[u8]| {
+                    value_of(text, &self.parameters).map_err(|reason| {
+                        self.fault(at, reason, "state the value as a number: FN 0: Q1 = +5")
+                    })
+                };
+                let left = value(&bytes[behind(from)..words[at_word].span.start])?;
+                let right = value(&bytes[behind(at_word)..words[goes].span.start])?;
+                match name {
+                    "EQU" => left == right,
+                    "NE" => left != right,
+                    "GT" => left > right,
+                    _ => left < right,
+                }
+            }
+            _ => {
+                return Err(self.fault(
+                    at,
+                    "what it compares is not known",
+                    "compare with EQU, NE, GT or LT",
+                ));
+            }
+        };
+        let to = self.label(at, words.get(goes + 1))?;
+        Ok(match is_true {
+            true => Next::At(at.0, to),
+            false => Next::Block,
+        })
+    }
+}

@@ -1,0 +1,137 @@
+//! Cycles that act where they are defined, and what moves the coordinates.
+
+use std::ops::Range;
+
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::datum::{Bend, Change, change};
+use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::words::{Value, Word};
+
+impl Reader<'_> {
+    pub(crate) fn cycle(&mut self, block: &Block, words: &[Word], span: &Range<usize>) {
+        let Some(kind) = words.get(1) else {
+            return self.fault(span, "the cycle has no number", "state it");
+        };
+        if kind.is("CALL") {
+            let place = self.state.counts_from();
+            return self.called(block, words, span, place);
+        }
+        if kind.is("END") {
+            return;
+        }
+        let number = kind.number().filter(|_| kind.is("DEF"));
+        let Some(number) = number else {
+            return self.fault(span, "the cycle has no number", "state it");
+        };
+        let text = String::from_utf8_lossy(self.file.part(&number.span)).into_owned();
+        let mut parts = text.splitn(2, ['.', ',']);
+        let mut part = || parts.next().and_then(|text| text.parse::<u32>().ok());
+        let (cycle, part) = (part().unwrap_or(0), part().unwrap_or(0));
+        match (cycle, part) {
+            (7 | 8 | 10 | 11, _) => {
+                let change = change(cycle, part, &words[2..], self.unit_mm);
+                self.coordinates(change, span);
+            }
+            (19, 1..) => {
+                let tilts = |word: &Word| match word.value {
+                    Value::Parameter { .. } => true,
+                    _ => word.value().unwrap_or(0.0) != 0.0,
+                };
+                if words[2..].iter().any(tilts) {
+                    self.fault(
+                        span,
+                        "it tilts the plane in which the places are",
+                        "write the program in the axes of the part, or divide it there",
+                    );
+                }
+            }
+            (247, _) => {
+                let named = words.iter().skip(2).filter_map(Word::value).next_back();
+                self.state.preset = match named {
+                    Some(number) => format!("PRESET:{number}"),
+                    None => "PRESET".to_owned(),
+                };
+                self.state.lost();
+            }
+            (12 | 26 | 220 | 221 | 235 | 400..=499, _) => self.fault(
+                span,
+                "the cycle moves the tool or the coordinates where it is defined",
+                "take it into a program of its own",
+            ),
+            _ => {}
+        }
+    }
+
+    /// A datum shift, mirror image, rotation or scaling.
+    fn coordinates(&mut self, change: Change, span: &Range<usize>) {
+        let state = &mut self.state;
+        match change {
+            Change::Kept => {}
+            Change::Shift(shifts) => {
+                let now = state.datum.shift_mm;
+                let target = |(axis, value, adds): (usize, f64, bool)| match adds {
+                    true => (axis, now[axis] + value),
+                    false => (axis, value),
+                };
+                let shifts: Vec<(usize, f64)> = shifts.into_iter().map(target).collect();
+                let differs = shifts.iter().any(|(axis, to)| now[*axis] != *to);
+                let bent = state.datum.bend != Bend::None;
+                if bent && differs {
+                    return self.fault(
+                        span,
+                        "the datum moves while the coordinates are mirrored, turned or scaled",
+                        "shift the datum before, or let the CAM system write the places as they are",
+                    );
+                }
+                for (axis, to) in shifts {
+                    state.shift(axis, to);
+                }
+            }
+            Change::Bend(bend) => {
+                let other =
+                    std::mem::discriminant(&bend) != std::mem::discriminant(&state.datum.bend);
+                if other && bend != Bend::None && state.datum.bend != Bend::None {
+                    return self.fault(
+                        span,
+                        "a second of mirror image, rotation and scaling acts beside the first",
+                        "reset the first before, or let the CAM system write the places as they are",
+                    );
+                }
+                state.bend(bend);
+            }
+            Change::Refused(reason) => self.fault(
+                span,
+                reason,
+                "write the program flat first (--expand), or the values as numbers",
+            ),
+        }
+    }
+
+    pub(crate) fn trans(&mut self, words: &[Word], span: &Range<usize>) {
+        let is = |at: usize, name: &str| words.get(at).is_some_and(|word| word.is(name));
+        let shifts = match (is(1, "DATUM"), is(2, "AXIS"), is(2, "RESET")) {
+            (true, true, _) => change(7, 1, &words[3..], self.unit_mm),
+            (true, _, true) => Change::Shift((0..3).map(|axis| (axis, 0.0, false)).collect()),
+            _ => Change::Refused("how it moves the coordinates is not followed"),
+        };
+        match shifts {
+            Change::Shift(shifts) if self.state.datum.keeps_axes() => {
+                for (axis, to, adds) in shifts {
+                    let from = match adds {
+                        true => self.state.datum.shift_mm[axis],
+                        false => 0.0,
+                    };
+                    self.state.shift(axis, from + to);
+                }
+            }
+            Change::Refused(reason) => {
+                self.fault(span, reason, "use TRANS DATUM AXIS with numbers")
+            }
+            _ => self.fault(
+                span,
+                "the datum moves while the coordinates are turned",
+                "shift it before",
+            ),
+        }
+    }
+}

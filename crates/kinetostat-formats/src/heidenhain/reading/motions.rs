@@ -1,0 +1,147 @@
+//! The motions that a program makes: those whose end is known, and those that stay as they are written.
+
+use std::ops::Range;
+
+use crate::apt::places::frame_use;
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::ends::Shape;
+use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::words::Word;
+use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::site::{MotionSite, SpeedSite, TargetSite};
+use crate::model::target::Target;
+use crate::options::UnknownTargets;
+
+const LEAVE: &str =
+    "leave such motions as written by an option, or let the CAM system write L blocks";
+
+/// Whether a motion to an end that is not known may stay whatever the options say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Carried {
+    Yes,
+    IfLeft,
+}
+
+impl Reader<'_> {
+    /// What is known of the end of the last motion, which stays as it is written.
+    pub(crate) fn ends_at(&mut self, end: [Option<f64>; 3]) {
+        let last = self.found.ways.last_mut();
+        if let Some(way) = last.filter(|way| way.shape == Shape::Unknown) {
+            way.end = end;
+        }
+    }
+
+    /// A cycle is called at the end of a block.
+    pub(crate) fn called(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        end: [Option<f64>; 3],
+    ) {
+        let reason = "a cycle is called: from here the control drills or mills by itself";
+        if self.options.unknown_targets == UnknownTargets::Refused {
+            self.fault(
+                span,
+                reason,
+                "write drilling cycles flat first (--expand), or leave such motions as written by an option",
+            );
+        } else {
+            self.unknown(block, words, span, reason, Carried::IfLeft);
+            self.ends_at(end);
+        }
+        self.state.place = [end[0], end[1], None];
+        self.state.direction = None;
+        self.state.last = None;
+    }
+
+    /// A motion whose end is not known: refused, or carried as it is written.
+    pub(crate) fn unknown(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        reason: &'static str,
+        carried: Carried,
+    ) {
+        let refused = self.options.unknown_targets == UnknownTargets::Refused;
+        if carried == Carried::IfLeft {
+            if refused {
+                return self.fault(span, reason, LEAVE);
+            }
+            self.finding(span, format!("it stays as it is written: {reason}"));
+        }
+        let target = Target::Unknown {
+            reason: reason.to_owned(),
+        };
+        let site = TargetSite::Fixed("its end is not known");
+        let parts = (Shape::Unknown, [None; 3], true);
+        self.push(
+            block,
+            words,
+            span,
+            MotionKind::Linear,
+            (target, site),
+            parts,
+        );
+    }
+
+    pub(crate) fn push(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        kind: MotionKind,
+        (target, site): (Target, TargetSite),
+        (shape, end, rapid): (Shape, [Option<f64>; 3], bool),
+    ) {
+        let speed = match rapid {
+            true => Speed {
+                mm_per_s: None,
+                text: "FMAX".to_owned(),
+            },
+            false => self.state.speed(self.unit_mm),
+        };
+        let known = speed.mm_per_s.is_some();
+        let is_arc = matches!(kind, MotionKind::Arc { .. });
+        let fixed = TargetSite::Fixed("an arc with other ends is none about its written centre");
+        self.found.motions.push(Motion {
+            file: self.index,
+            line: self.file.line_of(block.lines.start),
+            span: span.clone(),
+            kind,
+            target,
+            zone: Zone::Unstated,
+            tool: frame_use(self.frames, &self.state.tool),
+            work_object: frame_use(self.frames, &self.state.preset),
+            runs: Runs::Once,
+            follows: self.state.last,
+            site: MotionSite {
+                keyword: words[0].span.clone(),
+                target_span: span.clone(),
+                target: site,
+                via: is_arc.then_some((span.start..span.start, fixed)),
+                speed: known.then(|| SpeedSite {
+                    span: span.start..span.start,
+                    before: String::new(),
+                    after: String::new(),
+                }),
+                zone: None,
+                indivisible: None,
+            },
+            speed,
+        });
+        self.found.ways.push(Way {
+            block: block.clone(),
+            shape,
+            start: self.state.counts_from(),
+            end,
+            datum: self.state.datum,
+            unit_mm: self.unit_mm,
+            feed: self.state.feed.filter(|_| known),
+            pole_from: self.pole_from,
+        });
+        self.state.last = Some(self.found.motions.len() - 1);
+    }
+}

@@ -1,0 +1,134 @@
+//! Path blocks and blocks of functions alone: their feed, their radius compensation, what their functions do.
+
+use std::ops::Range;
+
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::path_words::{FeedWord, Odd, PathWords};
+use crate::heidenhain::reading::walker::{BY_PARAMETER, EXPAND, Reader};
+use crate::heidenhain::reading::ways::Acts;
+use crate::heidenhain::table::{Function, function};
+use crate::heidenhain::words::{Value, Word};
+use crate::options::CutterCompensation;
+use crate::text::name::Name;
+
+const FIVE_AXES: &str =
+    "programs whose rotary axes turn are not corrected yet: divide the program there";
+
+impl Reader<'_> {
+    /// A path block, or one of functions alone; whether the program ends behind it.
+    pub(crate) fn path(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
+        // Blocks of functions alone have no word before.
+        let alone = words[0].is("M") || words[0].is("F");
+        let own: Vec<Word>;
+        let words = match alone {
+            true => {
+                let mut all = vec![Word {
+                    span: span.start..span.start,
+                    letters: Name::empty(),
+                    value: Value::None,
+                }];
+                all.extend_from_slice(words);
+                own = all;
+                &own[..]
+            }
+            false => words,
+        };
+        let parsed = match PathWords::of(words) {
+            Ok(parsed) => parsed,
+            Err(odd) => {
+                let (at, reason, remedy) = match odd {
+                    Odd::Parameter(at) => (at, BY_PARAMETER, EXPAND),
+                    Odd::Unknown(at) if is_exponent(words, at) => (
+                        at,
+                        "a number with an exponent, which the control does not read",
+                        "write the number out: X+100.5",
+                    ),
+                    Odd::Unknown(at) => (
+                        at,
+                        "the word is not known here, or has no number",
+                        "write the block as the control shows it",
+                    ),
+                    Odd::Twice(at) => (at, "the word is there twice", "take one out"),
+                };
+                self.fault(&words[at].span.clone(), reason, remedy);
+                self.state.lost();
+                return false;
+            }
+        };
+        let acts = self.functions(words, &parsed);
+        match parsed.feed {
+            FeedWord::Number(_, value) => {
+                self.state.feed = Some(value);
+                self.state.feed_text = format!("F{value}");
+            }
+            FeedWord::Auto => {
+                self.state.feed = self.state.tool_feed;
+                self.state.feed_text = "FAUTO".to_owned();
+            }
+            FeedWord::Other => {
+                self.state.feed = None;
+                self.state.feed_text = "F".to_owned();
+            }
+            FeedWord::None | FeedWord::Max => {}
+        }
+        if parsed.aside
+            && self.options.cutter_compensation == CutterCompensation::Refused
+            && !self.state.aside
+        {
+            self.fault(
+                span,
+                "the control moves the path aside by the tool's radius",
+                "say by an option that the places are those of the tool's centre, if they are",
+            );
+        }
+        if let Some(at) = parsed.compensation {
+            self.state.aside = !words[at].is("R");
+        }
+        if parsed.rotary.iter().any(|angle| *angle != 0.0) {
+            self.fault(span, "a rotary axis turns the part or the tool", FIVE_AXES);
+        }
+        self.moved(block, words, &parsed, span, &acts);
+        acts.ends
+    }
+
+    fn functions(&mut self, words: &[Word], parsed: &PathWords) -> Acts {
+        let mut acts = Acts::default();
+        for (at, number) in &parsed.functions {
+            let span = words[*at].span.clone();
+            match function(*number) {
+                Function::AtStart => {}
+                Function::AtEnd => acts.ends |= matches!(number, 2 | 30),
+                Function::Machine => acts.machine = true,
+                Function::Retracts => acts.retracts = true,
+                Function::Calls if *number == 89 => self.state.calls = true,
+                Function::Calls => acts.calls = true,
+                Function::PerTurn => self.state.per_turn = true,
+                Function::PerMinute => self.state.per_turn = false,
+                Function::Refused(reason) => self.fault(&span, reason, "take it out"),
+                Function::Unknown => {
+                    if self.remarked.insert(*number) {
+                        self.finding(
+                            &span,
+                            format!(
+                                "M{number} is the machine builder's: taken as one that does not move the tool"
+                            ),
+                        );
+                    }
+                }
+            }
+        }
+        acts.calls |= self.state.calls && parsed.moves();
+        if parsed.functions.iter().any(|(_, number)| *number == 99) {
+            self.state.calls = false;
+        }
+        acts
+    }
+}
+
+/// Whether a word is the `e20` of `X+1e20`.
+fn is_exponent(words: &[Word], at: usize) -> bool {
+    let before = at.checked_sub(1).and_then(|before| words.get(before));
+    let stands_against = before
+        .is_some_and(|before| before.number().is_some() && before.span.end == words[at].span.start);
+    words[at].is("E") && stands_against
+}

@@ -1,0 +1,192 @@
+//! The reader of Heidenhain conversational programs.
+
+use std::collections::BTreeSet;
+
+use crate::apt::places::Frames;
+use crate::error::ProgramError;
+use crate::heidenhain::blocks::{Block, blocks_of};
+use crate::heidenhain::flow::{LABEL_TWICE, NAME_IT, Step, labels_of, order, step_of};
+use crate::heidenhain::reading::found::Found;
+use crate::heidenhain::reading::walker::{EXPAND, Reader};
+use crate::heidenhain::state::State;
+use crate::model::program::{Language, RobotProgram};
+use crate::options::ReadOptions;
+use crate::text::source::SourceFile;
+
+/// Most bytes of a file.
+const MOST_BYTES: usize = 1 << 28;
+
+/// Reads Heidenhain conversational programs (`.h`), each file for itself.
+///
+/// Places are those that the blocks state, in mm in the axes of the control's preset: datum shifts, mirror images, rotations and
+/// scalings are followed. What is not stated stays as it was. Circles are [`MotionKind::Arc`]. The work object is `PRESET`, the tool
+/// `TOOL:5`; where they are, the options say. Places of the machine (`M91`) and retractions (`M140`) are carried. A program that
+/// repeats, jumps, counts or calls drilling cycles is refused: [`crate::expand_heidenhain`] writes it flat.
+///
+/// ```
+/// use kinetostat_formats::{MotionKind, ReadOptions, SourceFile, read_heidenhain};
+///
+/// let text = "0 BEGIN PGM PART MM\n1 TOOL CALL 5 Z S3000\n2 L X+20 Y+0 Z+2 R0 FMAX M3\n3 L Z-2 F300\n4 CC X+0 Y+0\n\
+///     5 C X+0 Y+20 DR+ F600\n6 L IZ+10 FMAX M30\n7 END PGM PART MM\n";
+/// let program = read_heidenhain(vec![SourceFile::new("part.h", text)], &ReadOptions::default()).unwrap();
+/// assert_eq!(program.motions[0].speed.text, "FMAX");
+/// assert_eq!(program.motions[2].speed.mm_per_s, Some(10.0));
+/// let MotionKind::Arc { angle_rad, .. } = program.motions[2].kind else { panic!() };
+/// assert!((angle_rad.to_degrees() - 90.0).abs() < 1e-9);
+/// assert_eq!(program.motions[3].target.pose().unwrap().position_mm.as_slice(), [0.0, 20.0, 8.0]);
+/// ```
+///
+/// # Errors
+/// All that is refused, in the order of files and lines.
+pub fn read_heidenhain(
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<RobotProgram, Vec<ProgramError>> {
+    let mut found = interpret(&files, options);
+    if !found.faults.is_empty() {
+        let place = |fault: &ProgramError| {
+            let file = files.iter().position(|file| file.name() == fault.file);
+            (file, fault.span.start, fault.line)
+        };
+        found.faults.sort_by_key(place);
+        return Err(found.faults);
+    }
+    let mut findings = found.findings;
+    findings.sort_by_key(|finding| (finding.file, finding.line));
+    Ok(RobotProgram {
+        language: Language::Heidenhain,
+        files,
+        motions: found.motions,
+        findings,
+        declarations: Vec::new(),
+    })
+}
+
+/// Reads files, with all that is refused beside what is understood.
+pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
+    let mut found = Found {
+        faults: Vec::new(),
+        findings: Vec::new(),
+        motions: Vec::new(),
+        ways: Vec::new(),
+    };
+    let frames = options.frames.iter();
+    let frames: Frames = frames
+        .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
+        .collect();
+    for (index, file) in files.iter().enumerate() {
+        if file.bytes().len() > MOST_BYTES {
+            let fault =
+                ProgramError::at(file, 0..0, "the file is larger than 256 MiB", "divide it");
+            found.faults.push(fault);
+            continue;
+        }
+        let mut reader = Reader {
+            found: &mut found,
+            options,
+            frames: &frames,
+            file,
+            index,
+            unit_mm: 1.0,
+            state: State::new(),
+            pole_from: None,
+            remarked: BTreeSet::new(),
+        };
+        reader.file();
+    }
+    found
+}
+
+impl Reader<'_> {
+    fn file(&mut self) {
+        let bytes = self.file.bytes();
+        let blocks = blocks_of(bytes);
+        let first_of = |block: &Block| {
+            let is_begin = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'B');
+            is_begin
+                && block
+                    .words(bytes)
+                    .first()
+                    .is_some_and(|word| word.is("BEGIN"))
+        };
+        let Some(first) = blocks.iter().position(first_of) else {
+            let end = bytes.len().min(60);
+            return self.fault(
+                &(0..end),
+                "no block BEGIN PGM begins a program",
+                "give a program of Heidenhain's conversational language, whole",
+            );
+        };
+        let (labels, twice) = labels_of(bytes, &blocks);
+        for index in twice {
+            let text = blocks[index].text.clone();
+            self.fault(&text, LABEL_TWICE, NAME_IT);
+        }
+        let calls = |block: &Block| {
+            let is_call = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'C');
+            is_call && matches!(step_of(bytes, block), Step::Call(_))
+        };
+        let ordered = match labels.is_empty() || !blocks.iter().any(calls) {
+            true => None,
+            false => Some(order(first, blocks.len(), &labels, |at| {
+                step_of(bytes, &blocks[at])
+            })),
+        };
+        let mut last = first;
+        match ordered {
+            None => {
+                for (at, block) in blocks.iter().enumerate().skip(first) {
+                    last = at;
+                    if self.block(block) {
+                        break;
+                    }
+                }
+            }
+            Some(Ok(order)) => {
+                for at in order {
+                    if at > last {
+                        last = at;
+                    }
+                    if self.block(&blocks[at]) {
+                        break;
+                    }
+                }
+            }
+            Some(Err((at, reason))) => {
+                let text = blocks[at].text.clone();
+                self.fault(&text, reason, EXPAND);
+                // The other faults, in the order of lines.
+                for block in blocks.iter().skip(first) {
+                    self.block(block);
+                }
+            }
+        }
+        let ends = |block: &Block| {
+            let is_end = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'E');
+            is_end
+                && block
+                    .words(bytes)
+                    .first()
+                    .is_some_and(|word| word.is("END"))
+        };
+        if !blocks[first..].iter().rev().any(ends) {
+            let span = blocks.last().map_or(0..0, |block| block.text.clone());
+            self.finding(
+                &span,
+                "no block END PGM ends the program: give the whole program, if this is a part of it".to_owned(),
+            );
+        }
+        let left = blocks.iter().skip(last + 1);
+        let left = left.filter(|block| {
+            let words = block.words(bytes);
+            words.first().is_some_and(|word| !word.is("END"))
+        });
+        if let Some(block) = left.clone().next() {
+            let span = block.text.clone();
+            self.finding(
+                &span,
+                "what stands from here on does not run: it stays as it is written".to_owned(),
+            );
+        }
+    }
+}

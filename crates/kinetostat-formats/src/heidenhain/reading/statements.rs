@@ -1,0 +1,126 @@
+//! A block by the word that it begins with: followed, carried or refused.
+
+use std::ops::Range;
+
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::flow::label_name;
+use crate::heidenhain::reading::walker::{EXPAND, Reader};
+use crate::heidenhain::table::row;
+use crate::heidenhain::words::{Value, Word};
+use crate::table::Treatment;
+
+impl Reader<'_> {
+    /// Follows a block; whether the program ends behind it.
+    pub(crate) fn block(&mut self, block: &Block) -> bool {
+        let words = block.words(self.file.bytes());
+        let Some(first) = words.first() else {
+            return false;
+        };
+        let span = first.span.start..words[words.len() - 1].span.end;
+        let letters = first.letters;
+        if block.skipped {
+            self.fault(
+                &span,
+                "the block is skipped or not, as a switch of the machine says",
+                "take the sign `/` away, or the block out",
+            );
+        }
+        match letters.letters() {
+            b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP" | b"M" | b"F" => {
+                return self.path(block, &words, &span);
+            }
+            b"STOP" => return self.path(block, &words, &span),
+            b"CC" => self.pole(&words, &span),
+            b"BEGIN" => self.begin(&words, &span),
+            b"END" => return true,
+            b"TOOL" => self.tool(&words, &span),
+            b"CYCL" | b"CYCLE" => self.cycle(block, &words, &span),
+            b"TRANS" => self.trans(&words, &span),
+            b"PLANE" => self.plane(&words, &span),
+            b"FUNCTION" => self.function(&words, &span),
+            b"CALL" => self.call(&words, &span),
+            b"FN" => self.parameter_function(first, &span),
+            b"X" | b"Y" | b"Z" | b"IX" | b"IY" | b"IZ" => {
+                self.fault(
+                    &span,
+                    "the block has coordinates and no L",
+                    "write L before them",
+                );
+            }
+            letters => match row(letters).map(|row| row.treatment) {
+                Some(Treatment::Refused { reason, remedy }) => self.fault(&span, reason, remedy),
+                Some(_) => {}
+                None => self.fault(
+                    &span,
+                    "the statement is not known, and may move the tool",
+                    "take it out, or make it a comment (;)",
+                ),
+            },
+        }
+        false
+    }
+
+    fn plane(&mut self, words: &[Word], span: &Range<usize>) {
+        let flat = words[1..]
+            .iter()
+            .all(|word| word.value().unwrap_or(0.0) == 0.0);
+        if !flat
+            || words
+                .iter()
+                .any(|word| matches!(word.value, Value::Parameter { .. }))
+        {
+            self.fault(
+                span,
+                "it tilts the plane in which the places are",
+                "write the program in the axes of the part, or divide it there",
+            );
+        }
+    }
+
+    fn function(&mut self, words: &[Word], span: &Range<usize>) {
+        let known = [
+            "TCPM",
+            "RESET",
+            "MODE",
+            "S",
+            "FEED",
+            "PARAXCOMP",
+            "DWELL",
+            "COUNT",
+        ];
+        let named = words.get(1);
+        if !named.is_some_and(|word| known.iter().any(|name| word.is(name))) {
+            self.fault(span, "what this function moves is not known", "take it out");
+        }
+    }
+
+    fn call(&mut self, words: &[Word], span: &Range<usize>) {
+        match words.get(1) {
+            Some(word) if word.is("LBL") => {
+                if words.get(2).is_some_and(|word| word.is("REP")) {
+                    self.fault(span, "it runs a part of the program again", EXPAND);
+                } else if label_name(self.file.bytes(), word).is_none() {
+                    self.fault(span, "the label has no number and no name", "state it");
+                }
+            }
+            _ => self.fault(
+                span,
+                "it runs another program",
+                "give the programs together and write them flat (--expand)",
+            ),
+        }
+    }
+
+    /// FN: jumps and what writes into the control are refused.
+    fn parameter_function(&mut self, first: &Word, span: &Range<usize>) {
+        match first.whole() {
+            Some(9..=12) => self.fault(span, "it jumps where a Q parameter says", EXPAND),
+            Some(17 | 25) => self.fault(
+                span,
+                "it writes data of the control, which may move the coordinates",
+                "take it into a program of its own",
+            ),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! What the walk over a program knows, and how it says what is wrong.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::apt::places::Frames;
+use crate::error::{ProgramError, note};
+use crate::heidenhain::reading::found::Found;
+use crate::heidenhain::state::State;
+use crate::model::program::Finding;
+use crate::options::ReadOptions;
+use crate::text::source::SourceFile;
+
+/// The walk over one file.
+pub(crate) struct Reader<'r> {
+    pub found: &'r mut Found,
+    pub options: &'r ReadOptions,
+    pub frames: &'r Frames,
+    pub file: &'r SourceFile,
+    pub index: usize,
+    pub unit_mm: f64,
+    pub state: State,
+    pub pole_from: Option<usize>,
+    /// Functions of the machine's builder that were remarked on.
+    pub remarked: BTreeSet<u32>,
+}
+
+/// What is to be done with what runs more than once or by parameters.
+pub(crate) const EXPAND: &str = "write the program flat first (--expand)";
+
+pub(crate) const BY_PARAMETER: &str = "a Q parameter says its value";
+
+impl Reader<'_> {
+    pub(crate) fn fault(
+        &mut self,
+        span: &Range<usize>,
+        reason: impl Into<String>,
+        remedy: &'static str,
+    ) {
+        let file = self.file;
+        note(&mut self.found.faults, || {
+            ProgramError::at(file, span.clone(), reason, remedy)
+        });
+    }
+
+    pub(crate) fn finding(&mut self, span: &Range<usize>, message: String) {
+        self.found.findings.push(Finding {
+            file: self.index,
+            line: self.file.line_of(span.start),
+            message,
+        });
+    }
+}

@@ -1,0 +1,174 @@
+//! Where a path block goes: to a place, back along the tool, to a place of the machine.
+
+use std::ops::Range;
+
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::ends::{Ends, Went};
+use crate::heidenhain::path_words::{FeedWord, PathWords};
+use crate::heidenhain::reading::motions::Carried;
+use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::words::Word;
+use crate::model::motion::MotionKind;
+use crate::model::orientation::OrientationText;
+use crate::model::site::{PoseText, TargetSite};
+use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::text::number::{NumberText, Width};
+
+/// What the functions of a block do.
+#[derive(Debug, Default)]
+pub(crate) struct Acts {
+    pub ends: bool,
+    pub machine: bool,
+    pub retracts: bool,
+    pub calls: bool,
+}
+
+impl Reader<'_> {
+    /// Where a block goes.
+    pub(crate) fn moved(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        parsed: &PathWords,
+        span: &Range<usize>,
+        acts: &Acts,
+    ) {
+        let rapid = parsed.feed == FeedWord::Max;
+        if acts.retracts {
+            self.unknown(
+                block,
+                words,
+                span,
+                "the tool goes back along its axis",
+                Carried::Yes,
+            );
+            self.state.place[2] = None;
+            for axis in 0..2 {
+                if parsed.axes[axis].is_some() {
+                    self.state.place[axis] = None;
+                }
+            }
+            self.state.direction = None;
+            return;
+        }
+        if !parsed.moves() {
+            if acts.calls {
+                let place = self.state.counts_from();
+                self.called(block, words, span, place);
+            }
+            return;
+        }
+        if acts.machine {
+            self.unknown(
+                block,
+                words,
+                span,
+                "its places are those of the machine",
+                Carried::Yes,
+            );
+            for axis in 0..3 {
+                let by_angle = parsed.radius.is_some() || parsed.angle.is_some();
+                if parsed.axes[axis].is_some() || by_angle {
+                    self.state.place[axis] = None;
+                }
+            }
+            self.state.direction = None;
+            return;
+        }
+        if let [Some(x), Some(y), Some(z)] = parsed.axis {
+            let axis = Vector3::new(x, y, z);
+            match OrientationText::Axis.rotation_of(axis.as_slice()) {
+                Some(_) => self.state.axis = axis,
+                None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
+            }
+        }
+        let mut ends = Ends {
+            state: &mut self.state,
+            unit_mm: self.unit_mm,
+        };
+        match ends.of(words, parsed) {
+            Ok(went) if acts.calls => self.called(block, words, span, went.end),
+            Ok(went) => self.goes(block, words, span, &went, rapid),
+            Err((reason, remedy)) => {
+                self.fault(span, reason, remedy);
+                self.state.lost();
+            }
+        }
+    }
+
+    /// The motion of a block whose end is known as far as its words say it.
+    fn goes(
+        &mut self,
+        block: &Block,
+        words: &[Word],
+        span: &Range<usize>,
+        went: &Went,
+        rapid: bool,
+    ) {
+        let start = self.state.place;
+        let [x, y, z] = went.end;
+        let whole = x.zip(y).zip(z).map(|((x, y), z)| Vector3::new(x, y, z));
+        let is_arc = went.arc.is_some();
+        let Some(place) = whole.filter(|_| !is_arc || start[2].is_some()) else {
+            let reason = "where the tool is, is not wholly known here";
+            let carried = match rapid {
+                true => Carried::Yes,
+                false => Carried::IfLeft,
+            };
+            self.unknown(block, words, span, reason, carried);
+            self.ends_at(went.end);
+            self.state.place = went.end;
+            self.state.direction = None;
+            return;
+        };
+        let datum = self.state.datum;
+        let kind = match &went.arc {
+            Some(arc) => MotionKind::Arc {
+                centre_mm: datum.preset(&Vector3::new(
+                    arc.centre.x,
+                    arc.centre.y,
+                    start[2].unwrap_or(place.z),
+                )),
+                axis: datum.direction(&Vector3::z()),
+                angle_rad: arc.angle * datum.sense(),
+            },
+            None => MotionKind::Linear,
+        };
+        let flat = Vector2::new(place.x, place.y);
+        let came = self.state.in_plane().map(|from| flat - from);
+        self.state.direction = match &went.arc {
+            Some(arc) => arc.last_direction(&flat),
+            None => came.and_then(|way| way.try_normalize(1e-9)),
+        };
+        let axis = datum.direction(&self.state.axis);
+        let orientation = OrientationText::Axis.rotation_of(axis.as_slice());
+        let text = PoseText {
+            file: self.index,
+            whole: span.clone(),
+            position: [0, 1, 2].map(|i| NumberText {
+                span: span.start..span.start,
+                value: place[i],
+            }),
+            orientation: Vec::new(),
+            convention: OrientationText::Axis,
+            width: Width::Free,
+        };
+        let target = Target::Pose(PoseTarget {
+            position_mm: datum.preset(&place),
+            orientation: orientation.unwrap_or_else(UnitQuaternion::identity),
+            configuration: Configuration::default(),
+            external: Vec::new(),
+        });
+        self.push(
+            block,
+            words,
+            span,
+            kind,
+            (target, TargetSite::Literal(text)),
+            (went.shape, went.end, rapid),
+        );
+        self.state.place = went.end;
+    }
+}

@@ -1,0 +1,130 @@
+//! Motions without pieces: what they took over from a block that is another one, they state.
+
+use nalgebra::Vector3;
+
+use crate::heidenhain::ends::Shape;
+use crate::heidenhain::path_words::FeedWord;
+use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::words::{Word, words_of};
+use crate::heidenhain::writing::words::{Stated, word_text};
+use crate::heidenhain::writing::writer::{Reason, Writer};
+use crate::model::motion::Motion;
+use crate::text::edits::Edits;
+use crate::writing::piece::Piece;
+
+impl Writer<'_> {
+    /// A motion without pieces: it goes on from where the block before leaves the tool.
+    pub(crate) fn kept(&mut self, motion: &Motion, way: &Way) -> Result<(), Reason> {
+        let file = &self.program.files[motion.file];
+        let words = words_of(file.bytes(), &motion.span);
+        let stated = Stated::of(&words);
+        let off = self.off;
+        if way.shape == Shape::Unknown {
+            return self.unknown(motion, way, &words, &stated);
+        }
+        let pole_off = way
+            .pole_from
+            .is_some_and(|from| self.off_at.get(from) == Some(&true));
+        let whole = match way.shape {
+            Shape::Straight => true,
+            Shape::Polar { whole } => (whole || !self.polar_broken) && !pole_off,
+            Shape::Arc | Shape::Tangential => !pole_off,
+            Shape::Unknown => true,
+        };
+        let before = motion.follows.and_then(|from| self.changed.get(from));
+        if way.shape == Shape::Tangential && before == Some(&true) {
+            return Err((
+                "the arc begins in the direction of the block before it, which changes".to_owned(),
+                "divide it into straight pieces, too, or write it with CC and C",
+            ));
+        }
+        let needs_feed = self.feed.is_some() && stated.feed == FeedWord::None && way.feed.is_some();
+        if off == Vector3::zeros() && whole && !needs_feed {
+            if matches!(
+                stated.feed,
+                FeedWord::Number(..) | FeedWord::Auto | FeedWord::Other
+            ) {
+                self.feed = None;
+            }
+            return Ok(());
+        }
+        if off == Vector3::zeros() && whole {
+            // The feed alone.
+            let mut edits = Edits::default();
+            self.write_feed(way, &words, 1.0, &mut edits);
+            self.edits[motion.file].append(edits);
+            return Ok(());
+        }
+        if matches!(way.shape, Shape::Arc | Shape::Tangential) {
+            // A digit that was not worth stating again bends no arc.
+            if off.amax() <= 1.01 * self.half_mm(way) && !pole_off {
+                self.stated_again(way, &stated);
+                return Ok(());
+            }
+            return Err((
+                "the arc begins at a place that changes, and is then none about its written centre"
+                    .to_owned(),
+                "divide it into straight pieces, too, or keep its start",
+            ));
+        }
+        let Some(end) = motion.target.pose() else {
+            return Ok(());
+        };
+        let piece = Piece::to(0, end.position_mm);
+        self.pieces(motion, way, &piece, &[])
+    }
+
+    /// A block that stays as it is written. What is known of its end, and what it takes over, it states.
+    pub(crate) fn unknown(
+        &mut self,
+        motion: &Motion,
+        way: &Way,
+        words: &[Word],
+        stated: &Stated,
+    ) -> Result<(), Reason> {
+        let off = way.datum.step(&self.off);
+        let taken_over = |axis: usize| {
+            let word = stated.word[axis].is_some();
+            let end = way.end[axis].filter(|_| !stated.absolute[axis] && off[axis] != 0.0);
+            // A step ends elsewhere, too.
+            end.map(|end| (axis, end, word))
+        };
+        let again: Vec<(usize, f64, bool)> = (0..3).filter_map(taken_over).collect();
+        self.stated_again(way, stated);
+        if again.is_empty() {
+            return Ok(());
+        }
+        let is_line = words
+            .first()
+            .is_some_and(|word| word.is("L") || word.is("LN"));
+        if !is_line {
+            return Err((
+                "it goes on from a place that changes, and its own end is not known".to_owned(),
+                "write the program flat first (--expand), or leave the block before as it is",
+            ));
+        }
+        let mut off = way.datum.step(&self.off);
+        let own = &mut self.edits[motion.file];
+        for (axis, end, is_stated) in again {
+            let text = word_text(
+                axis,
+                end / way.unit_mm,
+                match way.unit_mm == 1.0 {
+                    true => 4,
+                    false => 5,
+                },
+                self.signs[motion.file],
+            );
+            match stated.word[axis].filter(|_| is_stated) {
+                Some(at) => own.replace(words[at].span.clone(), text),
+                None => {
+                    let at = words[0].span.end;
+                    own.replace(at..at, format!(" {text}"));
+                }
+            }
+            off[axis] = 0.0;
+        }
+        self.off = way.datum.preset(&off) - way.datum.shift_mm;
+        Ok(())
+    }
+}

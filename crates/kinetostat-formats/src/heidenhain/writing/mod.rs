@@ -1,0 +1,12 @@
+//! From motions to blocks.
+//!
+//! [`write`] goes through the motions; those without [`pieces`] are [`kept`], or state what they took over. A [`block`] becomes
+//! a piece with its [`feed`] and its [`words`]; what the walk knows stands in [`writer`].
+
+pub(crate) mod block;
+pub(crate) mod feed;
+pub(crate) mod kept;
+pub(crate) mod pieces;
+pub(crate) mod words;
+pub(crate) mod write;
+pub(crate) mod writer;

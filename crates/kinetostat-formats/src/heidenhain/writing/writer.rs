@@ -1,0 +1,65 @@
+//! What the writer knows on its way through the motions.
+
+use nalgebra::Vector3;
+
+use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::writing::words::Stated;
+use crate::model::program::RobotProgram;
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+
+/// Why a motion cannot be written, and what to do.
+pub(crate) type Reason = (String, &'static str);
+
+/// The walk over the motions.
+pub(crate) struct Writer<'w> {
+    pub program: &'w RobotProgram,
+    pub options: &'w WriteOptions,
+    pub edits: Vec<Edits>,
+    /// Whether positive numbers have their sign, by file.
+    pub signs: Vec<bool>,
+    /// Whether blocks were added, by file.
+    pub added: Vec<bool>,
+    /// Where the written blocks leave the tool, from where the input does; in the preset's axes, mm.
+    pub off: Vector3<f64>,
+    /// The feed that the written blocks leave behind, where it is another one.
+    pub feed: Option<f64>,
+    /// A polar block was written by X and Y: those behind it have no last radius.
+    pub polar_broken: bool,
+    /// Whether the written blocks are elsewhere at the end of each motion.
+    pub off_at: Vec<bool>,
+    /// Whether each motion is another one.
+    pub changed: Vec<bool>,
+    pub file: usize,
+}
+
+/// Least difference of places that counts, mm.
+pub(crate) const SAME_MM: f64 = 1e-9;
+
+pub(crate) const ABOUT_CENTRE: &str = "an arc with other ends is none about its written centre";
+
+impl Writer<'_> {
+    /// Half of the last digit, mm.
+    pub(crate) fn half_mm(&self, way: &Way) -> f64 {
+        0.5 * 10.0_f64.powi(-(self.decimals(way) as i32)) * way.unit_mm
+    }
+
+    pub(crate) fn decimals(&self, way: &Way) -> usize {
+        match way.unit_mm == 1.0 {
+            true => self.options.position_decimals.min(4),
+            // As fine in inches. The control takes no more digits.
+            false => (self.options.position_decimals + 2).min(5),
+        }
+    }
+
+    /// Axes that a block states as it did are where they were.
+    pub(crate) fn stated_again(&mut self, way: &Way, stated: &Stated) {
+        let mut off = way.datum.step(&self.off);
+        for axis in 0..3 {
+            if stated.absolute[axis] {
+                off[axis] = 0.0;
+            }
+        }
+        self.off = way.datum.preset(&off) - way.datum.shift_mm;
+    }
+}

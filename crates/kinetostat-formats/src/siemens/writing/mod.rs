@@ -1,0 +1,9 @@
+//! From motions to blocks.
+//!
+//! [`write`] goes through the motions; what changes becomes [`pieces`], with the tool's [`direction`] where the text states it. What
+//! is in force in the written program stands in [`writer`].
+
+pub(crate) mod direction;
+pub(crate) mod pieces;
+pub(crate) mod write;
+pub(crate) mod writer;
