@@ -1,33 +1,100 @@
 //! YAML as nodes with their bytes.
 //!
-//! The parser counts characters; it is given one character for each byte ([`crate::poses::characters`]), so that its places are bytes.
+//! The parser counts characters; it is given one character for each byte ([`crate::poses::characters`]), so that its places are bytes. All
+//! nodes of a file stand in one list, each before what it holds: lists of poses have millions of them.
 
 use std::ops::Range;
 
-use saphyr_parser::{Event, Parser, ScalarStyle};
+use saphyr_parser::{Event, Parser};
 
 use crate::poses::characters::Characters;
 use crate::text::source::beginning;
 
-/// A node.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
-    pub kind: Kind,
-    /// From its first byte (of a list with dashes, of the first dash) behind its last one.
-    pub span: Range<usize>,
-}
-
 /// What a node is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    Scalar {
-        /// It has neither quotes nor a sign of a block.
-        plain: bool,
-    },
-    Map(Vec<(Node, Node)>),
-    List(Vec<Node>),
+    Scalar,
+    Map,
+    List,
     /// What an anchor stands for.
     Alias,
+}
+
+/// A node in the list.
+#[derive(Debug)]
+struct Flat {
+    kind: Kind,
+    start: u32,
+    end: u32,
+    /// Behind all that it holds.
+    behind: u32,
+}
+
+/// The nodes of a file.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    nodes: Vec<Flat>,
+}
+
+/// A node.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node<'t> {
+    tree: &'t Tree,
+    at: usize,
+}
+
+impl<'t> Node<'t> {
+    pub(crate) fn kind(self) -> Kind {
+        self.tree.nodes[self.at].kind
+    }
+
+    /// From its first byte (of a list with dashes, of the first dash) behind its last one.
+    pub(crate) fn span(self) -> Range<usize> {
+        let node = &self.tree.nodes[self.at];
+        node.start as usize..node.end as usize
+    }
+
+    /// What it holds: the items of a list, keys and values of a map in turn.
+    pub(crate) fn held(self) -> Nodes<'t> {
+        Nodes {
+            tree: self.tree,
+            at: self.at + 1,
+            end: self.tree.nodes[self.at].behind as usize,
+        }
+    }
+
+    /// Keys and values of a map; none of other nodes.
+    pub(crate) fn pairs(self) -> impl Iterator<Item = (Self, Self)> {
+        let mut held = self.held();
+        let is_map = self.kind() == Kind::Map;
+        std::iter::from_fn(move || Some((held.next()?, held.next()?))).take_while(move |_| is_map)
+    }
+
+    /// Whether it is the same node.
+    pub(crate) fn is_node(self, other: Self) -> bool {
+        self.at == other.at
+    }
+}
+
+/// Nodes one behind the other.
+pub(crate) struct Nodes<'t> {
+    tree: &'t Tree,
+    at: usize,
+    end: usize,
+}
+
+impl<'t> Iterator for Nodes<'t> {
+    type Item = Node<'t>;
+
+    fn next(&mut self) -> Option<Node<'t>> {
+        let at = self.at;
+        let own = self.tree.nodes[..self.end].get(at)?;
+        self.at = own.behind as usize;
+        Some(Node {
+            tree: self.tree,
+            at,
+        })
+    }
 }
 
 /// Why a text is no tree: the place and what to do.
@@ -36,103 +103,98 @@ pub(crate) type TreeFault = (usize, String, &'static str);
 /// Lists in lists in lists: poses are at a depth of six.
 const DEEPEST: usize = 64;
 
-/// A node whose end is not read yet.
-struct Open {
-    start: usize,
-    end: usize,
-    is_map: bool,
-    nodes: Vec<Node>,
-}
-
-/// The documents of a file.
-///
-/// # Errors
-/// Where the file is no YAML.
-pub(crate) fn documents_of(bytes: &[u8]) -> Result<Vec<Node>, TreeFault> {
-    let from = beginning(bytes);
-    let mut parser = Parser::new(Characters::of(&bytes[from..]));
-    let mut open: Vec<Open> = Vec::new();
-    let mut documents = Vec::new();
-    while let Some(next) = parser.next_event() {
-        let (event, span) = next.map_err(|error| {
-            let at = from + error.marker().index();
-            let reason = format!("it is no YAML: {}", error.info());
-            (at.min(bytes.len()), reason, "mend it there or before")
-        })?;
-        let (start, end) = (
-            (from + span.start.index()).min(bytes.len()),
-            (from + span.end.index()).min(bytes.len()),
-        );
-        let done = match event {
-            Event::Scalar(_, style, _, _) => Node {
-                kind: Kind::Scalar {
-                    plain: style == ScalarStyle::Plain,
-                },
-                span: start..end.max(start),
-            },
-            Event::Alias(_) => Node {
-                kind: Kind::Alias,
-                span: start..end.max(start),
-            },
-            Event::SequenceStart(..) | Event::MappingStart(..) => {
-                if open.len() >= DEEPEST {
-                    let reason = format!("lists stand in lists, more than {DEEPEST} deep");
-                    return Err((
-                        start,
-                        reason,
-                        "poses are not that deep: is it another file?",
-                    ));
-                }
-                open.push(Open {
-                    start,
-                    end: start,
-                    is_map: matches!(event, Event::MappingStart(..)),
-                    nodes: Vec::new(),
-                });
-                continue;
-            }
-            Event::SequenceEnd | Event::MappingEnd => {
-                let Some(own) = open.pop() else {
+impl Tree {
+    /// The nodes of a file of less than 4 GiB.
+    ///
+    /// # Errors
+    /// Where the file is no YAML.
+    pub(crate) fn of(bytes: &[u8]) -> Result<Self, TreeFault> {
+        let from = beginning(bytes);
+        let mut parser = Parser::new(Characters::of(&bytes[from..]));
+        let mut tree = Self::default();
+        let mut open: Vec<usize> = Vec::new();
+        while let Some(next) = parser.next_event() {
+            let (event, span) = next.map_err(|error| {
+                let at = from + error.marker().index();
+                let reason = format!("it is no YAML: {}", error.info());
+                (at.min(bytes.len()), reason, "mend it there or before")
+            })?;
+            let (start, end) = (
+                (from + span.start.index()).min(bytes.len()),
+                (from + span.end.index()).min(bytes.len()),
+            );
+            let kind = match event {
+                Event::Scalar(..) => Kind::Scalar,
+                Event::Alias(_) => Kind::Alias,
+                Event::SequenceStart(..) => Kind::List,
+                Event::MappingStart(..) => Kind::Map,
+                Event::SequenceEnd | Event::MappingEnd => {
+                    if let Some(own) = open.pop() {
+                        let end = tree.close(own, start, bytes);
+                        tree.reach(open.last(), end);
+                    }
                     continue;
-                };
-                closed(own, start, bytes)
+                }
+                _ => continue,
+            };
+            let holds = matches!(kind, Kind::List | Kind::Map);
+            if holds && open.len() >= DEEPEST {
+                let reason = format!("lists stand in lists, more than {DEEPEST} deep");
+                let remedy = "poses are not that deep: is it another file?";
+                return Err((start, reason, remedy));
             }
-            _ => continue,
-        };
-        match open.last_mut() {
-            Some(own) => {
-                own.end = done.span.end.max(own.end);
-                own.nodes.push(done);
+            let at = tree.nodes.len();
+            let end = match holds {
+                true => start,
+                false => end.max(start),
+            };
+            tree.nodes.push(Flat {
+                kind,
+                start: small(start),
+                end: small(end),
+                behind: small(at + 1),
+            });
+            match holds {
+                true => open.push(at),
+                false => tree.reach(open.last(), end),
             }
-            None => documents.push(done),
+        }
+        Ok(tree)
+    }
+
+    /// The documents of the file.
+    pub(crate) fn documents(&self) -> Nodes<'_> {
+        Nodes {
+            tree: self,
+            at: 0,
+            end: self.nodes.len(),
         }
     }
-    Ok(documents)
-}
 
-/// A list or map whose end was read.
-fn closed(own: Open, at: usize, bytes: &[u8]) -> Node {
-    let end = match bytes.get(at) {
-        Some(b']' | b'}') if at >= own.end && opens(bytes, own.start) => at + 1,
-        _ => own.end,
-    };
-    let kind = match own.is_map {
-        true => {
-            let mut pairs = Vec::with_capacity(own.nodes.len() / 2);
-            let mut nodes = own.nodes.into_iter();
-            while let (Some(key), Some(value)) = (nodes.next(), nodes.next()) {
-                pairs.push((key, value));
-            }
-            Kind::Map(pairs)
+    /// A list or map whose end was read at a place; where it ends.
+    fn close(&mut self, own: usize, at: usize, bytes: &[u8]) -> usize {
+        let behind = small(self.nodes.len());
+        let node = &mut self.nodes[own];
+        node.behind = behind;
+        let opens = matches!(bytes.get(node.start as usize), Some(b'[' | b'{'));
+        let closes = matches!(bytes.get(at), Some(b']' | b'}'));
+        if closes && opens && at >= node.end as usize {
+            node.end = small(at + 1);
         }
-        false => Kind::List(own.nodes),
-    };
-    Node {
-        kind,
-        span: own.start..end.max(own.start),
+        node.end = node.end.max(node.start);
+        node.end as usize
+    }
+
+    /// What a list or map holds reaches to a place.
+    fn reach(&mut self, open: Option<&usize>, end: usize) {
+        if let Some(own) = open {
+            let own = &mut self.nodes[*own];
+            own.end = own.end.max(small(end));
+        }
     }
 }
 
-fn opens(bytes: &[u8], at: usize) -> bool {
-    matches!(bytes.get(at), Some(b'[' | b'{'))
+/// Files are shorter than 4 GiB.
+fn small(place: usize) -> u32 {
+    u32::try_from(place).unwrap_or(u32::MAX)
 }

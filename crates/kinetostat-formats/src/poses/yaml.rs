@@ -7,7 +7,7 @@ use crate::poses::cells::number_of;
 use crate::poses::columns::{Column, Refusal, column_of};
 use crate::poses::layout::{Layout, Named, layout_of};
 use crate::poses::row::{PART, RowContext, Rows, row_of};
-use crate::poses::tree::{Kind, Node, documents_of};
+use crate::poses::tree::{Kind, Node, Tree};
 use crate::text::source::SourceFile;
 
 /// What a file in YAML says.
@@ -25,9 +25,9 @@ pub(crate) struct YamlRows {
 /// Reads the rasters of a file.
 pub(crate) fn read_yaml(file: &SourceFile) -> YamlRows {
     let mut found = YamlRows::default();
-    match documents_of(file.bytes()) {
-        Ok(documents) => {
-            for document in &documents {
+    match Tree::of(file.bytes()) {
+        Ok(tree) => {
+            for document in tree.documents() {
                 found.walk(file, document, "poses", PART);
             }
             if found.rows.rows.is_empty() && found.rows.faults.is_empty() {
@@ -53,40 +53,36 @@ fn line_from(file: &SourceFile, at: usize) -> Range<usize> {
     at..at + end.unwrap_or(rest.len())
 }
 
-/// The value of a key.
-fn value<'n>(file: &SourceFile, pairs: &'n [(Node, Node)], name: &str) -> Option<&'n Node> {
-    let is = |(key, _): &&(Node, Node)| file.part(&key.span) == name.as_bytes();
-    pairs.iter().find(is).map(|(_, value)| value)
+/// The value of a key of a map.
+fn value<'t>(file: &SourceFile, map: Node<'t>, name: &str) -> Option<Node<'t>> {
+    let is = |(key, _): &(Node<'t>, Node<'t>)| file.part(&key.span()) == name.as_bytes();
+    map.pairs().find(is).map(|(_, value)| value)
 }
 
-/// The pairs that say a pose: of the item itself, or below its `pose` (ROS: `PoseStamped`).
-fn pose_of<'n>(file: &SourceFile, item: &'n Node) -> Option<&'n [(Node, Node)]> {
-    let Kind::Map(pairs) = &item.kind else {
-        return None;
-    };
-    match value(file, pairs, "pose").map(|pose| &pose.kind) {
-        Some(Kind::Map(inner)) if value(file, inner, "position").is_some() => Some(inner),
-        _ if value(file, pairs, "position").is_some() => Some(pairs),
-        _ if value(file, pairs, "x_mm")
-            .or(value(file, pairs, "x_m"))
-            .is_some() =>
-        {
-            Some(pairs)
-        }
-        _ => None,
-    }
+/// The value of a key where it is a map.
+fn map_of<'t>(file: &SourceFile, map: Node<'t>, name: &str) -> Option<Node<'t>> {
+    value(file, map, name).filter(|value| value.kind() == Kind::Map)
+}
+
+/// The map that says a pose: the item itself, or its `pose` (ROS: `PoseStamped`).
+fn pose_of<'t>(file: &SourceFile, item: Node<'t>) -> Option<Node<'t>> {
+    let states = |map: Node<'t>, name: &str| value(file, map, name).is_some();
+    let inner = map_of(file, item, "pose").filter(|inner| states(*inner, "position"));
+    let own = ["position", "x_mm", "x_m"].iter();
+    inner.or_else(|| {
+        own.into_iter()
+            .any(|name| states(item, name))
+            .then_some(item)
+    })
 }
 
 /// Whether items are places without names, in a list that holds poses.
-fn is_list_of_numbers(file: &SourceFile, item: &Node, key: &str) -> bool {
-    let Kind::List(parts) = &item.kind else {
-        return false;
-    };
-    matches!(key, "poses" | "points" | "waypoints" | "positions")
-        && parts.len() >= 3
-        && parts
-            .iter()
-            .all(|part| number_of(file.bytes(), &part.span).is_some())
+fn is_list_of_numbers(file: &SourceFile, item: Node<'_>, key: &str) -> bool {
+    let is_number = |part: Node<'_>| number_of(file.bytes(), &part.span()).is_some();
+    item.kind() == Kind::List
+        && matches!(key, "poses" | "points" | "waypoints" | "positions")
+        && item.held().count() >= 3
+        && item.held().all(is_number)
 }
 
 const ALIAS: Refusal = (
@@ -97,95 +93,93 @@ const ALIAS: Refusal = (
 const IN_LINE: &str = "the pose does not stand on lines of its own: none can be written before it";
 
 impl YamlRows {
-    fn walk(&mut self, file: &SourceFile, node: &Node, key: &str, frame: &str) {
-        match &node.kind {
-            Kind::List(items) => {
-                let is_pose = |item: &Node| {
+    fn walk(&mut self, file: &SourceFile, node: Node<'_>, key: &str, frame: &str) {
+        match node.kind() {
+            Kind::List => {
+                let is_pose = |item: Node<'_>| {
                     pose_of(file, item).is_some() || is_list_of_numbers(file, item, key)
                 };
-                if items.iter().any(is_pose) {
-                    self.raster(file, items, frame);
+                if node.held().any(is_pose) {
+                    self.raster(file, node, frame);
                     return;
                 }
-                for item in items {
+                for item in node.held() {
                     self.walk(file, item, key, frame);
                 }
             }
-            Kind::Map(pairs) => {
+            Kind::Map => {
                 if pose_of(file, node).is_some() {
-                    self.alone(file, node, key, pairs);
+                    self.alone(file, node, key);
                     return;
                 }
-                let header = value(file, pairs, "header").map(|header| &header.kind);
                 let mut own = frame.to_owned();
-                if let Some(Kind::Map(header)) = header {
+                if let Some(header) = map_of(file, node, "header") {
                     self.is_ros |= value(file, header, "stamp").is_some()
                         && value(file, header, "frame_id").is_some();
                     own = frame_id(file, header).unwrap_or(own);
                 }
-                for (name, node) in pairs {
-                    let name = String::from_utf8_lossy(file.part(&name.span)).into_owned();
+                for (name, node) in node.pairs() {
+                    let name = String::from_utf8_lossy(file.part(&name.span())).into_owned();
                     self.walk(file, node, &name, &own);
                 }
             }
             Kind::Alias => {
-                self.rows.fault(file, &node.span, ALIAS.0, ALIAS.1);
+                self.rows.fault(file, &node.span(), ALIAS.0, ALIAS.1);
             }
-            Kind::Scalar { .. } => {}
+            Kind::Scalar => {}
         }
     }
 
     /// A pose that stands in no list: of a tool, a frame, a start.
-    fn alone(&mut self, file: &SourceFile, node: &Node, key: &str, pairs: &[(Node, Node)]) {
-        let place = value(file, pairs, "position");
-        let numbers: Vec<Option<f64>> = match place.map(|place| &place.kind) {
-            Some(Kind::Map(parts)) => (parts.iter())
-                .map(|(_, part)| Some(number_of(file.bytes(), &part.span)?.value))
+    fn alone(&mut self, file: &SourceFile, node: Node<'_>, key: &str) {
+        let numbers: Vec<Option<f64>> = match map_of(file, node, "position") {
+            Some(place) => (place.pairs())
+                .map(|(_, part)| Some(number_of(file.bytes(), &part.span())?.value))
                 .collect(),
-            _ => vec![None],
+            None => vec![None],
         };
         let is_zero = numbers.iter().all(|number| *number == Some(0.0));
         if key.contains("offset") && !is_zero {
             self.rows.fault(
                 file,
-                &node.span,
+                &node.span(),
                 format!("`{key}` moves the tool, and to which poses it applies is not known"),
                 "apply it to the poses, and set its position to 0",
             );
             return;
         }
         let message = format!("`{key}` is a pose in no list: it is carried, not followed");
-        self.rows.findings.push((node.span.start, message));
+        self.rows.findings.push((node.span().start, message));
     }
 
-    fn raster(&mut self, file: &SourceFile, items: &[Node], frame: &str) {
+    fn raster(&mut self, file: &SourceFile, list: Node<'_>, frame: &str) {
         let mut first = true;
-        for item in items {
+        for item in list.held() {
             self.item(file, item, frame, first);
             first = false;
         }
     }
 
-    fn item(&mut self, file: &SourceFile, item: &Node, frame: &str, first: bool) {
+    fn item(&mut self, file: &SourceFile, item: Node<'_>, frame: &str, first: bool) {
         let mut cells: Vec<(Named, Range<usize>)> = Vec::new();
         let before = self.rows.faults.len();
         let mut own = frame.to_owned();
-        match (&item.kind, pose_of(file, item)) {
-            (Kind::Map(pairs), Some(pose)) => {
-                if let Some(Kind::Map(header)) = value(file, pairs, "header").map(|h| &h.kind) {
+        match (item.kind(), pose_of(file, item)) {
+            (Kind::Map, Some(pose)) => {
+                if let Some(header) = map_of(file, item, "header") {
                     own = frame_id(file, header).unwrap_or(own);
                     self.is_ros |= value(file, header, "stamp").is_some();
                 }
                 self.keys(file, pose, &mut cells);
-                if !std::ptr::eq(pose, pairs.as_slice()) {
-                    self.keys(file, pairs, &mut cells);
+                if !pose.is_node(item) {
+                    self.keys(file, item, &mut cells);
                 }
             }
-            (Kind::List(parts), _) => self.numbers(file, item, parts, &mut cells),
+            (Kind::List, _) => self.numbers(file, item, &mut cells),
             _ => {
                 let reason = "it has no `position`, as the others of its list have";
                 let remedy = "write its position, or take it out";
-                self.rows.fault(file, &item.span, reason, remedy);
+                self.rows.fault(file, &item.span(), reason, remedy);
             }
         }
         if self.rows.faults.len() > before {
@@ -197,7 +191,7 @@ impl YamlRows {
             known.len() == cells.len() && pairs.all(|(own, (named, _))| own.name == named.name);
         if !same || cells.is_empty() {
             let names: Vec<Named> = cells.iter().map(|(named, _)| named.clone()).collect();
-            match layout_of(&names, &item.span) {
+            match layout_of(&names, &item.span()) {
                 Ok(layout) => self.last = (names, layout),
                 Err(faults) => {
                     for (span, reason, remedy) in faults {
@@ -211,7 +205,7 @@ impl YamlRows {
         if self.unit.is_some() && self.unit != layout.unit {
             let reason = "its place is in another unit than the ones before";
             let remedy = "write all places in one unit";
-            self.rows.fault(file, &item.span, reason, remedy);
+            self.rows.fault(file, &item.span(), reason, remedy);
             return;
         }
         self.unit = layout.unit;
@@ -219,7 +213,7 @@ impl YamlRows {
         let dash = dash_of(file, item);
         let context = RowContext {
             layout,
-            span: dash.unwrap_or(item.span.start)..item.span.end,
+            span: dash.unwrap_or(item.span().start)..item.span().end,
             first,
             frame: &own,
             indivisible: match dash {
@@ -232,43 +226,33 @@ impl YamlRows {
     }
 
     /// The keys of a pose, as names of columns.
-    fn keys(
-        &mut self,
-        file: &SourceFile,
-        pairs: &[(Node, Node)],
-        cells: &mut Vec<(Named, Range<usize>)>,
-    ) {
-        for (key, node) in pairs {
-            let name = String::from_utf8_lossy(file.part(&key.span)).into_owned();
-            match (name.as_str(), &node.kind) {
-                (_, Kind::Alias) => self.rows.fault(file, &node.span, ALIAS.0, ALIAS.1),
-                ("position", Kind::List(parts)) => self.numbers(file, node, parts, cells),
-                ("position", Kind::Map(parts)) => self.parts(file, parts, "", cells),
-                ("orientation", Kind::Map(parts)) => self.parts(file, parts, "q", cells),
+    fn keys(&mut self, file: &SourceFile, map: Node<'_>, cells: &mut Vec<(Named, Range<usize>)>) {
+        for (key, node) in map.pairs() {
+            let (at, span) = (key.span(), node.span());
+            let name = String::from_utf8_lossy(file.part(&at)).into_owned();
+            match (name.as_str(), node.kind()) {
+                (_, Kind::Alias) => self.rows.fault(file, &span, ALIAS.0, ALIAS.1),
+                ("position", Kind::List) => self.numbers(file, node, cells),
+                ("position", Kind::Map) => self.parts(file, node, "", cells),
+                ("orientation", Kind::Map) => self.parts(file, node, "q", cells),
                 ("position", _) => self.rows.fault(
                     file,
-                    &node.span,
+                    &span,
                     "the place is not x, y, z",
                     "write  position: {x: 0.1, y: 0.2, z: 0.3}",
                 ),
                 ("orientation", _) => self.rows.fault(
                     file,
-                    &(key.span.start..node.span.end.max(key.span.end)),
+                    &(at.start..span.end.max(at.end)),
                     "the orientation is not w, x, y, z: of numbers without names it is not known whether w is the first or the last",
                     "write  orientation: {w: 1, x: 0, y: 0, z: 0}",
                 ),
-                ("pose" | "header", Kind::Map(_)) => {}
-                (_, Kind::Scalar { .. }) => cells.push((
-                    Named {
-                        name,
-                        span: key.span.clone(),
-                    },
-                    node.span.clone(),
-                )),
+                ("pose" | "header", Kind::Map) => {}
+                (_, Kind::Scalar) => cells.push((Named { name, span: at }, span)),
                 // What is no number moves nothing, unless its name says so.
                 _ => {
                     if let Err((reason, remedy)) = column_of(&name) {
-                        self.rows.fault(file, &key.span, reason, remedy);
+                        self.rows.fault(file, &at, reason, remedy);
                     }
                 }
             }
@@ -279,12 +263,13 @@ impl YamlRows {
     fn parts(
         &mut self,
         file: &SourceFile,
-        parts: &[(Node, Node)],
+        map: Node<'_>,
         prefix: &str,
         cells: &mut Vec<(Named, Range<usize>)>,
     ) {
-        for (key, node) in parts {
-            let own = String::from_utf8_lossy(file.part(&key.span)).into_owned();
+        for (key, node) in map.pairs() {
+            let span = key.span();
+            let own = String::from_utf8_lossy(file.part(&span)).into_owned();
             let name = match own.len() {
                 1 => format!("{prefix}{own}"),
                 _ => own,
@@ -297,11 +282,10 @@ impl YamlRows {
             if !fits {
                 let reason = "what this is of a pose is not known";
                 let remedy = "write x, y, z in a position, and w, x, y, z in an orientation";
-                self.rows.fault(file, &key.span, reason, remedy);
+                self.rows.fault(file, &span, reason, remedy);
                 continue;
             }
-            let span = key.span.clone();
-            cells.push((Named { name, span }, node.span.clone()));
+            cells.push((Named { name, span }, node.span()));
         }
     }
 
@@ -309,48 +293,45 @@ impl YamlRows {
     fn numbers(
         &mut self,
         file: &SourceFile,
-        node: &Node,
-        parts: &[Node],
+        list: Node<'_>,
         cells: &mut Vec<(Named, Range<usize>)>,
     ) {
-        if parts.len() != 3 {
+        let count = list.held().count();
+        if count != 3 {
             let reason = format!(
-                "{} numbers without names: which of them are the orientation, and whether w is its first or its last, is not known",
-                parts.len()
+                "{count} numbers without names: which of them are the orientation, and whether w is its first or its last, is not known"
             );
             let remedy = "write  - {position: {x: .., y: .., z: ..}, orientation: {w: .., x: .., y: .., z: ..}}, or three numbers where no orientation is stated";
-            self.rows.fault(file, &node.span, reason, remedy);
+            self.rows.fault(file, &list.span(), reason, remedy);
             return;
         }
-        for (part, name) in parts.iter().zip(["x", "y", "z"]) {
+        for (part, name) in list.held().zip(["x", "y", "z"]) {
+            let span = part.span();
             let named = Named {
                 name: name.to_owned(),
-                span: part.span.clone(),
+                span: span.clone(),
             };
-            cells.push((named, part.span.clone()));
+            cells.push((named, span));
         }
     }
 }
 
 /// Frame of a header of ROS; none where it is empty or the zero that some writers put there.
-fn frame_id(file: &SourceFile, header: &[(Node, Node)]) -> Option<String> {
+fn frame_id(file: &SourceFile, header: Node<'_>) -> Option<String> {
     let node = value(file, header, "frame_id")?;
-    let text = String::from_utf8_lossy(file.part(&node.span));
+    let text = String::from_utf8_lossy(file.part(&node.span()));
     let name = text.trim_matches(|c| matches!(c, '"' | '\''));
     (!matches!(name, "" | "0" | "~" | "null")).then(|| name.to_owned())
 }
 
 /// The dash of an item, where it is the first on its line and the item can be written a second time before it.
-fn dash_of(file: &SourceFile, item: &Node) -> Option<usize> {
+fn dash_of(file: &SourceFile, item: Node<'_>) -> Option<usize> {
     let bytes = file.bytes();
     let is_space = |byte: &u8| *byte == b' ';
-    let before = &bytes[..item.span.start];
-    let spaces = before
-        .iter()
-        .rev()
-        .take_while(|byte| is_space(byte))
-        .count();
-    let dash = item.span.start.checked_sub(spaces + 1)?;
+    let start = item.span().start;
+    let before = bytes[..start].iter().rev();
+    let spaces = before.take_while(|byte| is_space(byte)).count();
+    let dash = start.checked_sub(spaces + 1)?;
     if spaces == 0 || bytes[dash] != b'-' {
         return None;
     }
@@ -364,13 +345,10 @@ fn dash_of(file: &SourceFile, item: &Node) -> Option<usize> {
 }
 
 /// Whether no text in a node goes over several lines.
-fn whole(file: &SourceFile, node: &Node) -> bool {
-    match &node.kind {
-        Kind::Scalar { .. } => !file.part(&node.span).contains(&b'\n'),
+fn whole(file: &SourceFile, node: Node<'_>) -> bool {
+    match node.kind() {
+        Kind::Scalar => !file.part(&node.span()).contains(&b'\n'),
         Kind::Alias => true,
-        Kind::List(items) => items.iter().all(|item| whole(file, item)),
-        Kind::Map(pairs) => pairs
-            .iter()
-            .all(|(key, value)| whole(file, key) && whole(file, value)),
+        Kind::List | Kind::Map => node.held().all(|held| whole(file, held)),
     }
 }

@@ -53,11 +53,7 @@ pub fn broken(chance: &mut Chance, text: &str, kind: &Kind) -> Vec<u8> {
     bytes
 }
 
-pub fn read_bytes(kind: &Kind, bytes: &[u8]) -> Result<RobotProgram, Vec<ProgramError>> {
-    read_files(kind, &[bytes.to_vec()])
-}
-
-/// A program of several files; the second is its data list.
+/// The program of a file, or of one with its data list.
 pub fn read_files(kind: &Kind, files: &[Vec<u8>]) -> Result<RobotProgram, Vec<ProgramError>> {
     let named = NAMES.iter().zip(files);
     let files = named.map(|(name, bytes)| SourceFile::new(*name, bytes.as_slice()));

@@ -38,13 +38,17 @@ impl Run<'_> {
                 ));
             }
             if at.1 >= programs[at.0].blocks.len() {
-                return match self.frames.is_empty() {
-                    true => Ok(()),
-                    false => Err(self.fault(
-                        (at.0, at.1.saturating_sub(1)),
-                        "the file ends in a subprogram",
-                        "end it with LBL 0",
+                let last = (at.0, at.1.saturating_sub(1));
+                return match self.frames.last() {
+                    None => Ok(()),
+                    Some(Frame::Program { .. }) => Err(self.fault(
+                        last,
+                        "no block END PGM ends the program that is called",
+                        "give the whole program",
                     )),
+                    Some(_) => {
+                        Err(self.fault(last, "the file ends in a subprogram", "end it with LBL 0"))
+                    }
                 };
             }
             match self.block(at)? {

@@ -84,6 +84,26 @@ fn other_programs_run_where_they_are_called_and_lines_say_where_from() {
 }
 
 #[test]
+fn a_program_that_is_called_is_whole() {
+    let main = "BEGIN PGM MAIN MM\nCALL PGM SUB\nEND PGM MAIN MM\n";
+    for (sub, part) in [
+        (
+            "BEGIN PGM SUB MM\nL X+1\n",
+            "line 2: `L X+1`: no block END PGM ends the program that is called",
+        ),
+        (
+            "BEGIN PGM SUB MM\nLBL 1\nLBL 1\nEND PGM SUB MM\n",
+            "line 3: `LBL 1`: there is a label of this name above",
+        ),
+    ] {
+        let files = vec![SourceFile::new("m.h", main), SourceFile::new("sub.h", sub)];
+        let found = expand_heidenhain(files, &ReadOptions::default()).unwrap_err();
+        assert_eq!(found[0].file, "sub.h");
+        assert!(found[0].to_string().contains(part), "{found:?}");
+    }
+}
+
+#[test]
 fn holes_of_cycle_200_go_to_their_depth_in_pecks() {
     let body = "TOOL CALL 1 Z S100\nL Z+50 R0 FMAX M3\nL X+1 Y+2 F700\n\
         CYCL DEF 200 DRILLING ~\n  Q200=+2 ;SET-UP CLEARANCE ~\n  Q201=-12 ;DEPTH ~\n  Q206=+150 ;FEED ~\n  Q202=+5 ;PECK ~\n  Q210=+0 ;DWELL ~\n  Q203=-10 ;SURFACE ~\n  Q204=+30 ;2ND CLEARANCE ~\n  Q211=+0.5 ;DWELL BELOW\n\

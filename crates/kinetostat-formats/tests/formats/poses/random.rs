@@ -3,7 +3,7 @@
 use kinetostat_formats::*;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken, read_bytes};
+use crate::harness::{Chance, Kind, PLACE_MM, broken, read_files};
 
 pub fn kind() -> Kind {
     let mut options = ReadOptions::default();
@@ -187,7 +187,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let whole = program(&mut chance);
     let bytes = broken(&mut chance, &whole, &kind);
     // Where a pose lost its orientation, none can be turned.
-    kind.turns = read_bytes(&kind, &bytes).is_ok_and(|program| {
+    kind.turns = read_files(&kind, std::slice::from_ref(&bytes)).is_ok_and(|program| {
         (program.motions.iter().enumerate()).all(|(index, motion)| {
             motion.target.pose().is_none_or(|pose| {
                 let mut piece = Piece::to(index, Vector3::zeros());
