@@ -22,7 +22,6 @@ use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -82,11 +81,10 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
     let mut run = solve::solve(
         Aim::Compensate,
-        &machine,
+        (&machine, &model),
         &setting,
         args.run.program.threads,
-    )
-    .map_err(|failure| with_model_warning(failure, &model))?;
+    )?;
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));

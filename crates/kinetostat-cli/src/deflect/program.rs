@@ -10,7 +10,6 @@ use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::setting::setting;
 use crate::job::{program, run_warnings};
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -45,8 +44,12 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     setting.turned_by(machine.rotary.clone());
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
-    let mut run = solve::solve(Aim::Analyse, &machine, &setting, args.program.threads)
-        .map_err(|failure| with_model_warning(failure, &model))?;
+    let mut run = solve::solve(
+        Aim::Analyse,
+        (&machine, &model),
+        &setting,
+        args.program.threads,
+    )?;
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));

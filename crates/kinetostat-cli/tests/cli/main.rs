@@ -46,6 +46,7 @@ mod poses;
 mod programs;
 mod refusals;
 mod reproduce;
+mod robot_oracle;
 mod robot_programs;
 mod same_figures;
 mod sensible_numbers;

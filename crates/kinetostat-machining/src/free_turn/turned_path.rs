@@ -194,7 +194,7 @@ fn piece(
         program(to) * about(end_deg),
     );
     let turn = match &motion.tool_turn {
-        Some(turn) => turn.between(start, end),
+        Some(turn) => turn.with_ends(start, end),
         None => ToolTurn::shortest(start, end),
     };
     let middle = program(0.5 * (from + to)) * axis.into_inner();

@@ -327,7 +327,7 @@ fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<Tool
         Some(before) => written.orientations[before],
         None => turn.at(0.0),
     };
-    Some(turn.between(start, end))
+    Some(turn.with_ends(start, end))
 }
 
 fn kind(motion: &Move) -> PointKind {

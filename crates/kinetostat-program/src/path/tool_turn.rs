@@ -82,10 +82,10 @@ impl ToolTurn {
     ///
     /// let [a, b, c] = [0.0, 0.1, 0.3].map(|angle| UnitQuaternion::from_euler_angles(angle, 0.0, angle));
     /// let turn = ToolTurn::swivelled(a, c, Vector3::x_axis());
-    /// assert_eq!(turn.between(a, b), ToolTurn::swivelled(a, b, Vector3::x_axis()));
+    /// assert_eq!(turn.with_ends(a, b), ToolTurn::swivelled(a, b, Vector3::x_axis()));
     /// ```
     #[must_use]
-    pub fn between(&self, start: UnitQuaternion<f64>, end: UnitQuaternion<f64>) -> Self {
+    pub fn with_ends(&self, start: UnitQuaternion<f64>, end: UnitQuaternion<f64>) -> Self {
         Self {
             swivelling: self.swivelling,
             ..Self::shortest(start, end)
