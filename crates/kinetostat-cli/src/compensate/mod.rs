@@ -20,6 +20,7 @@ use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -66,6 +67,12 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
+    give_arm(
+        setting.robot.as_mut(),
+        files,
+        (job.as_ref(), args.run.model.as_deref()),
+        &args.run.program,
+    )?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         files,

@@ -8,6 +8,7 @@ use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::setting;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -33,6 +34,12 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
+    give_arm(
+        setting.robot.as_mut(),
+        &files,
+        (job.as_ref(), named),
+        &args.program,
+    )?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,

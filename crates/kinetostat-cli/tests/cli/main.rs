@@ -34,6 +34,7 @@ mod implausible;
 mod import;
 mod import_link;
 mod jobs;
+mod joint_tables;
 mod large_files;
 mod library;
 mod loads_that_swing;

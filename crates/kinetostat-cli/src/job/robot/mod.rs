@@ -1,11 +1,13 @@
 //! Programs in the language of a robot: which it is, what the job file and options say of them, and reading them.
 //!
 //! [`source`] finds the files, [`read_program`] reads them and makes their path, [`frames`] are the tool and the work object
-//! that the program states, for the machine of the run, [`configuration`] compares the arm's with that of the run.
+//! that the program states, for the machine of the run, [`configuration`] compares the arm's with that of the run,
+//! [`joint_arm`] gives a table of joint values its arm.
 
 pub(crate) mod configuration;
 pub(crate) mod flat;
 pub(crate) mod frames;
+pub(crate) mod joint_arm;
 pub(crate) mod machine;
 pub(crate) mod read_program;
 pub(crate) mod settings;

@@ -51,7 +51,7 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
     if let (Language::Poses, Some(motion)) = (source.language, program.motions.iter().find(joints))
     {
         return Err(Failure::input(format!(
-            "line {}: the table states joint values; poses of the tool are corrected, joint values are not: let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
+            "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
             motion.line
         )));
     }
