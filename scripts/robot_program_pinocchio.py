@@ -3,10 +3,13 @@
 Nothing of kinetostat takes part but its outputs: the program is read here from its text, the controller's
 interpolation, inverse kinematics, deflection and weight are computed here. Reads one JSON object from the standard
 input:
-  language             "krl" or "rapid"
-  programmed, written  paths of the program before and after the compensation; inline targets, one motion a line
-  points               path of the table of points (CSV) of the compensation, of every point
-  orientation          between two targets: "one_axis" or "swivel_and_turn"
+  language             "krl", "rapid" or "joints"
+  programmed, written  paths of the program before and after the compensation; inline targets, one motion a line;
+                       of "joints" a table (CSV) with the columns note, A1_deg, ..., A6_deg: of rows with one note the
+                       last one counts, and those with the first note are in air
+  points               path of the table of points (CSV) of the compensation, of every point; not of "joints"
+  orientation          between two targets: "one_axis" or "swivel_and_turn"; not of "joints"
+  tool_mm              tip of the tool in the flange, of "joints": the others say it themselves
   force_n, moment_n_m  on the tip, base axes
   gravity_m_per_s2     base axes
   machine              {"urdf", "base", "tip", "joints", "stiffness_n_m_per_rad": one a joint} or {"model": path}
@@ -271,6 +274,10 @@ class Arm:
     def real(self, wanted, tool, near, wrench):
         """Where the tool is when the controller commands a pose, and the commands."""
         commands = self.commands(wanted, tool, near)
+        return self.deflected(commands, tool, wrench), commands[self.drives]
+
+    def deflected(self, commands, tool, wrench):
+        """Where the tool is when the drives are commanded."""
         turn = self.world_from_base.rotation
         wrench = np.concatenate([turn @ wrench[:3], turn @ wrench[3:]])
         bent = np.zeros(self.model.nv)
@@ -282,7 +289,7 @@ class Arm:
             if np.abs(bent - before).max() < 1e-14:
                 break
         assert np.abs(bent - before).max() < 1e-12, "no equilibrium"
-        return self.pose(commands + bent, tool), commands[self.drives]
+        return self.pose(commands + bent, tool)
 
 
 def cantilever(section, length):
@@ -329,8 +336,46 @@ def pieces(rows):
     return groups
 
 
+def joints_of(path):
+    """Joint values, rad, by note."""
+    lines = [line for line in open(path, encoding="utf-8") if not line.startswith("#")]
+    return {
+        row["note"]: np.radians([float(row[f"A{joint}_deg"]) for joint in range(1, 7)])
+        for row in csv.DictReader(lines)
+    }
+
+
+def compare_joints(asked, arm, wrench):
+    tool = pin.SE3(np.eye(3), 1e-3 * np.array(asked["tool_mm"]))
+    written = joints_of(asked["written"])
+    figures = {name: 0.0 for name in ("at_points_m", "at_points_rad", "without_m", "without_rad")}
+    rows = list(joints_of(asked["programmed"]).items())[1:]
+    for note, joints in rows:
+        def all_of(drives):
+            q = np.zeros(arm.model.nv)
+            q[arm.drives] = drives
+            return q
+
+        wanted = arm.pose(all_of(joints), tool)
+        for which, drives in (("at_points", written[note]), ("without", joints)):
+            real = arm.deflected(all_of(drives), tool, wrench)
+            for unit, size in (
+                ("m", np.linalg.norm(real.translation - wanted.translation)),
+                ("rad", np.linalg.norm(pin.log3(real.rotation.T @ wanted.rotation))),
+            ):
+                key = f"{which}_{unit}"
+                figures[key] = max(figures[key], size) if math.isfinite(size) else math.nan
+    figures["rows"] = len(rows)
+    return figures
+
+
 def main():
     asked = json.load(sys.stdin)
+    if asked["language"] == "joints":
+        arm = Arm(asked["machine"], asked["gravity_m_per_s2"])
+        wrench = np.concatenate([asked["force_n"], asked["moment_n_m"]])
+        json.dump(compare_joints(asked, arm, wrench), sys.stdout)
+        return
     read = {"krl": read_krl, "rapid": read_rapid}[asked["language"]]
     programmed, tool, base = read(asked["programmed"])
     written, same_tool, same_base = read(asked["written"])

@@ -5,6 +5,7 @@
 //! itself, interpolates as the controller does, and finds commands, deflection and weight with Pinocchio.
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+#![allow(clippy::print_stdout)] // what is skipped
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -209,6 +210,54 @@ fn asked(request: &Value) -> Option<Value> {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
     Some(serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// Rows of joint values of heavy_6r, near to each other.
+fn joint_table() -> String {
+    let mut text = "note,A1_deg,A2_deg,A3_deg,A4_deg,A5_deg,A6_deg,speed_mm_per_s\n".to_owned();
+    let [from, to] = [
+        [2.0, 7.0, 29.0, 2.4, 48.0, -15.0],
+        [8.0, 9.4, 26.6, 5.0, 51.0, -9.0],
+    ];
+    for row in 0..=20 {
+        let share = f64::from(row) / 20.0;
+        text.push_str(&format!("row {row}"));
+        for (a, b) in from.iter().zip(to) {
+            text.push_str(&format!(",{:.4}", a + share * (b - a)));
+        }
+        text.push_str(",20\n");
+    }
+    text
+}
+
+#[test]
+fn figure_tables_of_joint_values_of_heavy_6r_agree_with_pinocchio() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    std::fs::write(here.join("q.csv"), joint_table()).unwrap();
+    let line = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
+    run(here, &line.split(' ').collect::<Vec<_>>()).answered();
+    let [force, moment] = LOAD;
+    let found = asked(&json!({
+        "language": "joints", "machine": Case::heavy(Language::Krl).machine,
+        "programmed": here.join("q.csv"), "written": here.join("q-compensated.csv"),
+        "tool_mm": [0.0, 0.0, 180.0],
+        "force_n": force, "moment_n_m": moment, "gravity_m_per_s2": [0.0, 0.0, -9.81],
+    }));
+    let Some(found) = found else {
+        return;
+    };
+    let number = |name: &str| found[name].as_f64().unwrap_or(f64::NAN);
+    let mut holds = true;
+    for (key, most, unit) in [("at_points_m", 1e-6, "m"), ("at_points_rad", 1e-5, "rad")] {
+        let name = format!("joint values, heavy_6r, Pinocchio: tool at the points, {unit}");
+        holds &= figure(&name, number(key), most, unit);
+    }
+    assert!(holds, "{found}");
+    assert!(
+        number("without_m") > 3e-4 && number("rows") == 20.0,
+        "{found}"
+    );
 }
 
 fn hold(case: &Case, here: &Path) {
