@@ -2,6 +2,7 @@
 
 mod broken;
 mod corrections;
+mod joints;
 mod properties;
 mod random;
 pub mod real;
