@@ -184,3 +184,63 @@ fn what_a_table_of_joint_values_does_not_say_is_asked_for() {
         "{said:?}"
     );
 }
+
+/// KUKA shows A2 and A3 with other zeros and A1, A4 and A6 with other signs: the same rows in its numbers are the same program.
+#[test]
+fn joint_values_are_those_that_the_controller_shows_where_the_model_says_how() {
+    let model = include_str!("../../../kinetostat-model/models/heavy_6r.toml");
+    let shown: &[(&str, f64, f64)] = &[
+        ("joint 1", -1.0, 0.0),
+        ("joint 2", 1.0, -90.0),
+        ("joint 3", 1.0, 90.0),
+        ("joint 4", -1.0, 0.0),
+        ("joint 5", 1.0, 0.0),
+        ("joint 6", -1.0, 0.0),
+    ];
+    let own = table("deg");
+    let text: String = own
+        .lines()
+        .map(|line| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if line.starts_with("row ") {
+                for (cell, (_, sign, offset)) in cells[1..7].iter_mut().zip(shown) {
+                    *cell = format!("{:.5}", sign * cell.parse::<f64>().unwrap() + offset);
+                }
+            }
+            format!("{}\n", cells.join(","))
+        })
+        .collect();
+    let here = place(&text);
+    let here = here.path();
+    let mut with = format!("{model}\n[controller]\nname = \"KR C4\"\naxis = [\n");
+    for (number, (joint, sign, offset)) in shown.iter().enumerate() {
+        let reversed = *sign < 0.0;
+        with.push_str(&format!(
+            "  {{ name = \"A{}\", joint = \"{joint}\", reversed = {reversed}, zero_offset_deg = {offset:?} }},\n",
+            number + 1
+        ));
+    }
+    with.push_str("]\n");
+    std::fs::write(here.join("arm.toml"), with).unwrap();
+    let line = RUN.replace("heavy_6r", "arm.toml");
+    let said = run(here, &words(&format!("{line} --joint-rows linear"))).answered();
+    assert!(
+        flat(&said.out).contains("as the controller shows them"),
+        "{said:?}"
+    );
+    let found = rows(&read(here, "q-compensated.csv"), "deg");
+    std::fs::write(here.join("q.csv"), own).unwrap();
+    let line = RUN.replace("--program", "--out own.csv --program");
+    let said = run(here, &words(&format!("{line} --joint-rows linear"))).answered();
+    assert!(flat(&said.out).contains("zeros and directions"), "{said:?}");
+    let wanted = rows(&read(here, "own.csv"), "deg");
+    assert_eq!(found.len(), wanted.len());
+    for ((_, found), (_, wanted)) in found.iter().zip(&wanted) {
+        for ((found, wanted), (_, sign, offset)) in found.iter().zip(wanted).zip(shown) {
+            assert!(
+                (found - (sign * wanted + offset)).abs() < 2e-6,
+                "{found} {wanted}"
+            );
+        }
+    }
+}

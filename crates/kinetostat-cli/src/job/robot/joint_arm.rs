@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kinetostat::Pose;
 use kinetostat_formats::{JointArm, Language, Motion, TableArm, Target, read};
 use kinetostat_machining::ArmJoints;
+use kinetostat_model::Controller;
 use nalgebra::Isometry3;
 
 use crate::files::input_files::InputFiles;
@@ -15,12 +16,40 @@ use crate::job::robot::source::RobotSource;
 use crate::job::tools::tool;
 use crate::ui::failure::{Answer, Failure};
 
-/// An arm of six turning joints, for a table in degrees and mm.
+/// An arm of six turning joints, for a table in degrees: as the controller shows them where the model says how that is.
 #[derive(Debug)]
-struct ArmOfTable(ArmJoints);
+struct ArmOfTable {
+    arm: ArmJoints,
+    controller: Option<Controller>,
+}
 
-fn in_rad(joints: &[f64]) -> [f64; 6] {
-    std::array::from_fn(|joint| joints.get(joint).copied().unwrap_or(f64::NAN).to_radians())
+impl ArmOfTable {
+    /// The model's joint values, rad.
+    fn of_model(&self, shown_deg: &[f64]) -> [f64; 6] {
+        let joints: Vec<f64> = shown_deg.iter().map(|value| value.to_radians()).collect();
+        let joints = match &self.controller {
+            None => joints,
+            Some(controller) => {
+                let axes = controller.axes().iter().zip(&joints);
+                let shown: Vec<f64> = axes.map(|(axis, x)| x / axis.unit.in_si()).collect();
+                controller.joints(&shown).unwrap_or_default()
+            }
+        };
+        std::array::from_fn(|joint| joints.get(joint).copied().unwrap_or(f64::NAN))
+    }
+
+    /// What stands in the table, deg.
+    fn shown_deg(&self, joints: &[f64; 6]) -> Option<Vec<f64>> {
+        let Some(controller) = &self.controller else {
+            return Some(joints.map(f64::to_degrees).to_vec());
+        };
+        let shown = controller.coordinates(joints)?;
+        let axes = controller.axes().iter().zip(shown);
+        Some(
+            axes.map(|(axis, x)| (x * axis.unit.in_si()).to_degrees())
+                .collect(),
+        )
+    }
 }
 
 impl JointArm for ArmOfTable {
@@ -29,14 +58,13 @@ impl JointArm for ArmOfTable {
     }
 
     fn tool_pose(&self, joints: &[f64]) -> Isometry3<f64> {
-        let tool = self.0.tool_at(&in_rad(joints));
+        let tool = self.arm.tool_at(&self.of_model(joints));
         Isometry3::from_parts((1e3 * tool.translation.vector).into(), tool.rotation)
     }
 
     fn joints_near(&self, tool: &Isometry3<f64>, near: &[f64]) -> Option<Vec<f64>> {
         let tool = Pose::from_parts((1e-3 * tool.translation.vector).into(), tool.rotation);
-        let found = self.0.next_to(&tool, &in_rad(near))?;
-        Some(found.map(f64::to_degrees).to_vec())
+        self.shown_deg(&self.arm.next_to(&tool, &self.of_model(near))?)
     }
 }
 
@@ -104,8 +132,17 @@ pub(crate) fn give_arm(
     let reading = &mut source.settings.reading;
     reading.frames.insert(name.clone(), in_mm);
     reading.arm = Some(TableArm {
-        arm: Arc::new(ArmOfTable(arm)),
+        arm: Arc::new(ArmOfTable {
+            arm,
+            controller: model.controller.clone(),
+        }),
         between,
+    });
+    source.settings.joints_are = Some(match &model.controller {
+        Some(_) => "joint values are taken as the controller shows them: [controller] of the model",
+        None => {
+            "joint values are taken as those of the model, which has no [controller]: zeros and directions of the controller's axes may be others"
+        }
     });
     Ok(())
 }

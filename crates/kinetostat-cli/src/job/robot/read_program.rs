@@ -4,6 +4,7 @@ use kinetostat::Directions;
 use kinetostat_formats::{
     Correctable, Language, Motion, RobotPath, RobotProgram, Target, path_of, read,
 };
+use kinetostat_program::Warning;
 
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
@@ -64,6 +65,12 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
         )));
     }
     path.path.warnings.extend(warnings(source, &program));
+    path.path
+        .warnings
+        .extend(settings.joints_are.map(|words| Warning {
+            line: 1,
+            text: words.to_owned(),
+        }));
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
         return Err(Failure::input(

@@ -28,6 +28,8 @@ pub(crate) struct RobotSettings {
     pub(crate) axis_is_stated: bool,
     /// How the controller moves between rows of joint values, where that is stated.
     pub(crate) joint_rows: Option<BetweenRows>,
+    /// What the joint values of a table are, in words.
+    pub(crate) joints_are: Option<&'static str>,
 }
 
 /// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
@@ -114,6 +116,7 @@ pub(crate) fn settings(
             JointRowsWord::Joint => BetweenRows::Joint,
             JointRowsWord::Linear => BetweenRows::Linear,
         }),
+        joints_are: None,
     })
 }
 
