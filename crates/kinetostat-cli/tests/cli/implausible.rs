@@ -269,7 +269,6 @@ fn what_is_wrong_without_the_model_is_not_put_down_to_it() {
             "(kinetostat: compensated program)\nG21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 F600\nM2\n",
             "marked as compensated already",
         ),
-        ("G21 G90 G17\nG0 X0 Y0 Z5\nM2\n", "no motion"),
         ("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 Q3 F600\nM2\n", "line 3"),
     ] {
         std::fs::write(here.path().join("part.ngc"), program).unwrap();
