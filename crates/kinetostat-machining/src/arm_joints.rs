@@ -59,7 +59,7 @@ impl ArmJoints {
         let way = tool.translation.vector - from.translation.vector;
         let turn = (from.rotation.inverse() * tool.rotation).scaled_axis();
         let steps = (way.norm() / STEP).max(turn.norm() / TURN).ceil().max(1.0);
-        if !(steps <= MOST_STEPS) {
+        if steps.is_nan() || steps > MOST_STEPS {
             return None;
         }
         let mut joints = *near;

@@ -96,8 +96,9 @@ pub(crate) fn between_rows(
             (&before, table.between, row.rapid)
         {
             let (off_mm, off_deg) = departure(table, [from, &joints], [start, &tool]);
-            // No number is too far, too.
-            if !(off_mm <= MOST_MM && off_deg <= MOST_DEG) {
+            // What is no number is too far, too.
+            let near = off_mm <= MOST_MM && off_deg <= MOST_DEG;
+            if !near {
                 return Err((
                     index,
                     format!(
