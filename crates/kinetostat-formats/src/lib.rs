@@ -78,6 +78,7 @@ pub use making::of_robot::make_of_robot;
 pub use making::robot_events::events_of_robot;
 pub use making::template::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
 pub use model::frame::{Frame, FrameUse};
+pub use model::joint_arm::{BetweenRows, JointArm, TableArm};
 pub use model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 pub use model::program::{Finding, Language, RobotProgram};
 pub use model::stated_arm::StatedArm;

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
+use crate::model::joint_arm::TableArm;
+
 /// What becomes of a motion whose end is not known from the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UnknownTargets {
@@ -69,6 +71,8 @@ pub struct ReadOptions {
     pub cutter_compensation: CutterCompensation,
     /// Unit of the lengths of a list of poses that does not state it; none where it must.
     pub length_unit: Option<LengthUnit>,
+    /// The arm of a table of joint values; without it such values are read, and not corrected.
+    pub arm: Option<TableArm>,
 }
 
 /// Where a motion that is written as several pieces stops, if it stops at its end.

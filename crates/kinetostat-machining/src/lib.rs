@@ -4,6 +4,7 @@
 //! cuts where it should and proves it by solving the written program again. [`map()`] tells stiffness
 //! and deflection on a grid of places.
 
+mod arm_joints;
 mod bounds;
 mod checks;
 mod cut;
@@ -27,6 +28,7 @@ mod task;
 mod warning;
 mod watch;
 
+pub use arm_joints::ArmJoints;
 pub use bounds::{Bounds, ToolGiven};
 pub use checks::correction::odd_correction;
 pub use checks::load::{large_load, unusual_load};

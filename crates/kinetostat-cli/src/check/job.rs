@@ -21,6 +21,7 @@ use crate::job::cut::along;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::output_paths::OutputPaths;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -114,6 +115,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
+    give_arm(setting.robot.as_mut(), files, (Some(&job), None), flags)?;
     let frames = setting.robot_frames()?;
     let inputs = &mut setting.inputs;
     let (machine, model) =

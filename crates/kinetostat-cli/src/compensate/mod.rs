@@ -20,9 +20,9 @@ use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
 use crate::job::{program, run_warnings};
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -67,6 +67,12 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
+    give_arm(
+        setting.robot.as_mut(),
+        files,
+        (job.as_ref(), args.run.model.as_deref()),
+        &args.run.program,
+    )?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         files,
@@ -82,11 +88,10 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
     let mut run = solve::solve(
         Aim::Compensate,
-        &machine,
+        (&machine, &model),
         &setting,
         args.run.program.threads,
-    )
-    .map_err(|failure| with_model_warning(failure, &model))?;
+    )?;
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));

@@ -146,6 +146,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             correct: None,
             tool_axis: args.tool_axis,
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
+            joint_rows: None,
         },
         expansion,
         ..ProgramArgs::default()

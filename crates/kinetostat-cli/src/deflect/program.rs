@@ -8,9 +8,9 @@ use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::setting;
 use crate::job::{program, run_warnings};
-use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
@@ -34,6 +34,12 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
+    give_arm(
+        setting.robot.as_mut(),
+        &files,
+        (job.as_ref(), named),
+        &args.program,
+    )?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,
@@ -45,8 +51,12 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     setting.turned_by(machine.rotary.clone());
     program::read_program(&setting)?;
     let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
-    let mut run = solve::solve(Aim::Analyse, &machine, &setting, args.program.threads)
-        .map_err(|failure| with_model_warning(failure, &model))?;
+    let mut run = solve::solve(
+        Aim::Analyse,
+        (&machine, &model),
+        &setting,
+        args.program.threads,
+    )?;
     run.result
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));

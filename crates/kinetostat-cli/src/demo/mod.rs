@@ -148,7 +148,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
         let index = outputs.files.claim(what, path)?;
         outputs.files.fill(index, text.as_bytes())?;
     }
-    let mut run = solve::solve(Aim::Compensate, &machine, &setting, args.threads)?;
+    let mut run = solve::solve(Aim::Compensate, (&machine, &model), &setting, args.threads)?;
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);

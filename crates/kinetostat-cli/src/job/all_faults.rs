@@ -14,6 +14,7 @@ use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::program;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::setting;
 use crate::job::source::Source;
 use crate::job::toml_tree::{holds, table_of, take};
@@ -132,8 +133,14 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
     }
     // The program's own faults, where everything that says how to read it is right.
     if let Ok(job) = JobFile::read(files, path)
-        && let Ok(setting) = setting(files, Some(&job), query.program, &query.writing)
-        && let Err(failure) = program::read_program(&setting)
+        && let Ok(mut setting) = setting(files, Some(&job), query.program, &query.writing)
+        && let Err(failure) = give_arm(
+            setting.robot.as_mut(),
+            files,
+            (Some(&job), query.model),
+            query.program,
+        )
+        .and_then(|()| program::read_program(&setting).map(drop))
     {
         add(&mut found, failure);
     }

@@ -15,6 +15,7 @@ use crate::job::arguments::ProgramArgs;
 use crate::job::cut::{CutSetup, FilesOfCut, MeasuredSetup, cut_setup, measured_setup};
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
+use crate::job::model_named::model_named;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::machine::{placement_of_robot, tool_of_robot, tools_of_robot};
@@ -64,23 +65,7 @@ fn read_model(
     job: Option<&JobFile>,
     flag_model: Option<&str>,
 ) -> Answer<ReadModel> {
-    let table = job.and_then(|j| j.job.model.as_ref());
-    let (named, base) = match (flag_model, table) {
-        (Some(named), _) => (named.to_owned(), PathBuf::new()),
-        (None, Some(named)) => (
-            named.get_ref().clone(),
-            job.map(JobFile::base).unwrap_or_default(),
-        ),
-        (None, None) => {
-            return Err(Failure::input(match job {
-                Some(j) => format!(
-                    "the job file '{}' names no model; write  model = \"orthoglide\"  at its top, or give --model MODEL",
-                    j.path.display()
-                ),
-                None => "no model is named; give a job file, or --model MODEL (a preset or a file); the presets are listed by `kinetostat model list`".to_owned(),
-            }));
-        }
-    };
+    let (named, base) = model_named(job, flag_model)?;
     let (model, path) = files.model(&named, &base)?;
     let file = match &path {
         Some(path) => origin::file("model", path, &files.bytes("model", path)?),

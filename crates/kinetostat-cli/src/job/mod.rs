@@ -16,6 +16,7 @@ pub(crate) mod job_file;
 mod limits;
 mod load;
 pub(crate) mod machine;
+pub(crate) mod model_named;
 pub(crate) mod output_paths;
 mod placement;
 pub(crate) mod program;

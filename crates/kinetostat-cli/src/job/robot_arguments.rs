@@ -16,6 +16,16 @@ pub(crate) enum CorrectWord {
     Pose,
 }
 
+/// How the controller moves between the rows of a table of joint values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum JointRowsWord {
+    /// All joints in step
+    Joint,
+    /// The tool on a straight line
+    Linear,
+}
+
 /// An axis and its sense.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AxisWord {
@@ -48,6 +58,9 @@ pub(crate) struct RobotArgs {
         help_heading = "Robot programs"
     )]
     pub(crate) tool_axis: Option<AxisWord>,
+    /// How the controller moves between the rows of a table of joint values
+    #[arg(long, value_enum, value_name = "WAY", help_heading = "Robot programs")]
+    pub(crate) joint_rows: Option<JointRowsWord>,
 }
 
 impl RobotArgs {
@@ -57,6 +70,7 @@ impl RobotArgs {
             ("--correct", self.correct.is_some()),
             ("--rapid-from-mm-per-s", self.rapid_from_mm_per_s.is_some()),
             ("--tool-axis", self.tool_axis.is_some()),
+            ("--joint-rows", self.joint_rows.is_some()),
         ];
         let mut given = all.into_iter().filter(|(_, given)| *given);
         given.next().map(|(name, _)| name)

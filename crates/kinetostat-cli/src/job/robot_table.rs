@@ -6,7 +6,7 @@ use kinetostat_model::schema::{Axis, Placement as PoseTable};
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::job::robot_arguments::CorrectWord;
+use crate::job::robot_arguments::{CorrectWord, JointRowsWord};
 
 /// What a program of a robot does not say itself.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -32,6 +32,8 @@ pub(crate) struct RobotTable {
     pub cutter_compensation: Option<CutterCompensationWord>,
     /// What lengths are in a list of poses that does not state it.
     pub length_unit: Option<Spanned<LengthUnitWord>>,
+    /// How the controller moves between the rows of a table of joint values.
+    pub joint_rows: Option<Spanned<JointRowsWord>>,
 }
 
 /// Paths that the controller moves aside by the tool's radius.

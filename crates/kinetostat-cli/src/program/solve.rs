@@ -3,17 +3,19 @@
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
-    Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, Task,
-    Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
+    Bounds, CuttingLoad, ForceAlongPath, LoadAlongPath, MeasuredReport, ProgramLoad, Run, RunError,
+    Task, Tool, Warning, WarningCode, Watch, analyse, compensate_program, load_description,
     origin_in_metres,
 };
-use kinetostat_program::{MachineProgram, Path as ToolPath};
+use kinetostat_model::Model;
+use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
 use crate::job::setting::Setting;
+use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
 use crate::ui::failure::{Answer, Failure};
@@ -158,10 +160,10 @@ pub(crate) fn with_task<R>(
     Ok(read.with(made))
 }
 
-/// Solves the machine along the program.
+/// Solves the machine, with the model that it is made from, along the program.
 pub(crate) fn solve(
     aim: Aim,
-    machine: &MachineSetup,
+    (machine, model): (&MachineSetup, &Model),
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
@@ -180,12 +182,17 @@ pub(crate) fn solve(
     })??;
     progress.finish();
     let mut run = result.map_err(|error| {
+        let of_machine = may_come_from_machine(&error);
         let failure = setting.within(Failure::from(error));
+        if !of_machine {
+            return failure;
+        }
         // What is no warning without an answer may be the reason why there is none.
-        match origin_in_metres(&machine.mechanism, &machine.placement, path) {
+        let failure = match origin_in_metres(&machine.mechanism, &machine.placement, path) {
             Some(doubt) => failure.with_reason(&doubt.message),
             None => failure,
-        }
+        };
+        with_model_warning(failure, model)
     })?;
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
@@ -205,4 +212,21 @@ pub(crate) fn solve(
     let found = std::mem::take(&mut run.result.warnings);
     run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)
+}
+
+/// Whether a wrong model, or a part at a wrong place, can be why a run ends: the machine does not get somewhere, gives way too much or
+/// not smoothly. Texts, options and files are wrong by themselves.
+fn may_come_from_machine(error: &RunError) -> bool {
+    match error {
+        RunError::Point { .. }
+        | RunError::Worse { .. }
+        | RunError::BeyondLimits(_)
+        | RunError::Unstable { .. }
+        | RunError::Jump { .. } => true,
+        RunError::Write(error) => matches!(
+            error,
+            WriteError::Field { .. } | WriteError::TooManyPieces { .. }
+        ),
+        _ => false,
+    }
 }

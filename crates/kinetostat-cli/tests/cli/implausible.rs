@@ -254,6 +254,32 @@ fn a_hopeless_program_is_refused_with_what_is_implausible_in_the_model() {
     }
 }
 
+/// A text, an option or a file is wrong by itself, however implausible the model is.
+#[test]
+fn what_is_wrong_without_the_model_is_not_put_down_to_it() {
+    let here = workplace();
+    let soft = arm().replace(
+        "stiffness_n_m_per_rad = 4.7e5",
+        "stiffness_n_m_per_rad = 0.47",
+    );
+    assert_ne!(soft, arm());
+    std::fs::write(here.path().join("model.toml"), soft).unwrap();
+    for (program, words) in [
+        (
+            "(kinetostat: compensated program)\nG21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 F600\nM2\n",
+            "marked as compensated already",
+        ),
+        ("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 Q3 F600\nM2\n", "line 3"),
+    ] {
+        std::fs::write(here.path().join("part.ngc"), program).unwrap();
+        let line = "compensate --model model.toml --program part.ngc --force 0 0 -100 --part-origin-mm 1050 0 1000 --tool-length-mm 180 --out new.ngc";
+        let said = run(here.path(), &line.split(' ').collect::<Vec<_>>());
+        assert_ne!(said.code, 0, "{said:?}");
+        assert!(said.err.contains(words), "{words}: {}", said.err);
+        assert!(!said.err.contains("Perhaps the reason"), "{}", said.err);
+    }
+}
+
 /// Where the machine's own loads have no equilibrium, the load on the tool is not blamed.
 #[test]
 fn a_machine_that_its_own_weight_folds_is_reported_as_that() {

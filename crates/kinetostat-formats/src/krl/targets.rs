@@ -188,7 +188,7 @@ impl Targets {
             TargetSite::Declared { declaration, .. } => {
                 Some(self.declarations[*declaration].text.clone())
             }
-            TargetSite::Offset { .. } | TargetSite::Fixed(_) => None,
+            TargetSite::Offset { .. } | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
         };
         let site = match (numbers(&added), literal) {
             (Some(arguments), Some(literal)) => TargetSite::Offset {

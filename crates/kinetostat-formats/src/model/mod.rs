@@ -5,6 +5,7 @@
 
 pub(crate) mod external;
 pub(crate) mod frame;
+pub(crate) mod joint_arm;
 pub(crate) mod motion;
 pub(crate) mod orientation;
 pub(crate) mod program;

@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use crate::model::joint_arm::TableArm;
 use crate::model::orientation::OrientationText;
 use crate::model::target::PoseTarget;
 use crate::text::number::{NumberText, Width};
@@ -24,6 +25,25 @@ pub(crate) struct PoseText {
     pub convention: OrientationText,
     /// Whether its numbers may become longer.
     pub width: Width,
+}
+
+/// Joint values in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct JointsText {
+    /// The whole row.
+    pub whole: Range<usize>,
+    /// In the order of the joints, with how many degrees or mm one of the text is.
+    pub numbers: Vec<(NumberText, f64)>,
+    /// Whose joints they are.
+    pub arm: TableArm,
+}
+
+impl JointsText {
+    /// In degrees or mm.
+    pub fn joints(&self) -> Vec<f64> {
+        let numbers = self.numbers.iter();
+        numbers.map(|(number, unit)| number.value * unit).collect()
+    }
 }
 
 /// A declared pose.
@@ -87,6 +107,8 @@ pub(crate) enum TargetSite {
         /// A literal with the configuration and external axes of the end.
         literal: Box<PoseText>,
     },
+    /// Joint values in a row of a table.
+    Joints(Box<JointsText>),
     /// Nothing to correct, in words why.
     Fixed(&'static str),
 }

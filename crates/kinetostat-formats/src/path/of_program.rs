@@ -15,6 +15,7 @@ use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
 use crate::path::tools::{changes, same_frame, tools_of};
+use crate::text::source::SourceFile;
 
 /// So many places say whether a program is small, ...
 const SEVERAL: usize = 8;
@@ -352,7 +353,10 @@ impl Maker<'_> {
             end: b,
             tool_turn: states_orientation(motion).then(|| {
                 let start = nearest(from.rotation, &to.rotation);
-                Box::new(ToolTurn::shortest(start, to.rotation))
+                Box::new(match self.swivels(motion) {
+                    true => ToolTurn::swivelled(start, to.rotation, Vector3::x_axis()),
+                    false => ToolTurn::shortest(start, to.rotation),
+                })
             }),
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {
@@ -368,6 +372,17 @@ impl Maker<'_> {
                 to_machine: [false; 3],
             },
         }
+    }
+}
+
+impl Maker<'_> {
+    /// Whether the x of the tool swivels in a plane while the tool turns about it: KUKA's LIN and CIRC with `#VAR` do, and turn with
+    /// `$VEL.ORI1` and `$VEL.ORI2`. Of motions of a spline nothing is published: they count as turns about one axis.
+    fn swivels(&self, motion: &Motion) -> bool {
+        let file = self.program.files.get(motion.file).map(SourceFile::bytes);
+        let word = file.and_then(|bytes| bytes.get(motion.site.keyword.clone()));
+        let is = |name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name.as_bytes()));
+        self.program.language == Language::Krl && (is("LIN") || is("CIRC"))
     }
 }
 

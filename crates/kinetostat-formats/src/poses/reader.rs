@@ -9,6 +9,7 @@ use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
 use crate::poses::carrier::Carrier;
 use crate::poses::csv::read_table;
+use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
 use crate::poses::yaml::read_yaml;
@@ -149,6 +150,16 @@ impl Reader<'_> {
         let Some(unit) = self.unit(index, file, &rows, &said) else {
             return;
         };
+        if let Some(arm) = &self.options.arm {
+            match between_rows(arm, &rows) {
+                Ok(None) => {}
+                Ok(Some((row, words))) => self.finding(index, file, rows[row].span.start, words),
+                Err((row, reason, remedy)) => {
+                    self.fault(file, &rows[row], &reason, remedy);
+                    return;
+                }
+            }
+        }
         let from = self.motions.len();
         for row in rows {
             let follows = (self.motions.len() > from).then(|| self.motions.len() - 1);
@@ -255,12 +266,13 @@ impl Reader<'_> {
         unit: LengthUnit,
         follows: Option<usize>,
     ) -> Motion {
-        let (tool, work_object) = (self.frame(&row.tool), self.frame(&row.frame));
+        let tool = self.frame(&row.tool);
+        let work_object = match row.target {
+            RowTarget::Joints(_) => base(),
+            RowTarget::Pose { .. } => self.frame(&row.frame),
+        };
         let (target, site) = match row.target {
-            RowTarget::Joints(values_deg) => (
-                Target::Joints { values_deg },
-                TargetSite::Fixed("the row states joint values, which are not corrected"),
-            ),
+            RowTarget::Joints(numbers) => joint_target(self.options, row.span.clone(), numbers),
             RowTarget::Pose {
                 position,
                 orientation,

@@ -18,8 +18,8 @@ pub(crate) enum RowTarget {
         orientation: Vec<NumberText>,
         convention: OrientationText,
     },
-    /// Degrees or mm.
-    Joints(Vec<f64>),
+    /// With how many degrees or mm one of the text is.
+    Joints(Vec<(NumberText, f64)>),
 }
 
 /// A pose of a list.
@@ -109,13 +109,11 @@ pub(crate) fn row_of(
             pose(file, layout, position, orientation, rows)
         }
         None => {
-            let values: Vec<Option<f64>> = (layout.joints.iter())
-                .map(|(cell, factor)| Some(number(*cell)?.value * factor))
+            let found: Vec<Option<(NumberText, f64)>> = (layout.joints.iter())
+                .map(|(cell, unit)| Some((number(*cell)?, *unit)))
                 .collect();
-            values
-                .into_iter()
-                .collect::<Option<Vec<f64>>>()
-                .map(RowTarget::Joints)
+            let all: Option<Vec<(NumberText, f64)>> = found.into_iter().collect();
+            all.map(RowTarget::Joints)
         }
     };
     let external = layout.external.iter().map(|cell| {

@@ -46,7 +46,7 @@ pub const POSES_STATEMENTS: &[StatementRow] = &[
     line("tool", Understood, TABLE),
     line("frame, work_object", Understood, TABLE),
     line("external_...", Understood, "refused where it moves, unless [robot] external_axes says carried"),
-    line("joint_1_deg, joint_2_deg, ...", Understood, "also _rad, _mm, _m; read, not corrected"),
+    line("joint_1_deg, joint_2_deg, ...", Understood, "also _rad, _mm, _m, and other names (A1_deg); with the tool and [robot] joint_rows in the job file"),
     line("position: x, y, z", Understood, ROS),
     line("orientation: w, x, y, z", Understood, ROS),
     line("pose", Understood, ROS),

@@ -8,9 +8,10 @@ use std::ops::Range;
 use crate::error::WriteError;
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
-use crate::model::site::{PoseText, TargetSite};
+use crate::model::site::TargetSite;
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
+use crate::text::number::NumberText;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;
@@ -88,11 +89,9 @@ impl Syntax for PosesSyntax {
         let (Some(speed), Some(site)) = (speed, &motion.site.speed) else {
             return Some(literal.to_vec());
         };
-        let TargetSite::Literal(text) = &motion.site.target else {
-            return None;
-        };
         let row = program.files.get(motion.file)?.part(&motion.span);
-        let at = moved(row, literal, motion.span.start, text, &site.span)?;
+        let numbers = numbers(&motion.site.target)?;
+        let at = moved(row, literal, motion.span.start, numbers, &site.span)?;
         let mut edits = Edits::default();
         edits.replace(at, speed);
         edits.applied_to(literal)
@@ -101,19 +100,25 @@ impl Syntax for PosesSyntax {
     fn straighten(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 }
 
+/// The numbers of a row that become others.
+fn numbers(site: &TargetSite) -> Option<Vec<&Range<usize>>> {
+    let numbers: Vec<&NumberText> = match site {
+        TargetSite::Literal(text) => text.position.iter().chain(&text.orientation).collect(),
+        TargetSite::Joints(text) => text.numbers.iter().map(|(number, _)| number).collect(),
+        _ => return None,
+    };
+    Some(numbers.into_iter().map(|number| &number.span).collect())
+}
+
 /// Where a span of a row stands in a copy of the row whose numbers are others.
 fn moved(
     row: &[u8],
     copy: &[u8],
     start: usize,
-    text: &PoseText,
+    mut numbers: Vec<&Range<usize>>,
     span: &Range<usize>,
 ) -> Option<Range<usize>> {
-    let mut numbers: Vec<&Range<usize>> = (text.position.iter())
-        .chain(&text.orientation)
-        .map(|number| &number.span)
-        .filter(|number| number.start < span.start)
-        .collect();
+    numbers.retain(|number| number.start < span.start);
     numbers.sort_by_key(|number| number.start);
     let is_part = |byte: &&u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
     let (mut from, mut to) = (start, 0);

@@ -14,6 +14,7 @@ use crate::text::edits::Edits;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::declared::{Demands, Names};
+use crate::writing::joints::{put_joints, row_of_joints};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
 use crate::writing::syntax::Syntax;
@@ -114,6 +115,11 @@ const NO_END: Reason = (
     "leave its pieces out",
 );
 
+const NO_JOINTS: Reason = (
+    "no joint values next to those of the row give the corrected pose",
+    "keep away from singular postures and from the end of the reach",
+);
+
 const NO_NAME: Reason = (
     "no name or number is free for a further pose",
     "give fewer pieces, or divide the program",
@@ -209,15 +215,22 @@ impl Writer<'_> {
             self.syntax.straighten(self.program, motion, edits);
         }
         let file = &self.program.files[motion.file];
-        let text = text_of(self.program, &motion.site.target).ok_or(NO_END)?;
         let mut inserted = Vec::new();
         for piece in before {
             let wanted = Wanted {
                 position_mm: piece.position_mm,
                 orientation: Some(piece.orientation.unwrap_or(end.orientation)),
             };
-            let home = &self.program.files[text.file];
-            let literal = literal_of(home, text, &wanted, self.options).ok_or(NO_END)?;
+            let literal = match &motion.site.target {
+                TargetSite::Joints(text) => {
+                    row_of_joints(file, text, (&wanted, end.orientation)).ok_or(NO_JOINTS)?
+                }
+                site => {
+                    let text = text_of(self.program, site).ok_or(NO_END)?;
+                    let home = &self.program.files[text.file];
+                    literal_of(home, text, &wanted, self.options).ok_or(NO_END)?
+                }
+            };
             let literal = match (self.syntax.declares_pieces(), &motion.site.target) {
                 (true, TargetSite::Declared { declaration, .. }) => {
                     let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
@@ -273,6 +286,10 @@ impl Writer<'_> {
             (TargetSite::Literal(text), Some(wanted)) => {
                 put_pose(file, text, &wanted, self.options, edits);
             }
+            (TargetSite::Joints(text), Some(wanted)) => {
+                let own = motion.target.pose().ok_or(NO_END)?.orientation;
+                put_joints(file, text, (&wanted, own), edits).ok_or(NO_JOINTS)?;
+            }
             (TargetSite::Offset { call, literal, .. }, Some(wanted))
                 if wanted.orientation.is_some() =>
             {
@@ -314,7 +331,7 @@ fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s Po
             Some(&program.declarations.get(*declaration)?.text)
         }
         TargetSite::Offset { literal, .. } => Some(literal),
-        TargetSite::Fixed(_) => None,
+        TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
     }
 }
 

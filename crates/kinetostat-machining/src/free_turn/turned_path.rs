@@ -189,10 +189,14 @@ fn piece(
         ),
     };
     let about = |degrees: f64| UnitQuaternion::from_axis_angle(axis, degrees.to_radians());
-    let turn = ToolTurn::shortest(
+    let (start, end) = (
         program(from) * about(start_deg),
         program(to) * about(end_deg),
     );
+    let turn = match &motion.tool_turn {
+        Some(turn) => turn.with_ends(start, end),
+        None => ToolTurn::shortest(start, end),
+    };
     let middle = program(0.5 * (from + to)) * axis.into_inner();
     let off = match section.length > 0.0 {
         true => (turn.at(0.5) * axis.into_inner())

@@ -320,11 +320,14 @@ fn on_step(
 /// How the written program turns the tool along a piece; none in a program of positions.
 fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<ToolTurn> {
     let end = *written.orientations.get(index)?;
+    let turn = path.moves[written.pieces[index].move_index]
+        .tool_turn
+        .as_ref()?;
     let start = match index.checked_sub(1) {
         Some(before) => written.orientations[before],
-        None => path.moves[written.pieces[index].move_index].orientation(0.0)?,
+        None => turn.at(0.0),
     };
-    Some(ToolTurn::shortest(start, end))
+    Some(turn.with_ends(start, end))
 }
 
 fn kind(motion: &Move) -> PointKind {

@@ -152,8 +152,23 @@ fn tool(mechanism: &Mechanism, commanded: &Pose, wrench: &Wrench) -> Pose {
     posture.deflected_by(wrench).expect("an equilibrium").tool
 }
 
+/// How the controller turns the tool: about one axis, or (KUKA's LIN) its x swivels in a plane while it turns about its x.
+fn turned(
+    language: Language,
+    [from, to]: [UnitQuaternion<f64>; 2],
+    share: f64,
+) -> UnitQuaternion<f64> {
+    if language != Language::Krl {
+        return ToolTurn::shortest(from, to).at(share);
+    }
+    let [a, b] = [from, to].map(|turn| turn * Vector3::x_axis());
+    let swivel = UnitQuaternion::rotation_between_axis(&a, &b).expect("less than half a turn");
+    let spin = (swivel * from).inverse() * to;
+    swivel.powf(share) * from * spin.powf(share)
+}
+
 /// Position (mm) and orientation (rad) missed at the ends of motions and between them, where the arm goes evenly along the line
-/// while it turns about one axis.
+/// while it turns as the controller does.
 fn missed(language: Language, corrected: Directions, load: ProgramLoad, seed: u64) -> [f64; 4] {
     let model = Model::preset("heavy_6r").expect("preset");
     let mechanism = &model.mechanism;
@@ -176,21 +191,16 @@ fn missed(language: Language, corrected: Directions, load: ProgramLoad, seed: u6
         let motion = piece.move_index;
         let goal = |share: f64| {
             let [a, b] = [wanted[motion - 1], wanted[motion]];
-            let turn = ToolTurn::shortest(a.rotation, b.rotation);
             let at = a.translation.vector.lerp(&b.translation.vector, share);
-            Pose::from_parts(at.into(), turn.at(share))
+            Pose::from_parts(at.into(), turned(language, [a.rotation, b.rotation], share))
         };
         let mut look = |part: f64, [position, orientation]: [usize; 2]| {
             let share = piece.share_from + part * (piece.share_to - piece.share_from);
             let [a, b] = [commanded[index - 1], commanded[index]];
-            let turn = ToolTurn::shortest(a.rotation, b.rotation);
+            let turn = turned(language, [a.rotation, b.rotation], part);
             let at = a.translation.vector.lerp(&b.translation.vector, part);
             let wrench = law.wrench(&placement, motion, share);
-            let is = tool(
-                mechanism,
-                &Pose::from_parts(at.into(), turn.at(part)),
-                &wrench,
-            );
+            let is = tool(mechanism, &Pose::from_parts(at.into(), turn), &wrench);
             let goal = goal(share);
             let off = is.translation.vector - goal.translation.vector;
             worst[position].add(1e3 * off.norm());

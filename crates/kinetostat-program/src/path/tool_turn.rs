@@ -1,14 +1,15 @@
 //! The orientation of the tool along a move.
 
-use nalgebra::{Isometry3, UnitQuaternion};
+use nalgebra::{Isometry3, UnitQuaternion, UnitVector3, Vector3};
 
 use crate::path::rotary::RotaryTurn;
 
 /// The orientation of the tool at the two ends of a move, part axes from tool axes: what is written in axes of the tool, turned by
 /// it, is in axes of the part.
 ///
-/// Between its ends it turns about one axis, evenly with the share and by the shorter way, as robot controllers do that
-/// interpolate quaternions (ABB, FANUC, KUKA with `#VAR`); or as the rotary axes of the machine do.
+/// Between its ends it turns evenly with the share: about one axis and by the shorter way, as controllers do that interpolate
+/// quaternions (ABB); or an axis of the tool swivels in a plane while the tool turns about that axis, as KUKA's LIN and CIRC
+/// do with the x of the tool; or as the rotary axes of the machine do.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ToolTurn {
@@ -18,7 +19,12 @@ pub struct ToolTurn {
     pub end: UnitQuaternion<f64>,
     /// What the rotary axes of the machine do, where the program states their angles.
     pub rotary: Option<RotaryTurn>,
+    /// The axis that swivels in a plane, axes of the tool; `None` where the tool turns about one axis.
+    pub swivelling: Option<UnitVector3<f64>>,
 }
+
+/// Directions whose sine is below this lie in no plane of their own, or in any.
+const SAME_DIRECTION: f64 = 1e-9;
 
 impl ToolTurn {
     /// About one axis and by the shorter way.
@@ -28,16 +34,61 @@ impl ToolTurn {
             start,
             end,
             rotary: None,
+            swivelling: None,
+        }
+    }
+
+    /// An axis of the tool goes the shorter way in a plane, and the tool turns about it.
+    ///
+    /// ```
+    /// use kinetostat_program::ToolTurn;
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let end = UnitQuaternion::from_euler_angles(0.4, 0.0, 0.6); // 0.6 rad about z, before that 0.4 rad about x
+    /// let turn = ToolTurn::swivelled(UnitQuaternion::identity(), end, Vector3::x_axis());
+    /// // Half of both angles; about one axis it would be something else.
+    /// let half = UnitQuaternion::from_euler_angles(0.2, 0.0, 0.3);
+    /// assert!(turn.at(0.5).angle_to(&half) < 1e-12);
+    /// assert!(ToolTurn::shortest(UnitQuaternion::identity(), end).at(0.5).angle_to(&half) > 1e-2);
+    /// ```
+    #[must_use]
+    pub fn swivelled(
+        start: UnitQuaternion<f64>,
+        end: UnitQuaternion<f64>,
+        axis: UnitVector3<f64>,
+    ) -> Self {
+        Self {
+            swivelling: Some(axis),
+            ..Self::shortest(start, end)
         }
     }
 
     /// As rotary axes turn.
     #[must_use]
     pub fn rotary(turn: RotaryTurn) -> Self {
+        let ends = Self::shortest(turn.tool(0.0), turn.tool(1.0));
         Self {
-            start: turn.tool(0.0),
-            end: turn.tool(1.0),
             rotary: Some(turn),
+            ..ends
+        }
+    }
+
+    /// Between two other orientations, in the way in which the controller turns the tool here; about one axis where rotary axes
+    /// turn it.
+    ///
+    /// ```
+    /// use kinetostat_program::ToolTurn;
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let [a, b, c] = [0.0, 0.1, 0.3].map(|angle| UnitQuaternion::from_euler_angles(angle, 0.0, angle));
+    /// let turn = ToolTurn::swivelled(a, c, Vector3::x_axis());
+    /// assert_eq!(turn.with_ends(a, b), ToolTurn::swivelled(a, b, Vector3::x_axis()));
+    /// ```
+    #[must_use]
+    pub fn with_ends(&self, start: UnitQuaternion<f64>, end: UnitQuaternion<f64>) -> Self {
+        Self {
+            swivelling: self.swivelling,
+            ..Self::shortest(start, end)
         }
     }
 
@@ -50,7 +101,8 @@ impl ToolTurn {
 
     /// The orientation at a share of the move, part axes from tool axes.
     ///
-    /// Two ends half a turn apart have no shorter way: it turns about the axis of the rotation vector between them.
+    /// Two ends half a turn apart have no shorter way: it turns about the axis of the rotation vector between them; so it does
+    /// where the axis that swivels is turned round.
     ///
     /// ```
     /// use kinetostat_program::ToolTurn;
@@ -65,7 +117,36 @@ impl ToolTurn {
         if let Some(rotary) = &self.rotary {
             return rotary.tool(share);
         }
+        let share = share.clamp(0.0, 1.0);
+        if let Some(swivel) = self.swivelling.and_then(|axis| self.swivel(&axis)) {
+            let part = |way: Vector3<f64>| UnitQuaternion::from_scaled_axis(way * share);
+            return part(swivel.way) * self.start * part(swivel.turn);
+        }
         let way = (self.start.inverse() * self.end).scaled_axis();
-        self.start * UnitQuaternion::from_scaled_axis(way * share.clamp(0.0, 1.0))
+        self.start * UnitQuaternion::from_scaled_axis(way * share)
     }
+
+    /// How an axis of the tool swivels, and how the tool turns about it; `None` where the axis is turned round: any plane would do.
+    fn swivel(&self, axis: &UnitVector3<f64>) -> Option<Swivel> {
+        let [from, to] = [self.start, self.end].map(|orientation| orientation * axis.into_inner());
+        let across = from.cross(&to);
+        let (sine, cosine) = (across.norm(), from.dot(&to));
+        let way = match sine > SAME_DIRECTION {
+            true => across * (sine.atan2(cosine) / sine),
+            false if cosine > 0.0 => across,
+            false => return None,
+        };
+        let swivelled = UnitQuaternion::from_scaled_axis(way) * self.start;
+        let rest = (swivelled.inverse() * self.end).scaled_axis();
+        let turn = axis.into_inner() * rest.dot(axis);
+        Some(Swivel { way, turn })
+    }
+}
+
+/// Two turns at the same time, rotation vectors in rad.
+struct Swivel {
+    /// Of the axis, part axes.
+    way: Vector3<f64>,
+    /// About it, axes of the tool.
+    turn: Vector3<f64>,
 }

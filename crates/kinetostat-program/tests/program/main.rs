@@ -29,6 +29,7 @@ mod sampled_maps;
 mod short_blocks;
 mod spindle;
 mod support;
+mod tool_turns;
 mod tools;
 mod unknown_places;
 mod writing;

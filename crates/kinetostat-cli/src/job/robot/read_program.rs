@@ -6,6 +6,7 @@ use kinetostat::Directions;
 use kinetostat_formats::{
     Correctable, Language, Motion, RobotPath, RobotProgram, Target, path_of, read,
 };
+use kinetostat_program::Warning;
 
 use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
@@ -69,7 +70,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     if let (Language::Poses, Some(motion)) = (source.language, program.motions.iter().find(joints))
     {
         return Err(Failure::input(format!(
-            "line {}: the table states joint values; poses of the tool are corrected, joint values are not: let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
+            "line {}: the table states joint values; which poses they give only a model says, and none is asked here: compensate with a model, or let the CAM system or the controller write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)",
             motion.line
         )));
     }
@@ -82,6 +83,12 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         )));
     }
     path.path.warnings.extend(warnings(source, &program));
+    path.path
+        .warnings
+        .extend(settings.joints_are.map(|words| Warning {
+            line: 1,
+            text: words.to_owned(),
+        }));
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
         return Err(Failure::input(

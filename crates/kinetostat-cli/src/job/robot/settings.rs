@@ -2,7 +2,7 @@
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
+    BetweenRows, CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
     UnknownTargets, WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::job::job_file::JobFile;
-use crate::job::robot_arguments::{AxisWord, CorrectWord, RobotArgs};
+use crate::job::robot_arguments::{AxisWord, CorrectWord, JointRowsWord, RobotArgs};
 use crate::job::robot_table::{
     CutterCompensationWord, ExternalAxesWord, LengthUnitWord, RobotTable, UnknownTargetsWord,
 };
@@ -26,6 +26,10 @@ pub(crate) struct RobotSettings {
     pub(crate) corrected: Directions,
     /// The axis of the tool is stated, and not the usual one of the language.
     pub(crate) axis_is_stated: bool,
+    /// How the controller moves between rows of joint values, where that is stated.
+    pub(crate) joint_rows: Option<BetweenRows>,
+    /// What the joint values of a table are, in words.
+    pub(crate) joints_are: Option<&'static str>,
 }
 
 /// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
@@ -46,6 +50,7 @@ pub(crate) fn settings(
         above_zero,
     )?;
     let mut correct = CorrectWord::default();
+    let mut joint_rows = flags.joint_rows;
     let mut axis_is_stated = flags.tool_axis.is_some();
     if let Some((j, table)) = table {
         frames(j, table, &mut reading)?;
@@ -75,6 +80,16 @@ pub(crate) fn settings(
                 LengthUnitWord::M => LengthUnit::Metre,
             });
         }
+        if let Some(rows) = &table.joint_rows {
+            if language != Language::Poses {
+                return Err(j.error(
+                    rows,
+                    "this way is for tables of joint values: the program is in a language that has its own",
+                    "leave it out",
+                ));
+            }
+            joint_rows = joint_rows.or(Some(*rows.get_ref()));
+        }
         correct = table.correct.unwrap_or(correct);
     }
     if let Some(axis) = flags.tool_axis {
@@ -97,6 +112,11 @@ pub(crate) fn settings(
         writing: TextOptions::default(),
         corrected,
         axis_is_stated,
+        joint_rows: joint_rows.map(|word| match word {
+            JointRowsWord::Joint => BetweenRows::Joint,
+            JointRowsWord::Linear => BetweenRows::Linear,
+        }),
+        joints_are: None,
     })
 }
 

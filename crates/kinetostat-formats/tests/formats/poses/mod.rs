@@ -2,6 +2,7 @@
 
 mod broken;
 mod corrections;
+mod joints;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod properties;

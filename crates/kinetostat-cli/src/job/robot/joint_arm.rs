@@ -1,0 +1,148 @@
+//! The arm of a table of joint values: the model says which poses they give.
+
+use std::sync::Arc;
+
+use kinetostat::Pose;
+use kinetostat_formats::{JointArm, Language, Motion, TableArm, Target, read};
+use kinetostat_machining::ArmJoints;
+use kinetostat_model::Controller;
+use nalgebra::Isometry3;
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::ProgramArgs;
+use crate::job::job_file::JobFile;
+use crate::job::model_named::model_named;
+use crate::job::robot::source::RobotSource;
+use crate::job::tools::tool;
+use crate::ui::failure::{Answer, Failure};
+
+/// An arm of six turning joints, for a table in degrees: as the controller shows them where the model says how that is.
+#[derive(Debug)]
+struct ArmOfTable {
+    arm: ArmJoints,
+    controller: Option<Controller>,
+}
+
+impl ArmOfTable {
+    /// The model's joint values, rad.
+    fn of_model(&self, shown_deg: &[f64]) -> [f64; 6] {
+        let joints: Vec<f64> = shown_deg.iter().map(|value| value.to_radians()).collect();
+        let joints = match &self.controller {
+            None => joints,
+            Some(controller) => {
+                let axes = controller.axes().iter().zip(&joints);
+                let shown: Vec<f64> = axes.map(|(axis, x)| x / axis.unit.in_si()).collect();
+                controller.joints(&shown).unwrap_or_default()
+            }
+        };
+        std::array::from_fn(|joint| joints.get(joint).copied().unwrap_or(f64::NAN))
+    }
+
+    /// What stands in the table, deg.
+    fn shown_deg(&self, joints: &[f64; 6]) -> Option<Vec<f64>> {
+        let Some(controller) = &self.controller else {
+            return Some(joints.map(f64::to_degrees).to_vec());
+        };
+        let shown = controller.coordinates(joints)?;
+        let axes = controller.axes().iter().zip(shown);
+        Some(
+            axes.map(|(axis, x)| (x * axis.unit.in_si()).to_degrees())
+                .collect(),
+        )
+    }
+}
+
+impl JointArm for ArmOfTable {
+    fn joint_count(&self) -> usize {
+        6
+    }
+
+    fn tool_pose(&self, joints: &[f64]) -> Isometry3<f64> {
+        let tool = self.arm.tool_at(&self.of_model(joints));
+        Isometry3::from_parts((1e3 * tool.translation.vector).into(), tool.rotation)
+    }
+
+    fn joints_near(&self, tool: &Isometry3<f64>, near: &[f64]) -> Option<Vec<f64>> {
+        let tool = Pose::from_parts((1e-3 * tool.translation.vector).into(), tool.rotation);
+        self.shown_deg(&self.arm.next_to(&tool, &self.of_model(near))?)
+    }
+}
+
+/// Gives a table of joint values the arm of the model, with its tool; other programs stay as they are.
+pub(crate) fn give_arm(
+    source: Option<&mut RobotSource>,
+    files: &InputFiles,
+    (job, flag_model): (Option<&JobFile>, Option<&str>),
+    flags: &ProgramArgs,
+) -> Answer<()> {
+    let Some(source) = source.filter(|source| source.language == Language::Poses) else {
+        return Ok(());
+    };
+    // Its faults are reported where it is read.
+    let Ok(program) = read(
+        source.language,
+        source.files.clone(),
+        &source.settings.reading,
+    ) else {
+        return Ok(());
+    };
+    let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
+    let Some(first) = program.motions.iter().find(joints) else {
+        return Ok(());
+    };
+    let refuse = |reason: String| {
+        let line = first.line;
+        Err(Failure::input(format!(
+            "line {line}: the table states joint values{reason}"
+        )))
+    };
+    let Some(between) = source.settings.joint_rows else {
+        return refuse(", and how the controller moves from row to row is not stated: state it, joint_rows = \"joint\" (all joints in step) or \"linear\" (the tool on a straight line), under [robot] in the job file, or --joint-rows".to_owned());
+    };
+    let name = &first.tool.name;
+    if let Some(other) = program
+        .motions
+        .iter()
+        .find(|motion| motion.tool.name != *name)
+    {
+        return refuse(format!(
+            " of several tools, `{name}` and on line {} `{}`: write one table for each tool",
+            other.line, other.tool.name
+        ));
+    }
+    let is_stated = flags.tool_length_mm.is_some()
+        || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some());
+    let tool = match (first.tool.known(), is_stated) {
+        (Some(frame), _) => {
+            Pose::from_parts((1e-3 * frame.translation.vector).into(), frame.rotation)
+        }
+        (None, true) => tool(job, flags)?.0,
+        (None, false) => {
+            return refuse(", and where the tip of the tool is in the flange is not stated: state length_mm or pose under [tool] in the job file, or --tool-length-mm (0: the flange itself)".to_owned());
+        }
+    };
+    let (named, base) = model_named(job, flag_model)?;
+    let (model, _) = files.model(&named, &base)?;
+    let Some(arm) = ArmJoints::of(&model.mechanism.with_tool(&tool)) else {
+        return refuse(format!(
+            ", and the model '{named}' is no arm of six turning joints in one chain: write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)"
+        ));
+    };
+    let in_mm = Isometry3::from_parts((1e3 * tool.translation.vector).into(), tool.rotation);
+    let reading = &mut source.settings.reading;
+    reading.frames.insert(name.clone(), in_mm);
+    reading.arm = Some(TableArm {
+        arm: Arc::new(ArmOfTable {
+            arm,
+            controller: model.controller.clone(),
+        }),
+        between,
+    });
+    source.settings.joints_are = Some(match &model.controller {
+        Some(_) => "joint values are taken as the controller shows them: [controller] of the model",
+        None => {
+            "joint values are taken as those of the model, which has no [controller]: zeros and directions of the controller's axes may be others"
+        }
+    });
+    Ok(())
+}

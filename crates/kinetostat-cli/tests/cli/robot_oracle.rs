@@ -1,0 +1,323 @@
+//! Compensated programs of arms against Pinocchio: where the real, elastic arm has its tool when a controller runs
+//! the program that was written.
+//!
+//! The script `scripts/robot_program_pinocchio.py` shares nothing with the command but files: it reads the programs
+//! itself, interpolates as the controller does, and finds commands, deflection and weight with Pinocchio.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+#![allow(clippy::print_stdout)] // what is skipped
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+use crate::common::chains::figure;
+use crate::common::run;
+
+/// A line, an arc and a line; the tool turns by more than 10 degrees about several axes on each.
+const KRL: &str = "DEF part ( )
+$ORI_TYPE=#VAR
+$TOOL={TOOL}
+$BASE={X ORIGIN,A 20,B 0,C 0}
+$VEL.CP=0.02
+PTP {X 0,Y 0,Z 50,A 0,B 84,C 3}
+LIN {X 0,Y 0,Z 0,A 0,B 84,C 3}
+LIN {X 120,Y 40,Z -5,A 14,B 78,C -10}
+CIRC {X 160,Y 60,Z 0,A 16,B 80,C -6},{X 170,Y 110,Z 10,A 20,B 83,C -4}
+LIN {X 20,Y 120,Z 0,A -6,B 88,C 12}
+END
+";
+
+/// The same poses; here z of the tool lies where x does in KRL.
+const RAPID: &str = r#"MODULE Part
+  PERS tooldata tMill:=[TRUE,[[12,-8,180],[1,0,0,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];
+  PERS wobjdata wPart:=[FALSE,TRUE,"",[[ORIGIN],[0.98480775,0,0,0.17364818]],[[0,0,0],[1,0,0,0]]];
+  CONST robtarget pIn:=[[0,0,0],[0.05231802,0.02614107,0.99828733,0.00137000],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ [[0,0,50],[0.05231802,0.02614107,0.99828733,0.00137000],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\WObj:=wPart;
+    MoveL pIn,v20,fine,tMill\WObj:=wPart;
+    MoveL [[120,40,-5],[0.10446479,-0.20677273,0.97278921,0.00364799],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tMill\WObj:=wPart;
+    MoveC [[160,60,0],[0.08682409,-0.19008291,0.97789180,0.00759612],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[170,110,10],[0.06045442,-0.20752389,0.97632316,0.00849631],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tMill\WObj:=wPart;
+    MoveL [[20,120,0],[0.01742849,0.15641064,0.98753791,0.00091339],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\WObj:=wPart;
+  ENDPROC
+ENDMODULE
+"#;
+
+/// Of the drives of an imported arm, N m/rad.
+const STIFFNESS: [f64; 6] = [3.8e6, 6.6e6, 3.9e6, 5.6e5, 6.6e5, 4.7e5];
+
+/// A force and a moment off all axes, N and N m.
+const LOAD: [[f64; 3]; 2] = [[300.0, -200.0, 500.0], [20.0, -15.0, 8.0]];
+
+/// How far the tool may be off between the ends of pieces, mm.
+const TOLERANCE_MM: f64 = 0.01;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Language {
+    Krl,
+    Rapid,
+}
+
+/// An arm, its program, and what the script is to know of both.
+struct Case {
+    name: &'static str,
+    language: Language,
+    model: &'static str,
+    machine: Value,
+    text: String,
+}
+
+impl Case {
+    /// With a model of the library: elastic drives and links.
+    fn heavy(language: Language) -> Self {
+        let model = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../kinetostat-model/models/heavy_6r.toml"
+        );
+        Self {
+            name: match language {
+                Language::Krl => "KRL, heavy_6r",
+                Language::Rapid => "RAPID, heavy_6r",
+            },
+            language,
+            model: "heavy_6r",
+            machine: json!({ "model": model }),
+            text: match language {
+                Language::Krl => text(language, "X 12,Y -8,Z 180,A 0,B -90,C 0", [1500, 100, 700]),
+                Language::Rapid => text(language, "", [1500, 100, 700]),
+            },
+        }
+    }
+
+    /// With an arm of a URDF: elastic drives, rigid links, and the weights that the URDF states.
+    fn imported(language: Language, here: &Path) -> Option<Self> {
+        let (name, file, prefix, origin) = match language {
+            Language::Krl => (
+                "KRL, KR 210 L150",
+                "kuka_kr210l150.urdf",
+                "joint_a",
+                [1900, 100, 600],
+            ),
+            Language::Rapid => (
+                "RAPID, IRB 6640",
+                "abb_irb6640.urdf",
+                "joint_",
+                [1850, 100, 800],
+            ),
+        };
+        let urdf = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+            .join("../../../shared/data/urdf")
+            .join(file);
+        if !urdf.is_file() {
+            println!("SKIPPED: ../shared/data/urdf/{file} is not there");
+            return None;
+        }
+        let joints: Vec<String> = (1..=6).map(|i| format!("{prefix}{i}")).collect();
+        let mut table = "name,value,unit\n".to_owned();
+        for (joint, value) in joints.iter().zip(STIFFNESS) {
+            table.push_str(&format!("{joint},{value},N m/rad\n"));
+        }
+        std::fs::write(here.join("stiffness.csv"), table).unwrap();
+        let home = format!("{prefix}2=20deg,{prefix}3=10deg,{prefix}5=60deg");
+        let urdf = urdf.to_str().unwrap();
+        let import = "import urdf --base base_link --tip tool0 --joint-stiffness stiffness.csv -o arm.toml --home";
+        let mut words: Vec<&str> = import.split(' ').collect();
+        words.extend([home.as_str(), urdf]);
+        run(here, &words).answered();
+        Some(Self {
+            name,
+            language,
+            model: "arm.toml",
+            machine: json!({
+                "urdf": urdf, "base": "base_link", "tip": "tool0",
+                "joints": joints, "stiffness_n_m_per_rad": STIFFNESS,
+            }),
+            text: text(language, "X 180,Y -8,Z 12,A 0,B 0,C 0", origin),
+        })
+    }
+
+    fn file(&self) -> &'static str {
+        match self.language {
+            Language::Krl => "part.src",
+            Language::Rapid => "part.mod",
+        }
+    }
+
+    /// Compensates the program and asks Pinocchio; `None` where it is not installed.
+    fn compared(&self, here: &Path) -> Option<Value> {
+        std::fs::write(here.join(self.file()), &self.text).unwrap();
+        let (language, axis, orientation) = match self.language {
+            Language::Krl => ("krl", "-x", "swivel_and_turn"),
+            Language::Rapid => ("rapid", "-z", "one_axis"),
+        };
+        let [force, moment] = LOAD;
+        // The weights of public URDFs are not those of the robots.
+        let job = format!(
+            "schema = 1\nmodel = \"{}\"\nprogram = \"{}\"\n[load]\nforce_n = {force:?}\nmoment_n_m = {moment:?}\naxes = \"base\"\n[robot]\ncorrect = \"pose\"\ntool_axis = \"{axis}\"\n[tolerances]\npath_um = {}\n[output]\npoints = \"points.csv\"\nprogram = \"out/{}\"\n[limits]\nown_weight_mm = 30\ncorrection_mm = 10\n",
+            self.model,
+            self.file(),
+            1e3 * TOLERANCE_MM,
+            self.file(),
+        );
+        std::fs::create_dir_all(here.join("out")).unwrap();
+        std::fs::write(here.join("job.toml"), job).unwrap();
+        run(here, &["compensate", "job.toml", "--all-points"]).answered();
+        asked(&json!({
+            "language": language, "orientation": orientation, "machine": self.machine,
+            "programmed": here.join(self.file()),
+            "written": here.join("out").join(self.file()),
+            "points": here.join("points.csv"),
+            "force_n": force, "moment_n_m": moment, "gravity_m_per_s2": [0.0, 0.0, -9.81],
+        }))
+    }
+}
+
+fn text(language: Language, tool: &str, [x, y, z]: [i32; 3]) -> String {
+    match language {
+        Language::Krl => KRL
+            .replace("TOOL}", &format!("{tool}}}"))
+            .replace("X ORIGIN", &format!("X {x},Y {y},Z {z}")),
+        Language::Rapid => RAPID.replace("ORIGIN", &format!("{x},{y},{z}")),
+    }
+}
+
+/// What the script answers; `None` where Pinocchio is not installed.
+fn asked(request: &Value) -> Option<Value> {
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scripts/robot_program_pinocchio.py"
+    );
+    let started = Command::new("python3")
+        .arg(script)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let Ok(mut process) = started else {
+        println!("SKIPPED: python3 is not installed");
+        return None;
+    };
+    let mut input = process.stdin.take().unwrap();
+    input.write_all(request.to_string().as_bytes()).ok();
+    drop(input);
+    let output = process.wait_with_output().unwrap();
+    if output.status.code() == Some(3) {
+        println!("SKIPPED: Pinocchio is not installed (pip install pin)");
+        return None;
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    Some(serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// Rows of joint values of heavy_6r, near to each other.
+fn joint_table() -> String {
+    let mut text = "note,A1_deg,A2_deg,A3_deg,A4_deg,A5_deg,A6_deg,speed_mm_per_s\n".to_owned();
+    let [from, to] = [
+        [2.0, 7.0, 29.0, 2.4, 48.0, -15.0],
+        [8.0, 9.4, 26.6, 5.0, 51.0, -9.0],
+    ];
+    for row in 0..=20 {
+        let share = f64::from(row) / 20.0;
+        text.push_str(&format!("row {row}"));
+        for (a, b) in from.iter().zip(to) {
+            text.push_str(&format!(",{:.4}", a + share * (b - a)));
+        }
+        text.push_str(",20\n");
+    }
+    text
+}
+
+#[test]
+fn figure_tables_of_joint_values_of_heavy_6r_agree_with_pinocchio() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    std::fs::write(here.join("q.csv"), joint_table()).unwrap();
+    let line = "compensate --model heavy_6r --program q.csv --tool-length-mm 180 --force 300 -200 500 --moment 20 -15 8 --correct pose --joint-rows joint --tolerance-um 10";
+    run(here, &line.split(' ').collect::<Vec<_>>()).answered();
+    let [force, moment] = LOAD;
+    let found = asked(&json!({
+        "language": "joints", "machine": Case::heavy(Language::Krl).machine,
+        "programmed": here.join("q.csv"), "written": here.join("q-compensated.csv"),
+        "tool_mm": [0.0, 0.0, 180.0],
+        "force_n": force, "moment_n_m": moment, "gravity_m_per_s2": [0.0, 0.0, -9.81],
+    }));
+    let Some(found) = found else {
+        return;
+    };
+    let number = |name: &str| found[name].as_f64().unwrap_or(f64::NAN);
+    let mut holds = true;
+    for (key, most, unit) in [("at_points_m", 1e-6, "m"), ("at_points_rad", 1e-5, "rad")] {
+        let name = format!("joint values, heavy_6r, Pinocchio: tool at the points, {unit}");
+        holds &= figure(&name, number(key), most, unit);
+    }
+    assert!(holds, "{found}");
+    assert!(
+        number("without_m") > 3e-4 && number("rows") == 20.0,
+        "{found}"
+    );
+}
+
+fn hold(case: &Case, here: &Path) {
+    let Some(found) = case.compared(here) else {
+        return;
+    };
+    let number = |name: &str| found[name].as_f64().unwrap_or(f64::NAN);
+    let mut holds = true;
+    for (what, key, most, unit) in [
+        ("tool at the points", "at_points_m", 1e-6, "m"),
+        ("tool at the points", "at_points_rad", 1e-5, "rad"),
+        // And half of the last digit that is written, in three axes.
+        (
+            "tool between them",
+            "between_m",
+            1e-3 * TOLERANCE_MM + 1e-7,
+            "m",
+        ),
+        ("tool between them", "between_rad", 1e-5, "rad"),
+        // The digits of the table.
+        (
+            "deflection without compensation against the table's",
+            "before_against_table_m",
+            2e-9,
+            "m",
+        ),
+        (
+            "joint values against the table's",
+            "commands_against_table_rad",
+            1e-7,
+            "rad",
+        ),
+    ] {
+        let name = format!("{}, Pinocchio: {what}, {unit}", case.name);
+        holds &= figure(&name, number(key), most, unit);
+    }
+    assert!(holds, "{found}");
+    // There was something to correct, and all of it was looked at.
+    assert!(number("without_m") > 3e-4, "{found}");
+    assert!(number("without_rad") > 1e-4, "{found}");
+    assert_eq!(number("motions"), 4.0);
+    assert!(number("pieces") >= 20.0, "{found}");
+    assert!(number("pieces_where_the_load_comes") <= 2.0, "{found}");
+    assert_eq!(number("written_and_not_seen"), 0.0, "{found}");
+}
+
+#[test]
+fn figure_robot_programs_of_heavy_6r_agree_with_pinocchio() {
+    for language in [Language::Krl, Language::Rapid] {
+        let here = tempfile::tempdir().unwrap();
+        hold(&Case::heavy(language), here.path());
+    }
+}
+
+#[test]
+fn figure_robot_programs_of_imported_arms_agree_with_pinocchio() {
+    for language in [Language::Krl, Language::Rapid] {
+        let here = tempfile::tempdir().unwrap();
+        if let Some(case) = Case::imported(language, here.path()) {
+            hold(&case, here.path());
+        }
+    }
+}
