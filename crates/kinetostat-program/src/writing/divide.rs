@@ -6,7 +6,7 @@
 //!
 //! The field says where `c` or its slope may jump ([`Structure::breaks`]): those places are ends of
 //! stretches before anything else. Arcs that become straight pieces are divided by their chords as well; for those to which
-//! arcs are fitted ([`crate::writing::fit`]) the correction is only found out, and how far it bends matters little. A stretch is then evaluated in
+//! arcs are fitted ([`crate::writing::fitting`]) the correction is only found out, and how far it bends matters little. A stretch is then evaluated in
 //! its middle, in the quarters where that does not decide it, and there at a place that follows no
 //! pattern too. It is good if
 //!
@@ -40,9 +40,11 @@ use crate::writing::queries::FieldQueries;
 pub(crate) struct Division {
     pub nodes: Vec<Node>,
     pub jumps: Vec<Jump>,
-    /// The correction on the moves to which arcs are fitted, and on straight ones whose pieces may be shared out anew, by move
+    /// The correction on the moves to which arcs are fitted, and on those whose straight pieces may be shared out anew, by move
     /// and share.
     pub courses: Vec<Accepted>,
+    /// What becomes of arcs.
+    pub arcs: Arcs,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
     pub left_out_mm: f64,
@@ -243,13 +245,13 @@ pub(crate) fn divide(
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
         let motion = &path.moves[stretch.move_index];
-        let shared = motion.curve == Curve::Line && options.shortest_block_mm(motion).is_some();
-        shared || is_fitted(motion, arcs)
+        options.shortest_block_mm(motion).is_some() || is_fitted(motion, arcs)
     });
     Ok(Division {
         nodes,
         jumps,
         courses: accepted,
+        arcs,
         evaluations: queries.answered,
         left_out_mm: queries.left_out_mm,
     })
@@ -356,7 +358,10 @@ fn first_round(
             continue;
         }
         let earlier = before.filter(|(index, _)| *index + 1 == move_index);
-        let fitted = is_fitted(&path.moves[move_index], arcs);
+        let motion = &path.moves[move_index];
+        let fitted = is_fitted(motion, arcs);
+        // The chords of an arc may become longer ones.
+        let shared = motion.curve != Curve::Line && options.shortest_block_mm(motion).is_some();
         let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
         nodes.push(Node {
             before: begins,
@@ -372,7 +377,7 @@ fn first_round(
             open.push(Stretch {
                 move_index,
                 course,
-                entire: !fitted && (pair[0].fixed && pair[1].fixed || list.len() == 2),
+                entire: !fitted && !shared && (pair[0].fixed && pair[1].fixed || list.len() == 2),
                 fitted,
                 share: [pair[0].share, pair[1].share],
                 ends: [value, end],

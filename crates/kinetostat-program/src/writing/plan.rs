@@ -12,7 +12,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;
 use crate::writing::divide::divide;
-use crate::writing::fit::ArcForm;
+use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::node::is_divided;
 use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::output_state::OutputMove;
