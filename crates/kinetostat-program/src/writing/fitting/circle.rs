@@ -12,7 +12,12 @@ pub(crate) struct Circle {
 
 impl Circle {
     /// Through two ends, and as near to the places between as it can be; the sweep is about this.
-    pub fn through(start: [f64; 2], end: [f64; 2], places: &[[f64; 2]], sweep: f64) -> Option<Self> {
+    pub fn through(
+        start: [f64; 2],
+        end: [f64; 2],
+        places: &[[f64; 2]],
+        sweep: f64,
+    ) -> Option<Self> {
         let chord = [end[0] - start[0], end[1] - start[1]];
         let length = chord[0].hypot(chord[1]);
         let left = [-chord[1] / length, chord[0] / length];

@@ -277,11 +277,7 @@ fn even(count: usize) -> impl Iterator<Item = f64> {
 
 /// How far equal ways of the path and of the arc are apart: two polynomials that have nothing in common over even places, and
 /// little over others.
-fn slip(
-    circle: &Circle,
-    turned: f64,
-    (places, points): (&[Place], &[[f64; 2]]),
-) -> [f64; 2] {
+fn slip(circle: &Circle, turned: f64, (places, points): (&[Place], &[[f64; 2]])) -> [f64; 2] {
     let mut sums = [[0.0; 2]; 2];
     for ((part, _), point) in places.iter().zip(points) {
         let is = circle.turned(*point, turned * part) / turned;
