@@ -141,7 +141,7 @@ pub fn verify_against_field(
         if motion.curve != crate::Curve::Line {
             allowed += 1.2 * writing.chord_tolerance_mm;
         }
-        if piece.arc.is_some() {
+        if piece.is_fitted() {
             // Its centre is rounded as well.
             allowed += 2.0 * writing.last_digit_mm(motion.words.mm_per_unit);
         }
@@ -233,7 +233,7 @@ fn places(
         push(0.0, from, None, At::End);
     }
     push(1.0, to, None, At::End);
-    for part in ON_ARCS.into_iter().filter(|_| piece.arc.is_some()) {
+    for part in ON_ARCS.into_iter().filter(|_| piece.is_fitted()) {
         push(part, from + (to - from) * part, None, At::Inside);
     }
     let first = breaks.partition_point(|share| *share <= from);

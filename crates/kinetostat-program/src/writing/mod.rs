@@ -26,3 +26,4 @@ pub(crate) mod steps;
 pub(crate) mod write;
 pub(crate) mod written;
 pub(crate) mod written_arc;
+pub(crate) mod written_circle;

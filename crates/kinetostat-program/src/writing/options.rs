@@ -15,6 +15,16 @@ pub enum Arcs {
     Lines,
 }
 
+/// How the language of a program can write what an arc of it becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Circles {
+    /// By straight motions.
+    #[default]
+    Straight,
+    /// By circles through a place between their ends, which may lean.
+    ThroughPlace,
+}
+
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -7,15 +7,15 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::field::correction::Correction;
 use crate::number::larger;
-use crate::path::curve::{Arc, Curve};
+use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
 use crate::writing::corrected_curve::CorrectedCurve;
-use crate::writing::divide::Division;
+use crate::writing::divide::{Division, Fitted};
 use crate::writing::fitting::stretch::{ArcForm, Fit, FittedPiece, Shape, Span};
 use crate::writing::jump::{Jump, Turn};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
-use crate::writing::options::{Arcs, WriteOptions};
+use crate::writing::options::WriteOptions;
 use crate::writing::output_state::OutputMove;
 
 /// Which nodes of a move are ends of pieces.
@@ -33,7 +33,7 @@ pub(crate) struct Steps<'a> {
     pub nodes: Vec<Node>,
     jumps: Vec<Jump>,
     courses: Vec<Accepted>,
-    arcs: Arcs,
+    fitted: Vec<Fitted>,
     next_node: usize,
     /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
     tilt: Vector3<f64>,
@@ -49,7 +49,7 @@ impl<'a> Steps<'a> {
             nodes: division.nodes,
             jumps: division.jumps,
             courses: division.courses,
-            arcs: division.arcs,
+            fitted: division.fitted,
             next_node: 0,
             tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
@@ -98,6 +98,7 @@ impl<'a> Steps<'a> {
                 corner_step: false,
                 turn: None,
                 arc: None,
+                circle: None,
                 corrected,
             }]
         };
@@ -109,10 +110,15 @@ impl<'a> Steps<'a> {
             }
             Some(_) => {
                 let known = !self.course(move_index).is_empty();
-                match &motion.curve {
-                    Curve::Arc(arc) if known && self.arcs == Arcs::Fit => {
+                let shape = match (&motion.curve, self.fitted[move_index]) {
+                    (Curve::Arc(arc), Fitted::Arcs) => Some(Shape::Arcs(arc, form)),
+                    (Curve::Arc(_), Fitted::Circles) => Some(Shape::Circles),
+                    _ => None,
+                };
+                match shape {
+                    Some(shape) if known => {
                         let steps = self.divided(motion, range.clone(), reached, Ends::OfJumps);
-                        self.fitted((move_index, arc, form), &steps, reached)?
+                        self.fitted((move_index, shape), &steps, reached)?
                     }
                     _ if known => self.shared((move_index, range.clone()), reached),
                     _ => self.divided(motion, range.clone(), reached, Ends::All),
@@ -126,13 +132,13 @@ impl<'a> Steps<'a> {
     /// Arcs in place of the long straight pieces between two jumps of the correction.
     fn fitted(
         &self,
-        (move_index, arc, form): (usize, &Arc, ArcForm),
+        (move_index, shape): (usize, Shape<'_>),
         steps: &[OutputMove],
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
         let fit = Fit {
             curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
-            shape: Shape::Arcs(arc, form),
+            shape,
             options: self.options,
         };
         let shortest_mm = self.options.shortest_block_mm(fit.curve.motion);
@@ -226,6 +232,7 @@ impl<'a> Steps<'a> {
             target: piece.target,
             tilt: tilt(piece.share_to),
             arc: piece.arc,
+            circle: piece.circle,
             ..*step
         });
         pieces.collect()
@@ -262,6 +269,7 @@ impl<'a> Steps<'a> {
                 corner_step,
                 turn,
                 arc: None,
+                circle: None,
                 corrected: true,
             });
             share_from = share_to;

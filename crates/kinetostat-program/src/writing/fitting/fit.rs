@@ -63,7 +63,7 @@ impl Fit<'_> {
     pub fn has_shorter(&self, span: &Span, pieces: &[FittedPiece], shortest_mm: f64) -> bool {
         let axis = match self.shape {
             Shape::Arcs(arc, _) => arc.axis,
-            Shape::Straight => nalgebra::Vector3::zeros(),
+            Shape::Circles | Shape::Straight => nalgebra::Vector3::zeros(),
         };
         let mut from = span.ends[0];
         pieces.iter().any(|piece| {

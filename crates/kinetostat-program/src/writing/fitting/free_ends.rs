@@ -189,6 +189,7 @@ impl Search<'_> {
             share_to,
             target,
             arc: Some(tube.arc),
+            circle: None,
         }
     }
 

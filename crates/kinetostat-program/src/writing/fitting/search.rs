@@ -88,6 +88,7 @@ impl Fit<'_> {
                     share_to: next,
                     target: self.point(span, next),
                     arc: None,
+                    circle: None,
                 },
                 |(_, piece)| piece,
             );
@@ -98,6 +99,7 @@ impl Fit<'_> {
                     share_to: to,
                     target: span.ends[1],
                     arc: None,
+                    circle: None,
                 };
             }
             pieces.push(piece);

@@ -9,7 +9,8 @@ use crate::path::curve::{Arc, Curve};
 use crate::writing::corrected_curve::CorrectedCurve;
 use crate::writing::fitting::circle::Circle;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::FittedArc;
+use crate::writing::output_state::{FittedArc, FittedCircle};
+use crate::writing::written_arc::slipped;
 
 /// How the arcs of a block are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +26,8 @@ pub(crate) enum ArcForm {
 pub(crate) enum Shape<'a> {
     /// Arcs about the axis of this one, which is that of the path.
     Arcs(&'a Arc, ArcForm),
+    /// Circles through three places, which may lean.
+    Circles,
     Straight,
 }
 
@@ -35,12 +38,13 @@ pub(crate) struct Span {
     pub ends: [Vector3<f64>; 2],
 }
 
-/// A piece that fits; straight without an arc.
+/// A piece that fits; straight without an arc and a circle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FittedPiece {
     pub share_to: f64,
     pub target: Vector3<f64>,
     pub arc: Option<FittedArc>,
+    pub circle: Option<FittedCircle>,
 }
 
 impl FittedPiece {
@@ -50,15 +54,17 @@ impl FittedPiece {
             share_to: span.share[0],
             target: span.ends[0],
             arc: None,
+            circle: None,
         }
     }
 
     /// Its length from where it begins, in mm, about an axis of this direction.
     pub fn length_mm(&self, from: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
         let way = self.target - from;
-        match &self.arc {
-            Some(arc) => (arc.radius_mm * arc.sweep_rad).hypot(way.dot(axis)),
-            None => way.norm(),
+        match (&self.arc, &self.circle) {
+            (_, Some(circle)) => circle.length_mm,
+            (Some(arc), _) => (arc.radius_mm * arc.sweep_rad).hypot(way.dot(axis)),
+            (None, None) => way.norm(),
         }
     }
 }
@@ -86,6 +92,12 @@ const NOT_BY_RADIUS: [f64; 2] = [PI * 0.68, PI * 1.32];
 /// An arc is at least so many last digits long, and bent by at least so many.
 const SHORTEST_DIGITS: f64 = 20.0;
 const FLATTEST_DIGITS: f64 = 2.0;
+
+/// A circle through a place has ends so far apart, mm, goes no farther round, and is bent by so many last digits: robots refuse
+/// places of a circle that are near each other or nearly on a line, and none of more than 240 degrees is taken by all.
+const SHORTEST_CIRCLE_MM: f64 = 1.0;
+const LARGEST_CIRCLE: f64 = TAU * 239.0 / 360.0;
+const FLATTEST_CIRCLE_DIGITS: f64 = 100.0;
 
 /// Largest radius written, mm.
 const LARGEST_RADIUS_MM: f64 = 1e6;
@@ -192,7 +204,16 @@ impl Fit<'_> {
             share_to: span.share[1],
             target: span.ends[1],
             arc,
+            circle: None,
         };
+        if let (Shape::Circles, Curve::Arc(arc)) = (self.shape, &self.curve.motion.curve)
+            && let Some(circle) = self.circle(arc, span, places, allowed_mm)
+        {
+            return Some(FittedPiece {
+                circle: Some(circle),
+                ..piece(None)
+            });
+        }
         if let Shape::Arcs(arc, form) = self.shape
             && let Some(tube) = self.arcs((arc, form), span, places, allowed_mm)
             && (tube.heights[0]..=tube.heights[1]).contains(&span.ends[1].dot(&arc.axis))
@@ -245,11 +266,12 @@ impl Fit<'_> {
             centre_mm: circle.centre,
             radius_mm: circle.radius,
             sweep_rad: turned,
-            slip: slip(&circle, turned, (places, &points)),
+            slip: slip(places, |index, part| {
+                circle.turned(points[index], turned * part) / turned
+            }),
             largest_correction_mm: self.largest_correction_mm(span, places),
         };
-        // The tool never turns back: beyond this the derivative could change its sign.
-        if fitted.slip[0].abs() + fitted.slip[1].abs() > 0.4 {
+        if !is_steady(&fitted.slip) {
             return None;
         }
         let start = span.ends[0].dot(&arc.axis);
@@ -257,6 +279,45 @@ impl Fit<'_> {
         Some(Tube {
             arc: fitted,
             heights,
+        })
+    }
+
+    /// The circle through the ends and a place about in the middle between them.
+    fn circle(
+        &self,
+        arc: &Arc,
+        span: &Span,
+        places: &[Place],
+        within_mm: f64,
+    ) -> Option<FittedCircle> {
+        let [from, to] = span.share;
+        let sweep = (arc.sweep * (to - from)).abs();
+        let [start, end] = &span.ends;
+        if (end - start).norm() < SHORTEST_CIRCLE_MM || sweep > LARGEST_CIRCLE {
+            return None;
+        }
+        let via_mm = self.curve.point(from + 0.5 * (to - from));
+        let curve = Arc::through(start, &via_mm, end)?;
+        let digit_mm = self.options.last_digit_mm(1.0);
+        let flat = curve.start_radius * (1.0 - (0.5 * curve.sweep).cos());
+        if (curve.sweep - sweep).abs() > 0.5
+            || curve.sweep > LARGEST_CIRCLE
+            || curve.start_radius > LARGEST_RADIUS_MM
+            || flat < FLATTEST_CIRCLE_DIGITS * digit_mm
+        {
+            return None;
+        }
+        let slip = slip(places, |index, part| {
+            curve.angle_to(&places[index].1, curve.sweep * part) / curve.sweep
+        });
+        let near = places
+            .iter()
+            .all(|(part, place)| (curve.point(slipped(&slip, *part)) - place).norm() <= within_mm);
+        (near && is_steady(&slip)).then(|| FittedCircle {
+            via_mm,
+            slip,
+            length_mm: curve.start_radius * curve.sweep,
+            largest_correction_mm: self.largest_correction_mm(span, places),
         })
     }
 
@@ -277,10 +338,10 @@ fn even(count: usize) -> impl Iterator<Item = f64> {
 
 /// How far equal ways of the path and of the arc are apart: two polynomials that have nothing in common over even places, and
 /// little over others.
-fn slip(circle: &Circle, turned: f64, (places, points): (&[Place], &[[f64; 2]])) -> [f64; 2] {
+fn slip(places: &[Place], turned: impl Fn(usize, f64) -> f64) -> [f64; 2] {
     let mut sums = [[0.0; 2]; 2];
-    for ((part, _), point) in places.iter().zip(points) {
-        let is = circle.turned(*point, turned * part) / turned;
+    for (index, (part, _)) in places.iter().enumerate() {
+        let is = turned(index, *part);
         let first = part * (1.0 - part);
         let second = first * (1.0 - 2.0 * part);
         for (sum, shape) in sums.iter_mut().zip([first, second]) {
@@ -289,6 +350,11 @@ fn slip(circle: &Circle, turned: f64, (places, points): (&[Place], &[[f64; 2]]))
         }
     }
     sums.map(|[product, square]| product / square)
+}
+
+/// The tool never turns back: beyond this the derivative could change its sign.
+fn is_steady(slip: &[f64; 2]) -> bool {
+    slip[0].abs() + slip[1].abs() <= 0.4
 }
 
 /// Lowest and highest end of an arc that begins at a height and is within a distance of all places; none if there is none.
@@ -301,8 +367,7 @@ fn heights(
 ) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for ((part, place), point) in places.iter().zip(points) {
-        let shape = part * (1.0 - part);
-        let turned = part + shape * (fitted.slip[0] + fitted.slip[1] * (1.0 - 2.0 * part));
+        let turned = slipped(&fitted.slip, *part);
         let (sine, cosine) = (circle.start_angle + fitted.sweep_rad * turned).sin_cos();
         let off = [
             circle.centre[0] + circle.radius * cosine - point[0],
