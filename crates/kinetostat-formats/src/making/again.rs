@@ -1,6 +1,6 @@
 //! What was made, read again by the reader of its language.
 
-use kinetostat_program::{Curve, Program, ReadOptions as GcodeReading, interpret};
+use kinetostat_program::{Arc, Curve, Program, ReadOptions as GcodeReading, interpret};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::document::read;
