@@ -146,15 +146,18 @@ impl Correctable<'_> {
 
     /// The moves of which the pieces may be circles: those whose language says them by places that can be written.
     fn circles(&self) -> Vec<Circles> {
-        let with_places = matches!(
-            self.program.language,
-            Language::Rapid | Language::Krl | Language::FanucLs
-        );
         let of = |number: &usize| {
             let motion = &self.program.motions[*number];
             let site = motion.site.via.as_ref().map(|(_, site)| site);
-            let written = site.is_some_and(|site| !matches!(site, TargetSite::Fixed(_)));
-            match with_places && written && motion.site.indivisible.is_none() {
+            let written = match self.program.language {
+                Language::Rapid | Language::Krl | Language::FanucLs => {
+                    site.is_some_and(|site| !matches!(site, TargetSite::Fixed(_)))
+                }
+                // CIP in place of G2 and G3.
+                Language::Siemens => true,
+                _ => false,
+            };
+            match written && motion.site.indivisible.is_none() {
                 true => Circles::ThroughPlace,
                 false => Circles::Straight,
             }

@@ -20,7 +20,7 @@ pub struct Piece {
     /// How the tool stands there, in the same axes; none for that of the motion's end.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Where a piece of a circular motion that is a circle itself passes between its start and its end, mm; without it the piece
-    /// is straight. Of several pieces only RAPID, KRL and FANUC TP programs have circles.
+    /// is straight. Of several pieces RAPID, KRL, FANUC TP and SINUMERIK programs have circles.
     pub via_mm: Option<Vector3<f64>>,
     /// How the tool stands there; none for what the motion states there.
     pub via_orientation: Option<UnitQuaternion<f64>>,

@@ -2,8 +2,8 @@
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Arcs, Corrected, Correction, CorrectionField, FieldFailure, MachineProgram, Request, Unwatched,
-    WriteOptions as PathWriteOptions, verify_against_field,
+    Arcs, Corrected, Correction, CorrectionField, FieldFailure, MachineProgram, Path, Request,
+    Unwatched, WriteOptions as PathWriteOptions, verify_against_field,
 };
 use kinetostat_testing::Worst;
 use nalgebra::{Isometry3, Vector3};
@@ -27,7 +27,7 @@ fn shift(place: &Vector3<f64>) -> Vector3<f64> {
 impl CorrectionField for Leaning {
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         let at = |request: &Request| {
-            let turn = match self.turns {
+            let turn = match self.turns && request.orientation.is_some() {
                 true => request.position_mm.cross(&Vector3::z()) * 4e-5,
                 false => Vector3::zeros(),
             };
@@ -80,12 +80,14 @@ fn tp() -> String {
     text + "/END\n"
 }
 
-/// What is written, and how far its motions, read again, are from where the field wants them, mm.
-fn corrected(
+const SIEMENS: &str = "G90 G17 G71 G94\nG0 X25 Y0 Z-2\nN10 G3 X-25 Y0 I-25 J0 F600 ; one half\nN20 X25 Y0 I25 J0 M9\nG0 Z10\nM30\n";
+
+/// What is written, checked against the field, and its path read again.
+fn corrected_anywhere(
     (language, text): (Language, &str),
     field: &Leaning,
     writing: &PathWriteOptions,
-) -> (String, Corrected, f64) {
+) -> (String, Corrected, Path) {
     let mut options = ReadOptions::default();
     for frame in ["UF:2", "UT:1"] {
         options.frames.insert(frame.into(), Isometry3::identity());
@@ -111,11 +113,21 @@ fn corrected(
     )
     .unwrap();
     let again = path_of(&again, &making).unwrap().path;
+    (output, written, again)
+}
+
+/// The same of a program around the circle, and how far its motions are from where the field wants them, mm.
+fn corrected(
+    program: (Language, &str),
+    field: &Leaning,
+    writing: &PathWriteOptions,
+) -> (String, Corrected, f64) {
+    let (output, written, again) = corrected_anywhere(program, field, writing);
     // The place of the corrected circle that is nearest to a place of the written one.
     let mut worst = Worst::new();
     let mut count = 0;
-    for (made, piece) in again.moves.iter().zip(&written.pieces).skip(1) {
-        if piece.corner_step {
+    for (made, piece) in again.moves.iter().zip(&written.pieces) {
+        if piece.circle.is_none() {
             continue;
         }
         for k in 0..=50 {
@@ -142,6 +154,7 @@ fn a_groove_has_at_most_five_circles_for_each_of_two_in_every_language() {
         (Language::Rapid, rapid(), "MoveC"),
         (Language::Krl, krl(), "CIRC"),
         (Language::FanucLs, tp(), ":C P["),
+        (Language::Siemens, SIEMENS.to_owned(), "CIP"),
     ] {
         for turns in [false, true] {
             let field = Leaning { turns };
@@ -154,8 +167,15 @@ fn a_groove_has_at_most_five_circles_for_each_of_two_in_every_language() {
                 "{language:?}, turned {turns}: {count} circles, {:.3} um off",
                 1e3 * off
             );
-            assert_eq!(output.matches(word).count(), count, "{output}");
-            assert_eq!(written.pieces.len(), 1 + count, "{output}");
+            // The code of SINUMERIK stays in force on the next block of the program.
+            let stated = if language == Language::Siemens {
+                count - 1
+            } else {
+                count
+            };
+            assert_eq!(output.matches(word).count(), stated, "{output}");
+            let others = if language == Language::Siemens { 2 } else { 1 };
+            assert_eq!(written.pieces.len(), others + count, "{output}");
             // Turns that vary need more pieces than places that do.
             assert!(count <= if turns { 30 } else { 10 }, "{count}");
             assert!(off < 0.0011, "{off}");
@@ -166,7 +186,7 @@ fn a_groove_has_at_most_five_circles_for_each_of_two_in_every_language() {
             assert!((seconds[1] / seconds[0] - 1.0).abs() < 1e-3, "{seconds:?}");
 
             writing.arcs = Arcs::Lines;
-            let (output, written, _) = corrected((language, &text), &field, &writing);
+            let (output, written, _) = corrected_anywhere((language, &text), &field, &writing);
             assert!(!output.contains(word) && written.pieces.len() > 200);
         }
     }
@@ -190,10 +210,7 @@ fn what_a_circle_says_beside_its_places_stays() {
         "{output}"
     );
     assert!(
-        circles
-            .last()
-            .unwrap()
-            .ends_with(", fine, tool0; ! closed"),
+        circles.last().unwrap().ends_with(", fine, tool0; ! closed"),
         "{output}"
     );
     assert_eq!(output.matches("CONST robtarget").count(), 1);
@@ -207,6 +224,64 @@ fn what_a_circle_says_beside_its_places_stays() {
     assert_eq!(
         output.matches("CONFIG").count(),
         1 + 2 * (count - 1),
+        "{output}"
+    );
+}
+
+#[test]
+fn sinumerik_programs_go_through_places_and_their_codes_and_feeds_are_taken_back() {
+    let mut writing = PathWriteOptions::default();
+    writing.header = None;
+    writing.tolerance_mm = 0.02;
+    let field = Leaning { turns: false };
+    let (output, written, _) = corrected((Language::Siemens, SIEMENS), &field, &writing);
+    let blocks: Vec<&str> = output.lines().collect();
+    let first = blocks
+        .iter()
+        .position(|block| block.starts_with("N10 CIP X"))
+        .unwrap();
+    assert!(
+        blocks[first].contains(" I1=AC(") && blocks[first].ends_with(" ; one half"),
+        "{output}"
+    );
+    assert!(
+        !output.contains("I-25") && !output.contains("J0"),
+        "{output}"
+    );
+    assert!(
+        blocks[first + 1].starts_with("CIP X") && blocks[first + 1].contains(" K1=-2."),
+        "{output}"
+    );
+    assert!(
+        blocks.iter().any(|block| block.starts_with("G0 Z")),
+        "{output}"
+    );
+    assert_eq!(output.matches("M9").count(), 1);
+    assert!(written.pieces.len() <= 8);
+    // Steps, and a point that is there already.
+    let text = "G90 G94\nG0 X25 Y0 Z-2\nG91 CIP X-50 Y0 I1=-25 J1=25 F600\nG90 G1 Z5\nM30\n";
+    let (output, ..) = corrected((Language::Siemens, text), &field, &writing);
+    assert!(
+        output.contains("G91 CIP X=AC(") || output.contains("G91 CIP X-"),
+        "{output}"
+    );
+    assert!(
+        output
+            .lines()
+            .any(|block| block.starts_with("CIP X=AC(") && block.contains("J1=AC(")),
+        "{output}"
+    );
+    // In inches and in a turned frame.
+    let text =
+        "G90 G94 G70\nROT Z30\nG0 X1 Y0 Z-0.1\nG2 X-1 Y0 I-1 J0 F20\nG2 X1 Y0 CR=-1.5\nM30\n";
+    let (output, written, _) = corrected_anywhere((Language::Siemens, text), &field, &writing);
+    assert!(
+        written
+            .pieces
+            .iter()
+            .filter(|piece| piece.circle.is_some())
+            .count()
+            >= 2,
         "{output}"
     );
 }
