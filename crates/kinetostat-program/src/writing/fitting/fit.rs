@@ -12,6 +12,12 @@ const MOST_EQUAL: usize = 64;
 /// Numbers of equal stretches that are tried between the fewest that fit and the most that are long enough.
 const TRIALS: usize = 16;
 
+/// Chords by which the length of a curve is taken.
+const CHORDS: usize = 64;
+
+/// How much shorter than their mean equal pieces of the path may be where they are written: the correction varies along it.
+const SHORTEST_OF_MEAN: f64 = 0.998;
+
 /// How many times the pieces that are needed are looked for at most.
 const FINEST: f64 = 4.0;
 
@@ -49,14 +55,24 @@ impl Fit<'_> {
         span: &Span,
         (count, shortest_block_mm): (usize, f64),
     ) -> Option<Vec<FittedPiece>> {
-        let [from, to] = span.share;
-        let length_mm = self.curve.motion.length_between_mm(from, to);
-        let most = (length_mm / shortest_block_mm).min(FINEST * count as f64) as usize;
+        let most = (SHORTEST_OF_MEAN * self.length_mm(span) / shortest_block_mm)
+            .min(FINEST * count as f64) as usize;
         let fewest = count.min(most).max(1);
         (0..TRIALS)
             .map(|trial| fewest + (most.max(1) - fewest) * trial / (TRIALS - 1))
             .filter_map(|count| self.equal(span, count))
             .find(|pieces| !self.has_shorter(span, pieces, shortest_block_mm))
+    }
+
+    /// About the length of the corrected curve, mm.
+    fn length_mm(&self, span: &Span) -> f64 {
+        let [from, to] = span.share;
+        let mut last = span.ends[0];
+        let chords = (1..=CHORDS).map(|chord| {
+            let next = self.point(span, from + (to - from) * chord as f64 / CHORDS as f64);
+            (next - std::mem::replace(&mut last, next)).norm()
+        });
+        chords.sum()
     }
 
     /// Whether one of these pieces is shorter than a length.
