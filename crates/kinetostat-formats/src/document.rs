@@ -111,8 +111,9 @@ pub fn called_files(language: Language, file: &SourceFile) -> Vec<String> {
 ///
 /// What no piece is of comes back byte for byte. Numbers keep their decimals, or get those of the options where they change;
 /// quaternions keep the sign of the text. A declaration that several motions use is edited where they agree in the last
-/// digit, and copied under a free name where they do not. The pieces before the last are written as straight motions
-/// before the statement, with its speed, tool and work object; a circle of several pieces becomes straight.
+/// digit, and copied under a free name where they do not. The pieces before the last are written as straight motions, or as
+/// circles where they have a place in between and the language has circles through places, before the statement, with its speed,
+/// tool and work object; other pieces of circles become straight.
 ///
 /// ```
 /// use kinetostat_formats::{Piece, ReadOptions, SourceFile, WriteOptions, read_rapid, write};

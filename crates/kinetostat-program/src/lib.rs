@@ -88,8 +88,9 @@ pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint,
 pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::Accounting;
 pub use writing::jump::Turn;
-pub use writing::options::{Arcs, WriteOptions};
-pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenMove};
+pub use writing::options::{Arcs, Circles, WriteOptions};
+pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
 pub use writing::write::write_corrected;
 pub use writing::written::{Corrected, Piece};
 pub use writing::written_arc::WrittenArc;
+pub use writing::written_circle::WrittenCircle;

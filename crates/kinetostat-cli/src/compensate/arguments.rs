@@ -39,7 +39,7 @@ pub(crate) struct CompensateArgs {
     /// repeatability that the model states, 20 for an arm that states none, else 0.5]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
-    /// What becomes of the arcs of G-code where they are corrected: arcs again, or straight pieces [default: fit]
+    /// What becomes of arcs where they are corrected: arcs again, or straight pieces [default: fit]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Tolerances")]
     pub(crate) arcs: Option<ArcsWord>,
     /// Shortest block that the controller takes, mm: blocks are divided evenly for it, and lines with shorter ones are named

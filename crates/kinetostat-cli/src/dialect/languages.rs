@@ -38,21 +38,21 @@ pub(crate) const LANGUAGES: [Language; 8] = [
         name: "rapid",
         title: "ABB RAPID",
         endings: endings_of(Format::Rapid),
-        written: "Written: numbers of targets in place, declarations edited or copied under a free name of at most 32 characters, further motions as MoveL with the same speed, tool and work object. A divided motion stops at its end alone; circles that are corrected become straight motions.",
+        written: "Written: numbers of targets in place, declarations edited or copied under a free name of at most 32 characters, further motions as MoveL, and of circles as MoveC, with the same speed, tool and work object. A divided motion stops at its end alone.",
         words: Words::Statements(RAPID_STATEMENTS),
     },
     Language {
         name: "krl",
         title: "KUKA KRL",
         endings: endings_of(Format::Krl),
-        written: "Written: numbers in place, in the program or in its data list; points that several motions use copied under a free name of at most 24 characters, with the texts of their FOLDs; further motions as LIN with the same approximation. S, T and external axes stay as they are.",
+        written: "Written: numbers in place, in the program or in its data list; points that several motions use copied under a free name of at most 24 characters, with the texts of their FOLDs; further motions as LIN, and of circles as CIRC, with the same approximation. S, T and external axes stay as they are.",
         words: Words::Statements(KRL_STATEMENTS),
     },
     Language {
         name: "ls",
         title: "FANUC TP programs as text",
         endings: endings_of(Format::FanucLs),
-        written: "Written: numbers of positions in place and in their columns; further motions as L with positions of their own at the end of /POS, lines numbered again and LINE_COUNT raised, since a controller loads only lines that follow one another.",
+        written: "Written: numbers of positions in place and in their columns; further motions as L, and of circles as C, with positions of their own at the end of /POS, lines numbered again and LINE_COUNT raised, since a controller loads only lines that follow one another.",
         words: Words::Statements(LS_STATEMENTS),
     },
     Language {
@@ -73,7 +73,7 @@ pub(crate) const LANGUAGES: [Language; 8] = [
         name: "siemens",
         title: "Siemens SINUMERIK 840D",
         endings: endings_of(Format::Siemens),
-        written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
+        written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become circles through a place (CIP), which may lean, or G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
         words: Words::Statements(SIEMENS_STATEMENTS),
     },
     Language {

@@ -214,7 +214,7 @@ pub(crate) enum BlockDeleteWord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ArcsWord {
-    /// Arcs, as few as follow the corrected curve
+    /// Arcs, as few as follow the corrected curve, where the language has them
     Fit,
     /// Straight pieces
     Lines,

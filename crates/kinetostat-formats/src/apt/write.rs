@@ -16,7 +16,7 @@ use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// The files of a program with pieces in place of its motions.
 pub(crate) fn write_apt(
@@ -162,7 +162,7 @@ impl Syntax for AptSyntax {
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         _speed: Option<&[u8]>,
         _options: &WriteOptions,
     ) -> Option<Vec<u8>> {
@@ -173,7 +173,7 @@ impl Syntax for AptSyntax {
         if !file.part(&site.keyword).eq_ignore_ascii_case(b"GOTO") {
             edits.replace(site.keyword.clone(), "GOTO");
         }
-        edits.replace(site.target_span.clone(), literal);
+        edits.replace(site.target_span.clone(), literals.end.clone());
         let mut text = edits.applied_to_part(file.bytes(), &motion.span)?;
         let rapid = motion.speed.text.as_bytes();
         if rapid.len() >= 5 && rapid[..5].eq_ignore_ascii_case(b"RAPID") {

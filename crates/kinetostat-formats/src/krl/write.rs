@@ -11,7 +11,7 @@ use crate::model::program::RobotProgram;
 use crate::options::{ExactStops, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
-use crate::writing::syntax::{Renamed, Syntax};
+use crate::writing::syntax::{PieceLiterals, Renamed, Syntax};
 
 /// Most characters of a name.
 const LONGEST: usize = 24;
@@ -61,11 +61,15 @@ impl Syntax for KrlSyntax {
         None
     }
 
+    fn writes_circles(&self) -> bool {
+        true
+    }
+
     fn piece(
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>> {
@@ -76,16 +80,18 @@ impl Syntax for KrlSyntax {
         if let Some(speed) = speed {
             edits.replace(motion.span.start..motion.span.start, speed);
         }
-        replace_word(
-            file.part(&site.keyword),
-            row.straight?,
-            &site.keyword,
-            &mut edits,
-        );
-        if let Some((span, _)) = &site.via {
-            edits.replace(span.clone(), "");
+        let straight = row.straight?;
+        match (&literals.via, &site.via) {
+            (Some((span, via)), _) => edits.replace(span.clone(), via.clone()),
+            (None, via) => {
+                let written = file.part(&site.keyword);
+                replace_word(written, straight, &site.keyword, &mut edits);
+                if let Some((span, _)) = via {
+                    edits.replace(span.clone(), "");
+                }
+            }
         }
-        edits.replace(site.target_span.clone(), literal);
+        edits.replace(site.target_span.clone(), literals.end.clone());
         if (motion.zone, options.exact_stops) == (Zone::Exact, ExactStops::AtEnd) {
             let end = site.target_span.end;
             edits.replace(end..end, format!(" {}", row.pass));

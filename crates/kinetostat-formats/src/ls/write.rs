@@ -16,7 +16,7 @@ use crate::options::{ExactStops, WriteOptions};
 use crate::text::edits::Edits;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// The files of a program with pieces in place of its motions.
 pub(crate) fn write_ls(
@@ -132,11 +132,15 @@ impl Syntax for LsSyntax {
         end.unwrap_or(declaration.statement.start)
     }
 
+    fn writes_circles(&self) -> bool {
+        true
+    }
+
     fn piece(
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>> {
@@ -145,8 +149,11 @@ impl Syntax for LsSyntax {
             return None;
         };
         let mut edits = Edits::default();
-        self.straighten(program, motion, &mut edits);
-        edits.replace(name.clone(), literal);
+        match &literals.via {
+            Some((span, via)) => edits.replace(span.clone(), via.clone()),
+            None => self.straighten(program, motion, &mut edits),
+        }
+        edits.replace(name.clone(), literals.end.clone());
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }

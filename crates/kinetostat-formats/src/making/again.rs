@@ -1,6 +1,6 @@
 //! What was made, read again by the reader of its language.
 
-use kinetostat_program::{Curve, Program, ReadOptions as GcodeReading, interpret};
+use kinetostat_program::{Arc, Curve, Program, ReadOptions as GcodeReading, interpret};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::document::read;
@@ -10,7 +10,6 @@ use crate::model::motion::{MotionKind, Runs};
 use crate::model::program::Language;
 use crate::model::target::Target;
 use crate::options::ReadOptions;
-use crate::path::circle::through;
 use crate::text::source::SourceFile;
 
 /// A motion as it was read again.
@@ -80,7 +79,7 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
         let curve = match (&motion.kind, before) {
             (MotionKind::Circular { via }, Some(before)) => {
                 let via = via.pose().map_or(before, |via| via.position_mm);
-                through(&before, &via, &pose.position_mm).map_or(Curve::Line, Curve::Arc)
+                Arc::through(&before, &via, &pose.position_mm).map_or(Curve::Line, Curve::Arc)
             }
             _ => Curve::Line,
         };

@@ -3,7 +3,6 @@
 use kinetostat_program::{Arc, Curve, Move};
 
 use crate::making::limits::{Arcs, Limits};
-use crate::path::circle::through;
 
 /// What a piece of a move becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,7 +111,7 @@ fn why_followed(
                 return Some(Followed::Small);
             }
             // A piece of a spiral and the circle through three of its places.
-            let apart = through(&places[0], &places[1], &places[2]).map(|circle| {
+            let apart = Arc::through(&places[0], &places[1], &places[2]).map(|circle| {
                 let off = |share: f64| (circle.point(share) - motion.point(share / halves)).norm();
                 larger(off(0.25), off(0.75))
             });

@@ -1,15 +1,17 @@
 //! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
 
 use kinetostat_program::{
-    Corrected, CorrectionField, Curve, MachineProgram, Monitor, Path, Plan, PlannedMove,
-    Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenMove,
+    Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Path, Plan, PlannedMove,
+    Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenEnd,
+    WrittenMove,
 };
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, UnitQuaternion};
 
 use crate::document::{read, write};
 use crate::error::WriteError;
 use crate::model::motion::MotionKind;
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
+use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;
 use crate::path::header::{mark_line, with_header};
@@ -102,6 +104,12 @@ impl Correctable<'_> {
         }
         let to_own = self.work_object_from_path(number);
         let own = &self.program.motions[number];
+        // Between two ends the tool stands as halfway between them.
+        let mut last = motion.orientation(0.0);
+        let mut halfway = |to: Option<UnitQuaternion<f64>>| {
+            let from = std::mem::replace(&mut last, to);
+            from.zip(to).map(|(from, to)| from.slerp(&to, 0.5))
+        };
         // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
         let same_speed =
             |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
@@ -112,7 +120,10 @@ impl Correctable<'_> {
                 motion: number,
                 position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
                 orientation: piece.orientation.map(|o| to_own.rotation * o),
-                via_mm: None,
+                via_mm: piece
+                    .via_mm
+                    .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
+                via_orientation: halfway(piece.orientation).map(|o| to_own.rotation * o),
                 speed_factor: match same_speed(piece.speed_factor) {
                     true => 1.0,
                     false => piece.speed_factor,
@@ -120,7 +131,9 @@ impl Correctable<'_> {
             })
             .collect();
         // A circle so short that one piece follows it, or of which only the end is known, stays one.
-        if let (MotionKind::Circular { via }, [piece]) = (&own.kind, pieces.as_mut_slice()) {
+        if let (MotionKind::Circular { via }, [piece]) = (&own.kind, pieces.as_mut_slice())
+            && piece.via_mm.is_none()
+        {
             let end = own
                 .target
                 .pose()
@@ -129,6 +142,27 @@ impl Correctable<'_> {
             piece.via_mm = via.pose().map(|via| via.position_mm + shift);
         }
         pieces
+    }
+
+    /// The moves of which the pieces may be circles: those whose language says them by places that can be written.
+    fn circles(&self) -> Vec<Circles> {
+        let of = |number: &usize| {
+            let motion = &self.program.motions[*number];
+            let site = motion.site.via.as_ref().map(|(_, site)| site);
+            let written = match self.program.language {
+                Language::Rapid | Language::Krl | Language::FanucLs => {
+                    site.is_some_and(|site| !matches!(site, TargetSite::Fixed(_)))
+                }
+                // CIP in place of G2 and G3.
+                Language::Siemens => true,
+                _ => false,
+            };
+            match written && motion.site.indivisible.is_none() {
+                true => Circles::ThroughPlace,
+                false => Circles::Straight,
+            }
+        };
+        self.path.motions.iter().map(of).collect()
     }
 
     /// What was written, read again: the ends of all pieces.
@@ -144,7 +178,16 @@ impl Correctable<'_> {
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
             let count = planned.pieces.len();
             let ends: Vec<_> = (moves.by_ref().take(count))
-                .map(|m| (m.end, m.orientation(1.0), m.line))
+                .zip(&planned.pieces)
+                .map(|(m, piece)| WrittenEnd {
+                    position_mm: m.end,
+                    orientation: m.orientation(1.0),
+                    line: m.line,
+                    circle: match (&m.curve, piece.via_mm) {
+                        (Curve::Arc(arc), Some(_)) => Some(*arc),
+                        _ => None,
+                    },
+                })
                 .collect();
             if ends.len() != count {
                 return Err(broken(
@@ -244,7 +287,8 @@ impl MachineProgram for Correctable<'_> {
         {
             return Err(PathWriteError::AlreadyCompensated { line });
         }
-        let plan = Plan::new(&self.path.path, field, options, monitor)?;
+        let circles = self.circles();
+        let plan = Plan::with_circles(&self.path.path, field, (options, &circles), monitor)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
         let planned = plan.moves().iter().enumerate();
         let pieces: Vec<Vec<Piece>> = planned

@@ -1,7 +1,7 @@
 //! From the motions of a program to a path.
 
 use kinetostat_program::{
-    CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
+    Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
@@ -11,7 +11,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
-use crate::path::circle::{about, through};
+use crate::path::circle::about;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
 use crate::path::tools::{changes, same_frame, tools_of};
@@ -301,9 +301,8 @@ impl Maker<'_> {
         let curve = match &motion.kind {
             MotionKind::Circular { via } if known == Knowledge::Whole => {
                 match self.pose(motion, via) {
-                    Some(via) => {
-                        through(&a, &via.translation.vector, &b).map_or(Curve::Line, Curve::Arc)
-                    }
+                    Some(via) => Arc::through(&a, &via.translation.vector, &b)
+                        .map_or(Curve::Line, Curve::Arc),
                     None => {
                         known = Knowledge::End;
                         Curve::Line

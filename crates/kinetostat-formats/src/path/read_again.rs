@@ -91,6 +91,14 @@ fn one(
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }
+    if let Some(circle) = &piece.circle {
+        let off =
+            [0.25, 0.5, 0.75].map(|part| (made.point(part) - circle.curve.point(part)).norm());
+        // Not a number is off, too.
+        if !off.iter().all(|off| *off <= 1e-6) {
+            return fail("it goes round otherwise than was to be written".to_owned());
+        }
+    }
     if motion.known != Knowledge::Whole || !motion.is_known_feed() {
         return Ok(());
     }
@@ -105,7 +113,7 @@ fn one(
         let share = piece.share_from + part * (piece.share_to - piece.share_from);
         let commanded = match piece.kept_arc {
             true => made.point(part),
-            false => piece.commanded_from.lerp(&piece.commanded_to, part),
+            false => piece.commanded(motion, part),
         };
         let distance = (commanded - motion.point(share)).norm();
         if distance.is_nan() || distance > allowed {
@@ -132,7 +140,7 @@ fn speed(
     let part_mm = motion.length_between_mm(piece.share_from, piece.share_to);
     let written_mm = match piece.kept_arc {
         true => made.length_mm(),
-        false => (piece.commanded_to - piece.commanded_from).norm(),
+        false => piece.length_mm(motion),
     };
     let (wanted, is) = (motion.feed?.value, made.feed.map(|feed| feed.value));
     let Some(is) = is else {

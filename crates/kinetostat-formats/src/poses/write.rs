@@ -14,7 +14,7 @@ use crate::text::edits::Edits;
 use crate::text::number::NumberText;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// The files of a program with pieces in place of its motions.
 pub(crate) fn write_poses(
@@ -82,10 +82,11 @@ impl Syntax for PosesSyntax {
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         speed: Option<&[u8]>,
         _options: &WriteOptions,
     ) -> Option<Vec<u8>> {
+        let literal = literals.end.as_slice();
         let (Some(speed), Some(site)) = (speed, &motion.site.speed) else {
             return Some(literal.to_vec());
         };

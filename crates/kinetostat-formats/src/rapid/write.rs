@@ -10,7 +10,7 @@ use crate::rapid::lex::{Kind, tokens_of};
 use crate::rapid::table::{MotionRow, motion_row};
 use crate::text::edits::Edits;
 use crate::text::name::{LONGEST, Name};
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// RAPID.
 pub(crate) struct RapidSyntax;
@@ -53,11 +53,15 @@ impl Syntax for RapidSyntax {
         None
     }
 
+    fn writes_circles(&self) -> bool {
+        true
+    }
+
     fn piece(
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>> {
@@ -65,11 +69,20 @@ impl Syntax for RapidSyntax {
         let (word, _) = row_of(program, motion)?.straight?;
         let site = &motion.site;
         let mut edits = Edits::default();
-        replace_word(file.part(&site.keyword), word, &site.keyword, &mut edits);
-        if let Some((span, _)) = &site.via {
-            leave_out(span, &site.keyword, &mut edits);
+        let written = file.part(&site.keyword);
+        match (&literals.via, &site.via) {
+            (Some((span, via)), _) => {
+                replace_word(written, &circular(word), &site.keyword, &mut edits);
+                edits.replace(span.clone(), via.clone());
+            }
+            (None, via) => {
+                replace_word(written, word, &site.keyword, &mut edits);
+                if let Some((span, _)) = via {
+                    leave_out(span, &site.keyword, &mut edits);
+                }
+            }
         }
-        edits.replace(site.target_span.clone(), literal);
+        edits.replace(site.target_span.clone(), literals.end.clone());
         if let (Some(site), Some(speed)) = (&site.speed, speed) {
             edits.replace(site.span.clone(), speed);
         }
@@ -89,6 +102,14 @@ impl Syntax for RapidSyntax {
             replace_word(written, word, &site.keyword, edits);
             leave_out(span, &site.keyword, edits);
         }
+    }
+}
+
+/// The word of a circle for that of a straight motion: `MoveC` for `MoveL`, `ArcC1` for `ArcL1`.
+fn circular(straight: &str) -> String {
+    match straight.rfind('L') {
+        Some(at) => format!("{}C{}", &straight[..at], &straight[at + 1..]),
+        None => straight.to_owned(),
     }
 }
 

@@ -13,7 +13,7 @@ use crate::text::source::SourceFile;
 pub(crate) const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 
 /// Names of the point on a CIP.
-const VIA: [&str; 3] = ["I1", "J1", "K1"];
+pub(crate) const VIA: [&str; 3] = ["I1", "J1", "K1"];
 
 /// Least decimals of places in a unit of so many mm: inches as fine as mm.
 pub(crate) fn digits_of(options: &WriteOptions, unit_mm: f64) -> usize {

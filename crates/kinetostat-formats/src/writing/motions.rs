@@ -1,6 +1,7 @@
 //! From pieces of motions to edits of files.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use nalgebra::UnitQuaternion;
 
@@ -17,7 +18,7 @@ use crate::writing::declared::{Demands, Names};
 use crate::writing::joints::{put_joints, row_of_joints};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
-use crate::writing::syntax::Syntax;
+use crate::writing::syntax::{PieceLiterals, Syntax};
 
 /// The files of a program with the pieces in place of its motions.
 pub(crate) fn write_with(
@@ -164,12 +165,13 @@ impl Writer<'_> {
             motion.kind,
             MotionKind::Circular { .. } | MotionKind::Arc { .. }
         );
-        let becomes_straight = is_circle && (!before.is_empty() || last.via_mm.is_none());
+        let divided = !before.is_empty() && !self.syntax.writes_circles();
+        let becomes_straight = is_circle && (divided || last.via_mm.is_none());
         if let (true, false, Some(via)) = (is_circle, becomes_straight, last.via_mm) {
             let (_, site) = motion.site.via.as_ref().ok_or(NO_END)?;
             let wanted = Wanted {
                 position_mm: via,
-                orientation: None,
+                orientation: last.via_orientation.filter(|_| !before.is_empty()),
             };
             self.end(motion, site, Some(wanted))?;
         }
@@ -214,45 +216,79 @@ impl Writer<'_> {
             let edits = &mut self.edits[motion.file];
             self.syntax.straighten(self.program, motion, edits);
         }
-        let file = &self.program.files[motion.file];
         let mut inserted = Vec::new();
         for piece in before {
-            let wanted = Wanted {
-                position_mm: piece.position_mm,
-                orientation: Some(piece.orientation.unwrap_or(end.orientation)),
-            };
-            let literal = match &motion.site.target {
-                TargetSite::Joints(text) => {
-                    row_of_joints(file, text, (&wanted, end.orientation)).ok_or(NO_JOINTS)?
-                }
-                site => {
-                    let text = text_of(self.program, site).ok_or(NO_END)?;
-                    let home = &self.program.files[text.file];
-                    literal_of(home, text, &wanted, self.options).ok_or(NO_END)?
-                }
-            };
-            let literal = match (self.syntax.declares_pieces(), &motion.site.target) {
-                (true, TargetSite::Declared { declaration, .. }) => {
-                    let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
-                    let (program, syntax) = (self.program, self.syntax);
-                    (self.names)
-                        .declare(program, syntax, declared, &literal, &mut 2, &mut self.edits)
-                        .ok_or(NO_NAME)?
-                }
-                _ => literal,
-            };
             let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
-            let (program, options) = (self.program, self.options);
-            let statement = self
-                .syntax
-                .piece(program, motion, &literal, speed.as_deref(), options);
-            inserted.extend(statement.ok_or(NO_END)?);
-            inserted.extend_from_slice(file.line_ending());
-            inserted.extend_from_slice(file.indentation(motion.span.start));
+            inserted.extend(self.inserted(motion, piece, speed.as_deref())?);
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
         self.state_speed(motion, own_speed);
         Ok(())
+    }
+
+    /// The statement of a piece before the end of a motion, with what parts it from that motion.
+    fn inserted(
+        &mut self,
+        motion: &Motion,
+        piece: &Piece,
+        speed: Option<&[u8]>,
+    ) -> Result<Vec<u8>, Reason> {
+        let end = motion.target.pose().ok_or(NO_END)?;
+        let wanted = Wanted {
+            position_mm: piece.position_mm,
+            orientation: Some(piece.orientation.unwrap_or(end.orientation)),
+        };
+        let mut literals = PieceLiterals {
+            end: self.literal(motion, &motion.site.target, &wanted)?,
+            via: None,
+        };
+        let circle = (&motion.kind, &motion.site.via, piece.via_mm);
+        if let (MotionKind::Circular { via }, Some((_, site)), Some(via_mm)) = circle
+            && self.syntax.writes_circles()
+        {
+            let written = via.pose().map(|via| via.orientation);
+            let wanted = Wanted {
+                position_mm: via_mm,
+                orientation: piece.via_orientation.or(written),
+            };
+            literals.via = Some((span_of(site), self.literal(motion, site, &wanted)?));
+        }
+        let (program, options) = (self.program, self.options);
+        let statement = self
+            .syntax
+            .piece(program, motion, &literals, speed, options);
+        let mut statement = statement.ok_or(NO_END)?;
+        let file = &program.files[motion.file];
+        statement.extend_from_slice(file.line_ending());
+        statement.extend_from_slice(file.indentation(motion.span.start));
+        Ok(statement)
+    }
+
+    /// A pose like that of a target: a literal, or the name of a further declaration.
+    fn literal(
+        &mut self,
+        motion: &Motion,
+        site: &TargetSite,
+        wanted: &Wanted,
+    ) -> Result<Vec<u8>, Reason> {
+        if let TargetSite::Joints(text) = site {
+            let end = motion.target.pose().ok_or(NO_END)?;
+            let file = &self.program.files[motion.file];
+            return row_of_joints(file, text, (wanted, end.orientation)).ok_or(NO_JOINTS);
+        }
+        let text = text_of(self.program, site).ok_or(NO_END)?;
+        let home = &self.program.files[text.file];
+        let literal = literal_of(home, text, wanted, self.options).ok_or(NO_END)?;
+        match (self.syntax.declares_pieces(), site) {
+            (true, TargetSite::Declared { declaration, .. }) => {
+                let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
+                let (program, syntax) = (self.program, self.syntax);
+                (self.names)
+                    .declare(program, syntax, declared, &literal, &mut 2, &mut self.edits)
+                    .ok_or(NO_NAME)
+            }
+            _ => Ok(literal),
+        }
     }
 
     fn state_speed(&mut self, motion: &Motion, speed: Option<(&SpeedSite, Vec<u8>)>) {
@@ -335,6 +371,16 @@ fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s Po
     }
 }
 
+/// Where a target stands that has a literal.
+fn span_of(site: &TargetSite) -> Range<usize> {
+    match site {
+        TargetSite::Literal(text) => text.whole.clone(),
+        TargetSite::Declared { name, .. } => name.clone(),
+        TargetSite::Offset { call, .. } => call.clone(),
+        TargetSite::Fixed(_) => 0..0,
+    }
+}
+
 /// Whether pieces are numbers.
 pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
     let finite = |piece: &&Piece| {
@@ -345,7 +391,9 @@ pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
             && piece.speed_factor > 0.0
             && piece
                 .orientation
-                .is_none_or(|q| q.coords.iter().all(|part| part.is_finite()))
+                .iter()
+                .chain(&piece.via_orientation)
+                .all(|q| q.coords.iter().all(|part| part.is_finite()))
     };
     match pieces.iter().all(finite) {
         true => Ok(()),

@@ -19,8 +19,11 @@ pub struct Piece {
     pub position_mm: Vector3<f64>,
     /// How the tool stands there, in the same axes; none for that of the motion's end.
     pub orientation: Option<UnitQuaternion<f64>>,
-    /// Where a circle of one piece that stays a circle passes between its start and its end, mm; without it the piece is straight.
+    /// Where a piece of a circular motion that is a circle itself passes between its start and its end, mm; without it the piece
+    /// is straight. Of several pieces RAPID, KRL, FANUC TP and SINUMERIK programs have circles.
     pub via_mm: Option<Vector3<f64>>,
+    /// How the tool stands there; none for what the motion states there.
+    pub via_orientation: Option<UnitQuaternion<f64>>,
     /// By what the written speed is multiplied.
     pub speed_factor: f64,
 }
@@ -34,6 +37,7 @@ impl Piece {
             position_mm,
             orientation: None,
             via_mm: None,
+            via_orientation: None,
             speed_factor: 1.0,
         }
     }

@@ -9,6 +9,14 @@ use crate::model::site::Declaration;
 use crate::options::WriteOptions;
 use crate::text::edits::Edits;
 
+/// The poses of a piece as they are written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PieceLiterals {
+    pub end: Vec<u8>,
+    /// Where the place on the circle of the motion stands, and what is written there; none for a straight piece.
+    pub via: Option<(Range<usize>, Vec<u8>)>,
+}
+
 /// What the writer asks of a language.
 pub(crate) trait Syntax {
     /// All names of the program, as the language compares them.
@@ -36,13 +44,19 @@ pub(crate) trait Syntax {
     /// Changes in a motion statement whose end gets another pose, besides its numbers.
     fn moved(&self, _program: &RobotProgram, _motion: &Motion, _edits: &mut Edits) {}
 
-    /// A statement that goes straight to a pose (its literal) before the end of a motion, as that motion is written
-    /// otherwise; without line ending. Where pieces are declared, `literal` is the declared name.
+    /// Whether the pieces of a circular motion may be circles, too.
+    fn writes_circles(&self) -> bool {
+        false
+    }
+
+    /// A statement that goes to a pose (its literal) before the end of a motion, as that motion is written otherwise: straight, or
+    /// on a circle through a place in place of that of the motion; without line ending. Where pieces are declared, the literals
+    /// are the declared names.
     fn piece(
         &self,
         program: &RobotProgram,
         motion: &Motion,
-        literal: &[u8],
+        literals: &PieceLiterals,
         speed: Option<&[u8]>,
         options: &WriteOptions,
     ) -> Option<Vec<u8>>;

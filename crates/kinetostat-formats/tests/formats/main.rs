@@ -10,6 +10,7 @@
 
 mod apt;
 mod chance;
+mod circles;
 mod fields;
 mod harness;
 mod heidenhain;

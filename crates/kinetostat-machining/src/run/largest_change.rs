@@ -73,10 +73,10 @@ fn at(
     let motion = &path.moves[piece.move_index];
     let part = ((at_mm - from) / (to - from)).clamp(0.0, 1.0);
     let share = piece.share_from + part * (piece.share_to - piece.share_from);
-    let correction = match (piece.kept_arc, piece.arc) {
+    let correction = match (piece.kept_arc, piece.is_fitted()) {
         (true, _) => Vector3::zeros(),
-        (false, Some(_)) => piece.commanded(motion, part) - motion.point(share),
-        (false, None) => {
+        (false, true) => piece.commanded(motion, part) - motion.point(share),
+        (false, false) => {
             let first = piece.commanded_from - motion.point(piece.share_from);
             let last = piece.commanded_to - motion.point(piece.share_to);
             first.lerp(&last, part)

@@ -261,9 +261,9 @@ pub(crate) fn of_written<'a>(
         if motion.is_known_feed() && !turns {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
-            let count = match (&motion.curve, piece.arc) {
+            let count = match (&motion.curve, piece.is_fitted()) {
                 // In each chord that would have been written, were it straight, an arc is looked at.
-                (Curve::Arc(arc), Some(_)) => {
+                (Curve::Arc(arc), true) => {
                     count.max((arc.chords_within(ARC_MM) as f64 * width).ceil() as usize)
                 }
                 _ => count,

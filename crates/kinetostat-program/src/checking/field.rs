@@ -20,6 +20,10 @@ const SEED: u64 = 3;
 /// Irregular places on every stretch between two breaks of the field.
 const PLACES: u64 = 2;
 
+/// Further places in a piece that is an arc: its ends may leave the curve, and between them it is farthest near the middle. Not at
+/// an end itself, where the correction may jump.
+const ON_ARCS: [f64; 3] = [0.01, 0.5, 0.99];
+
 /// Places evaluated in one call of the field.
 const BATCH: usize = 8192;
 
@@ -91,7 +95,7 @@ struct Look {
 }
 
 /// Asks the field again along what was written: at both ends of every piece's stretches between the
-/// field's breaks, and at two irregular places inside each.
+/// field's breaks, and at two irregular places inside each; on arcs near the ends and in the middle, too.
 ///
 /// Axes that the program never states cannot be written. How far it is off in them is measured with the rest,
 /// and refuses nothing: whoever asked for the program decides that.
@@ -137,7 +141,7 @@ pub fn verify_against_field(
         if motion.curve != crate::Curve::Line {
             allowed += 1.2 * writing.chord_tolerance_mm;
         }
-        if piece.arc.is_some() {
+        if piece.is_fitted() {
             // Its centre is rounded as well.
             allowed += 2.0 * writing.last_digit_mm(motion.words.mm_per_unit);
         }
@@ -229,6 +233,9 @@ fn places(
         push(0.0, from, None, At::End);
     }
     push(1.0, to, None, At::End);
+    for part in ON_ARCS.into_iter().filter(|_| piece.is_fitted()) {
+        push(part, from + (to - from) * part, None, At::Inside);
+    }
     let first = breaks.partition_point(|share| *share <= from);
     let last = breaks.partition_point(|share| *share < to);
     let mut low = from;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
+use serde::Serialize;
 
 /// A move shorter than this has no length and no direction: what is left of two equal places after the
 /// arithmetic of increments and inches, in mm.
@@ -13,7 +14,7 @@ pub(crate) const NO_LENGTH_MM: f64 = 1e-7;
 /// The point at angle `a` is `centre + radius (cos a first + sin a second) + rise`, with
 /// `first`, `second`, `axis` right-handed. Angle, radius and rise all grow evenly with the share, so
 /// an arc whose radii differ within the tolerance still meets both its ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Arc {
     /// Centre at the height of the start, in mm.
     pub centre: Vector3<f64>,
@@ -35,7 +36,63 @@ pub struct Arc {
     pub rise: f64,
 }
 
+/// Sine of the angle at a point between the two others below which the three lie on a line.
+const STRAIGHT: f64 = 1e-7;
+
 impl Arc {
+    /// The arc from `start` through `via` to `end`, in mm, of one radius and without a rise; its sweep is positive about its own
+    /// axis. `None` where the three lie on a line, or two of them at one place.
+    ///
+    /// ```
+    /// use kinetostat_program::Arc;
+    /// use nalgebra::Vector3;
+    ///
+    /// let [start, via, end] = [[5.0, 0.0], [0.0, 5.0], [-5.0, 0.0]].map(|[x, y]| Vector3::new(x, y, 2.0));
+    /// let half = Arc::through(&start, &via, &end).unwrap();
+    /// assert!((half.sweep - std::f64::consts::PI).abs() < 1e-12 && (half.point(0.5) - via).norm() < 1e-12);
+    /// assert!(Arc::through(&start, &Vector3::new(0.0, 0.0, 2.0), &end).is_none());
+    /// ```
+    #[must_use]
+    pub fn through(start: &Vector3<f64>, via: &Vector3<f64>, end: &Vector3<f64>) -> Option<Self> {
+        let (a, b) = (via - start, end - start);
+        let normal = a.cross(&b);
+        let size = a.norm() * b.norm();
+        if size == 0.0 || (end - via).norm() == 0.0 || normal.norm() <= STRAIGHT * size {
+            return None;
+        }
+        // The centre has the same distance from all three.
+        let to_centre = (b * a.norm_squared() - a * b.norm_squared()).cross(&normal)
+            * (0.5 / normal.norm_squared());
+        let centre = start + to_centre;
+        let axis = normal.normalize();
+        let first = (start - centre).normalize();
+        let second = axis.cross(&first);
+        let angle = |point: &Vector3<f64>| {
+            let from_centre = point - centre;
+            let angle = from_centre.dot(&second).atan2(from_centre.dot(&first));
+            angle.rem_euclid(std::f64::consts::TAU)
+        };
+        // About this axis the way from start over via to end is the positive one.
+        Some(Self {
+            centre,
+            first,
+            second,
+            axis,
+            start_angle: 0.0,
+            sweep: angle(end),
+            start_radius: (start - centre).norm(),
+            end_radius: (end - centre).norm(),
+            rise: 0.0,
+        })
+    }
+
+    /// Angle of a place about the axis from the start, in rad, the one nearest to what is expected.
+    pub(crate) fn angle_to(&self, place: &Vector3<f64>, expected: f64) -> f64 {
+        let out = place - self.centre;
+        let angle = out.dot(&self.second).atan2(out.dot(&self.first)) - self.start_angle;
+        angle + TAU * ((expected - angle) / TAU).round()
+    }
+
     fn radius(&self, share: f64) -> f64 {
         self.start_radius + (self.end_radius - self.start_radius) * share
     }

@@ -12,7 +12,7 @@ use crate::reading::moment::is_written_last;
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::arc_words::{ArcWord, ToPrint};
-use crate::writing::fit::ArcForm;
+use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 

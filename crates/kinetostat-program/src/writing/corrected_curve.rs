@@ -1,6 +1,6 @@
 //! The corrected curve of a move, from what its division found out about the correction.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 use crate::path::moves::Move;
 use crate::writing::merge::Accepted;
@@ -10,14 +10,12 @@ struct Stretch {
     from: f64,
     to: f64,
     /// Newton's forward differences of five values at equal parts, each over its factorial.
-    differences: [Vector3<f64>; 5],
+    differences: [Vector6<f64>; 5],
 }
 
 impl Stretch {
     fn new(accepted: &Accepted, to: f64) -> Self {
-        let mut row = accepted
-            .values
-            .map(|value| value.fixed_rows::<3>(0).into_owned());
+        let mut row = accepted.values;
         let mut differences = [row[0]; 5];
         for (order, difference) in differences.iter_mut().enumerate().skip(1) {
             for i in 0..5 - order {
@@ -33,7 +31,7 @@ impl Stretch {
         }
     }
 
-    fn correction(&self, share: f64) -> Vector3<f64> {
+    fn correction(&self, share: f64) -> Vector6<f64> {
         let x = 4.0 * ((share - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
         let d = &self.differences;
         let mut sum = d[4];
@@ -48,6 +46,8 @@ impl Stretch {
 pub(crate) struct CorrectedCurve<'a> {
     pub motion: &'a Move,
     stretches: Vec<Stretch>,
+    /// The tool is turned somewhere.
+    turned: bool,
 }
 
 impl<'a> CorrectedCurve<'a> {
@@ -61,18 +61,31 @@ impl<'a> CorrectedCurve<'a> {
                 .zip(ends)
                 .map(|(accepted, end)| Stretch::new(accepted, end))
                 .collect(),
+            turned: accepted
+                .iter()
+                .flat_map(|accepted| &accepted.values)
+                .any(|value| value.fixed_rows::<3>(3).amax() > 0.0),
         }
+    }
+
+    fn correction(&self, share: f64) -> Vector6<f64> {
+        let next = self
+            .stretches
+            .partition_point(|stretch| stretch.from <= share);
+        next.checked_sub(1).map_or_else(Vector6::zeros, |index| {
+            self.stretches[index].correction(share)
+        })
     }
 
     /// Where the tool is to go at a share of the move that is no end of it, in mm.
     pub fn point(&self, share: f64) -> Vector3<f64> {
-        let next = self
-            .stretches
-            .partition_point(|stretch| stretch.from <= share);
-        let correction = next.checked_sub(1).map_or_else(Vector3::zeros, |index| {
-            self.stretches[index].correction(share)
-        });
-        self.motion.point(share) + correction
+        self.motion.point(share) + self.correction(share).fixed_rows::<3>(0)
+    }
+
+    /// How far the tool is turned there, as a length at [`crate::WriteOptions::turn_lever_mm`]; nothing where it is turned nowhere.
+    pub fn turn(&self, share: f64) -> Option<Vector3<f64>> {
+        self.turned
+            .then(|| self.correction(share).fixed_rows::<3>(3).into_owned())
     }
 
     /// Ends and quarters of the stretches that lie inside two shares: between them the correction may bend in its own way.

@@ -6,7 +6,7 @@
 //!
 //! The field says where `c` or its slope may jump ([`Structure::breaks`]): those places are ends of
 //! stretches before anything else. Arcs that become straight pieces are divided by their chords as well; for those to which
-//! arcs are fitted ([`crate::writing::fit`]) the correction is only found out, and how far it bends matters little. A stretch is then evaluated in
+//! arcs are fitted ([`crate::writing::fitting`]) the correction is only found out, and how far it bends matters little. A stretch is then evaluated in
 //! its middle, in the quarters where that does not decide it, and there at a place that follows no
 //! pattern too. It is good if
 //!
@@ -33,16 +33,18 @@ use crate::writing::departure::{Values, departure, parabola, polynomial, remaind
 use crate::writing::jump::Jump;
 use crate::writing::merge::{Accepted, merge};
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
-use crate::writing::options::{Arcs, WriteOptions};
+use crate::writing::options::WriteOptions;
 use crate::writing::queries::FieldQueries;
 
 /// All nodes, by move and share.
 pub(crate) struct Division {
     pub nodes: Vec<Node>,
     pub jumps: Vec<Jump>,
-    /// The correction on the moves to which arcs are fitted, and on straight ones whose pieces may be shared out anew, by move
+    /// The correction on the moves to which arcs are fitted, and on those whose straight pieces may be shared out anew, by move
     /// and share.
     pub courses: Vec<Accepted>,
+    /// What is fitted to the moves.
+    pub fitted: Vec<Fitted>,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
     pub left_out_mm: f64,
@@ -198,13 +200,32 @@ impl Stretch {
     }
 }
 
-/// `arcs` says whether arcs are to be fitted to those of the path.
+/// What is fitted to the corrected curve of a move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fitted {
+    Nothing,
+    /// Arcs about its own axis, which rise evenly.
+    Arcs,
+    /// Circles through three places.
+    Circles,
+}
+
+/// `wanted` says what is to be fitted to the arcs among the moves.
 pub(crate) fn divide(
     path: &Path,
     field: &dyn CorrectionField,
-    (options, arcs): (&WriteOptions, Arcs),
+    (options, wanted): (&WriteOptions, &dyn Fn(usize) -> Fitted),
     monitor: &dyn Monitor,
 ) -> Result<Division, WriteError> {
+    let fitted: Vec<Fitted> = path
+        .moves
+        .iter()
+        .enumerate()
+        .map(|(index, motion)| match motion.curve {
+            Curve::Arc(_) if is_divided(motion) => wanted(index),
+            _ => Fitted::Nothing,
+        })
+        .collect();
     let mut queries = FieldQueries {
         path,
         field,
@@ -215,7 +236,7 @@ pub(crate) fn divide(
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
-    let mut open = first_round(&mut queries, (options, arcs), &mut nodes)?;
+    let mut open = first_round(&mut queries, (options, &fitted), &mut nodes)?;
     while !open.is_empty() {
         answer(&mut queries, &mut open, options)?;
         open = next_round(path, open, options, &mut nodes, &mut accepted);
@@ -243,21 +264,16 @@ pub(crate) fn divide(
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
         let motion = &path.moves[stretch.move_index];
-        let shared = motion.curve == Curve::Line && options.shortest_block_mm(motion).is_some();
-        shared || is_fitted(motion, arcs)
+        options.shortest_block_mm(motion).is_some() || fitted[stretch.move_index] != Fitted::Nothing
     });
     Ok(Division {
         nodes,
         jumps,
         courses: accepted,
+        fitted,
         evaluations: queries.answered,
         left_out_mm: queries.left_out_mm,
     })
-}
-
-/// Whether arcs are fitted to the corrected curve of a move.
-fn is_fitted(motion: &Move, arcs: Arcs) -> bool {
-    arcs == Arcs::Fit && motion.curve != Curve::Line && is_divided(motion)
 }
 
 /// A place at which a move is divided before anything is known of the correction.
@@ -270,7 +286,7 @@ struct Boundary {
 fn boundaries(
     queries: &FieldQueries<'_>,
     move_index: usize,
-    (options, arcs): (&WriteOptions, Arcs),
+    (options, fitted): (&WriteOptions, Fitted),
 ) -> Result<(Vec<Boundary>, Course), WriteError> {
     let motion = &queries.path.moves[move_index];
     let too_many = WriteError::TooManyPieces {
@@ -279,7 +295,7 @@ fn boundaries(
     };
     let (chords, fixed) = match &motion.curve {
         Curve::Line => (1, false),
-        Curve::Arc(arc) if is_fitted(motion, arcs) => (
+        Curve::Arc(arc) if fitted != Fitted::Nothing => (
             (arc.sweep.abs() / FIRST_ANGLE).ceil().max(1.0) as usize,
             false,
         ),
@@ -316,7 +332,7 @@ fn boundaries(
 /// Asks for the ends of all first stretches, and the middles between them.
 fn first_round(
     queries: &mut FieldQueries<'_>,
-    (options, arcs): (&WriteOptions, Arcs),
+    (options, all_fitted): (&WriteOptions, &[Fitted]),
     nodes: &mut Vec<Node>,
 ) -> Result<Vec<Stretch>, WriteError> {
     let path = queries.path;
@@ -324,7 +340,8 @@ fn first_round(
     let mut first = Vec::new();
     for (move_index, motion) in path.moves.iter().enumerate() {
         if is_divided(motion) {
-            let (list, course) = boundaries(queries, move_index, (options, arcs))?;
+            let (list, course) =
+                boundaries(queries, move_index, (options, all_fitted[move_index]))?;
             for pair in list.windows(2) {
                 let [from, to] = [pair[0].share, pair[1].share];
                 requests.push(queries.request(move_index, from));
@@ -356,7 +373,10 @@ fn first_round(
             continue;
         }
         let earlier = before.filter(|(index, _)| *index + 1 == move_index);
-        let fitted = is_fitted(&path.moves[move_index], arcs);
+        let motion = &path.moves[move_index];
+        let fitted = all_fitted[move_index] != Fitted::Nothing;
+        // The chords of an arc may become longer ones.
+        let shared = motion.curve != Curve::Line && options.shortest_block_mm(motion).is_some();
         let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
         nodes.push(Node {
             before: begins,
@@ -372,7 +392,7 @@ fn first_round(
             open.push(Stretch {
                 move_index,
                 course,
-                entire: !fitted && (pair[0].fixed && pair[1].fixed || list.len() == 2),
+                entire: !fitted && !shared && (pair[0].fixed && pair[1].fixed || list.len() == 2),
                 fitted,
                 share: [pair[0].share, pair[1].share],
                 ends: [value, end],

@@ -236,6 +236,7 @@ impl<'a> Emitter<'a> {
                 corner_step: false,
                 turn: None,
                 arc: None,
+                circle: None,
                 corrected: true,
             }];
         }
@@ -257,6 +258,7 @@ impl<'a> Emitter<'a> {
                 output_line,
                 kept_arc,
                 arc: self.state.arc,
+                circle: None,
                 feed: self.state.feed,
                 feed_limited: self.state.feed_limited,
             };
@@ -305,6 +307,7 @@ impl<'a> Emitter<'a> {
             output_line: self.output_line - 1,
             kept_arc: false,
             arc: None,
+            circle: None,
             feed: self.state.feed,
             feed_limited: false,
         };

@@ -1,7 +1,7 @@
 //! From a program, its path and a field of corrections to the corrected program.
 //!
 //! In the order of work: the path is divided where the correction bends or jumps ([`divide`], [`corner`], [`merge`]), arcs
-//! are fitted to the corrected curves of arcs ([`fit`]), pieces become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
+//! are fitted to the corrected curves of arcs ([`fitting`]), pieces become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
 
 pub(crate) mod accounting;
 pub(crate) mod arc_words;
@@ -11,7 +11,7 @@ pub(crate) mod corrected_curve;
 pub(crate) mod departure;
 pub(crate) mod divide;
 pub(crate) mod emit;
-pub(crate) mod fit;
+pub(crate) mod fitting;
 pub(crate) mod header;
 pub(crate) mod jump;
 pub(crate) mod merge;
@@ -26,3 +26,4 @@ pub(crate) mod steps;
 pub(crate) mod write;
 pub(crate) mod written;
 pub(crate) mod written_arc;
+pub(crate) mod written_circle;

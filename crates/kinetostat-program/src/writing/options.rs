@@ -15,6 +15,16 @@ pub enum Arcs {
     Lines,
 }
 
+/// How the language of a program can write what an arc of it becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Circles {
+    /// By straight motions.
+    #[default]
+    Straight,
+    /// By circles through a place between their ends, which may lean.
+    ThroughPlace,
+}
+
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -22,7 +32,8 @@ pub struct WriteOptions {
     /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
     /// Default 0.0005.
     pub tolerance_mm: f64,
-    /// What becomes of arcs. Programs in the language of a robot are written with straight pieces in any case.
+    /// What becomes of arcs, where the language has any that follow: in G-code those about the axis of the plane, in RAPID, KRL,
+    /// FANUC TP and SINUMERIK programs circles through places. APT and Heidenhain programs get straight pieces in any case.
     pub arcs: Arcs,
     /// Smallest jump of the correction (between blocks, where the load turns with the direction of
     /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
@@ -46,8 +57,8 @@ pub struct WriteOptions {
     pub backward_step_mm: f64,
     /// Digits after the point in millimetres, one more in inches; `None` is 4 (and 5).
     pub decimals: Option<u8>,
-    /// Shortest block that the controller is to get, in mm: pieces are shared out evenly where that keeps them longer, and the
-    /// lines with shorter ones are named. `None`, the default, sets no limit.
+    /// Shortest block that the controller is to get, in mm: pieces, arcs as well, are shared out where that keeps them longer, and
+    /// the lines with shorter ones are named. `None`, the default, sets no limit.
     pub min_block_mm: Option<f64>,
     /// How many blocks the controller reads in a second: as `min_block_mm`, with the length that the programmed feed covers in
     /// the time of one block.

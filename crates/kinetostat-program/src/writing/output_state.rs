@@ -36,6 +36,18 @@ pub(crate) struct FittedArc {
     pub largest_correction_mm: f64,
 }
 
+/// A circle through a place, before rounding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FittedCircle {
+    /// A place between its ends, mm.
+    pub via_mm: Vector3<f64>,
+    /// See [`crate::WrittenArc::slip`].
+    pub slip: [f64; 2],
+    pub length_mm: f64,
+    /// Largest correction of the places between its ends, mm.
+    pub largest_correction_mm: f64,
+}
+
 /// One piece to be written.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OutputMove {
@@ -49,7 +61,18 @@ pub(crate) struct OutputMove {
     pub turn: Option<Turn>,
     /// An arc about this centre, before rounding; straight without.
     pub arc: Option<FittedArc>,
+    /// A circle through a place; straight, or an arc, without.
+    pub circle: Option<FittedCircle>,
     pub corrected: bool,
+}
+
+impl OutputMove {
+    /// Largest correction between the ends of an arc or a circle, mm.
+    pub fn largest_inside_mm(&self) -> f64 {
+        let circle = self.circle.map(|circle| circle.largest_correction_mm);
+        let arc = self.arc.map(|arc| arc.largest_correction_mm);
+        circle.or(arc).unwrap_or(0.0)
+    }
 }
 
 /// The motion word that a piece of this move needs.

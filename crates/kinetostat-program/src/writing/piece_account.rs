@@ -12,6 +12,7 @@ use crate::writing::output_state::OutputMove;
 use crate::writing::short_blocks::{ShortBlocks, Whose};
 use crate::writing::written::Piece;
 use crate::writing::written_arc::WrittenArc;
+use crate::writing::written_circle::WrittenCircle;
 
 /// What was written of a piece.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +27,8 @@ pub(crate) struct AsWritten {
     pub kept_arc: bool,
     /// An arc that was fitted.
     pub arc: Option<WrittenArc>,
+    /// A circle that was fitted.
+    pub circle: Option<WrittenCircle>,
     /// The feed in force.
     pub feed: Option<Feed>,
     /// It was held to its largest.
@@ -95,6 +98,7 @@ impl<'a> PieceAccount<'a> {
             corrected: step.corrected,
             kept_arc: written.kept_arc,
             arc: written.arc,
+            circle: written.circle,
             feed_limited: written.feed_limited,
         };
         let written_mm = piece.length_mm(&self.path.moves[move_index]);
@@ -116,6 +120,7 @@ impl<'a> PieceAccount<'a> {
             corrected: false,
             kept_arc: false,
             arc: None,
+            circle: None,
             feed_limited: false,
         });
         self.rate.note(None);
@@ -132,7 +137,7 @@ impl<'a> PieceAccount<'a> {
         let rounding = (written.to - step.target).norm();
         accounting.largest_rounding_mm = larger(accounting.largest_rounding_mm, rounding);
         if step.corrected {
-            let inside = step.arc.map_or(0.0, |arc| arc.largest_correction_mm);
+            let inside = step.largest_inside_mm();
             let correction = (step.target - motion.point(step.share_to)).norm();
             let correction = larger(correction, inside);
             if correction > accounting.largest_correction_mm {
@@ -199,7 +204,7 @@ impl<'a> PieceAccount<'a> {
     /// How far the output goes against the direction in which the part is cut.
     fn note_backward(&mut self, move_index: usize, step: &OutputMove, written: &AsWritten) {
         let motion = &self.path.moves[move_index];
-        if written.kept_arc || written.arc.is_some() {
+        if written.kept_arc || written.arc.is_some() || written.circle.is_some() {
             // It goes round as the input does, never back.
             self.jump_from = None;
             return;

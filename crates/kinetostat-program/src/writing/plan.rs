@@ -8,17 +8,18 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::error::WriteError;
 use crate::field::correction::Correction;
 use crate::field::request::{CorrectionField, Monitor};
-use crate::path::curve::Curve;
+use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;
-use crate::writing::divide::divide;
-use crate::writing::fit::ArcForm;
+use crate::writing::divide::{Fitted, divide};
+use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::node::is_divided;
-use crate::writing::options::{Arcs, WriteOptions};
+use crate::writing::options::{Arcs, Circles, WriteOptions};
 use crate::writing::output_state::OutputMove;
 use crate::writing::piece_account::{AsWritten, PieceAccount};
 use crate::writing::steps::Steps;
 use crate::writing::written::Corrected;
+use crate::writing::written_circle::WrittenCircle;
 
 /// A piece to be written: a straight motion to a pose, or a whole arc that is kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +28,8 @@ pub struct PlannedPiece {
     pub share_to: f64,
     /// Where it ends, part frame, in mm.
     pub position_mm: Vector3<f64>,
+    /// A place between its ends, mm, through which it passes on a circle; `None` where it is straight.
+    pub via_mm: Option<Vector3<f64>>,
     /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Its speed over that of the program, so that the speed along the part stays the same; at most
@@ -45,11 +48,24 @@ pub struct PlannedMove {
     pub kept: bool,
 }
 
+/// Where a piece ends as written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WrittenEnd {
+    /// Rounded, part frame, in mm.
+    pub position_mm: Vector3<f64>,
+    /// Part axes from tool axes; `None` in a program of positions.
+    pub orientation: Option<UnitQuaternion<f64>>,
+    /// Line of the output, counted from 1.
+    pub line: usize,
+    /// The circle on which the piece goes there, as it was read again; `None` where it is straight.
+    pub circle: Option<Arc>,
+}
+
 /// What a writer made of a move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenMove {
-    /// Where each piece ends as written (rounded), part frame, in mm, with its orientation and its line of the output.
-    pub ends: Vec<(Vector3<f64>, Option<UnitQuaternion<f64>>, usize)>,
+    /// Where each piece ends.
+    pub ends: Vec<WrittenEnd>,
     /// The text of the move is byte for byte that of the input.
     pub same: bool,
 }
@@ -65,7 +81,7 @@ pub struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Divides every move where the correction varies.
+    /// Divides every move where the correction varies, into straight pieces.
     ///
     /// # Errors
     /// As [`crate::write_corrected`], but for what belongs to a text.
@@ -75,8 +91,43 @@ impl<'a> Plan<'a> {
         options: &'a WriteOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, WriteError> {
+        Self::with_circles(path, field, (options, &[]), monitor)
+    }
+
+    /// As [`Plan::new`]; the arcs among the moves for which `circles` (one entry for each move, straight where there is none) says
+    /// so become circles through a place, if [`WriteOptions::arcs`] asks for arcs.
+    ///
+    /// ```
+    /// use kinetostat_program::*;
+    /// use nalgebra::Vector3;
+    ///
+    /// let program = Program::read("G21 G90 G17\nG0 X10 Y0 Z0\nG3 X0 Y10 I-10 J0 F600\nM2\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// // The plane of the arc leans: no arc about z follows that.
+    /// let leaning = |request: &Request| Ok(Vector3::z() * 0.01 * request.position_mm.x);
+    /// let writing = WriteOptions::default();
+    /// let circles = [Circles::Straight, Circles::ThroughPlace];
+    /// let plan = Plan::with_circles(&path, &leaning, (&writing, &circles), &Unwatched)?;
+    /// let pieces = &plan.moves()[1].pieces;
+    /// assert!(pieces.len() <= 2 && pieces.iter().all(|piece| piece.via_mm.is_some()));
+    /// assert!(Plan::new(&path, &leaning, &writing, &Unwatched)?.moves()[1].pieces.len() > 20);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn with_circles(
+        path: &'a Path,
+        field: &dyn CorrectionField,
+        (options, circles): (&'a WriteOptions, &[Circles]),
+        monitor: &dyn Monitor,
+    ) -> Result<Self, WriteError> {
         options.check()?;
-        let division = divide(path, field, (options, Arcs::Lines), monitor)?;
+        let fitted = |index: usize| match (options.arcs, circles.get(index)) {
+            (Arcs::Fit, Some(Circles::ThroughPlace)) => Fitted::Circles,
+            _ => Fitted::Nothing,
+        };
+        let division = divide(path, field, (options, &fitted), monitor)?;
         let evaluations = division.evaluations;
         let mut steps = Steps::new(path, options, division);
         let mut reached = path.moves.first().map_or_else(Vector3::zeros, |m| m.start);
@@ -86,7 +137,9 @@ impl<'a> Plan<'a> {
             let half = options.half_digit_mm(motion.words.mm_per_unit);
             let nothing = |step: &OutputMove| {
                 let off = step.target - motion.point(step.share_to);
-                off.amax() <= half && step.tilt.amax() * options.turn_lever_mm <= half
+                off.amax() <= half
+                    && step.tilt.amax() * options.turn_lever_mm <= half
+                    && step.largest_inside_mm() <= half
             };
             let arc = motion.curve != Curve::Line;
             let kept = motion.known == Knowledge::Nothing
@@ -105,6 +158,7 @@ impl<'a> Plan<'a> {
                     corner_step: false,
                     turn: None,
                     arc: None,
+                    circle: None,
                     corrected: motion.known != Knowledge::Nothing,
                 }],
             };
@@ -162,13 +216,20 @@ impl<'a> Plan<'a> {
         for (move_index, ((steps, plan), written)) in planned.enumerate() {
             let motion = &self.path.moves[move_index];
             let ends = steps.iter().zip(&plan.pieces).zip(&written.ends);
-            for ((step, piece), (to, orientation, output_line)) in ends {
+            for ((step, piece), end) in ends {
                 let factor = piece.speed_factor;
                 let as_written = AsWritten {
                     from,
-                    to: *to,
-                    output_line: *output_line,
+                    to: end.position_mm,
+                    output_line: end.line,
                     arc: None,
+                    circle: end
+                        .circle
+                        .zip(step.circle)
+                        .map(|(curve, fitted)| WrittenCircle {
+                            curve,
+                            slip: fitted.slip,
+                        }),
                     kept_arc: plan.kept && motion.curve != Curve::Line,
                     feed: motion.feed.map(|feed| Feed {
                         value: feed.value * factor,
@@ -180,8 +241,8 @@ impl<'a> Plan<'a> {
                     Knowledge::Nothing => account.uncorrected(move_index, &as_written),
                     _ => account.piece(move_index, step, &as_written),
                 }
-                orientations.extend(orientation);
-                from = *to;
+                orientations.extend(end.orientation);
+                from = end.position_mm;
             }
             account.block(motion, steps.len(), written.same);
         }
@@ -214,7 +275,10 @@ fn pieces(
             && per_minute
             && part_mm > 0.0;
         let raised = match measured {
-            true => (step.target - from).norm() / part_mm,
+            true => {
+                let chord = || (step.target - from).norm();
+                step.circle.map_or_else(chord, |circle| circle.length_mm) / part_mm
+            }
             false => 1.0,
         };
         let turn = Correction {
@@ -224,6 +288,7 @@ fn pieces(
         list.push(PlannedPiece {
             share_to: step.share_to,
             position_mm: step.target,
+            via_mm: step.circle.map(|circle| circle.via_mm),
             orientation: motion.orientation(step.share_to).map(|o| turn.turned(&o)),
             speed_factor: raised.min(options.max_feed_factor),
             speed_limited: raised > options.max_feed_factor,

@@ -7,11 +7,11 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::field::correction::Correction;
 use crate::number::larger;
-use crate::path::curve::{Arc, Curve};
+use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
 use crate::writing::corrected_curve::CorrectedCurve;
-use crate::writing::divide::Division;
-use crate::writing::fit::{ArcForm, Fit, Span};
+use crate::writing::divide::{Division, Fitted};
+use crate::writing::fitting::stretch::{ArcForm, Fit, FittedPiece, Shape, Span};
 use crate::writing::jump::{Jump, Turn};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
@@ -33,6 +33,7 @@ pub(crate) struct Steps<'a> {
     pub nodes: Vec<Node>,
     jumps: Vec<Jump>,
     courses: Vec<Accepted>,
+    fitted: Vec<Fitted>,
     next_node: usize,
     /// How far the tool is turned where it was last, as [`OutputMove::tilt`].
     tilt: Vector3<f64>,
@@ -48,6 +49,7 @@ impl<'a> Steps<'a> {
             nodes: division.nodes,
             jumps: division.jumps,
             courses: division.courses,
+            fitted: division.fitted,
             next_node: 0,
             tilt: Vector3::zeros(),
             largest_jump_taken_up_mm: 0.0,
@@ -96,6 +98,7 @@ impl<'a> Steps<'a> {
                 corner_step: false,
                 turn: None,
                 arc: None,
+                circle: None,
                 corrected,
             }]
         };
@@ -107,12 +110,17 @@ impl<'a> Steps<'a> {
             }
             Some(_) => {
                 let known = !self.course(move_index).is_empty();
-                match &motion.curve {
-                    Curve::Arc(arc) if known => {
+                let shape = match (&motion.curve, self.fitted[move_index]) {
+                    (Curve::Arc(arc), Fitted::Arcs) => Some(Shape::Arcs(arc, form)),
+                    (Curve::Arc(_), Fitted::Circles) => Some(Shape::Circles),
+                    _ => None,
+                };
+                match shape {
+                    Some(shape) if known => {
                         let steps = self.divided(motion, range.clone(), reached, Ends::OfJumps);
-                        self.fitted((move_index, arc, form), &steps, reached)?
+                        self.fitted((move_index, shape), &steps, reached)?
                     }
-                    Curve::Line if known => self.shared((move_index, range.clone()), reached),
+                    _ if known => self.shared((move_index, range.clone()), reached),
                     _ => self.divided(motion, range.clone(), reached, Ends::All),
                 }
             }
@@ -124,16 +132,16 @@ impl<'a> Steps<'a> {
     /// Arcs in place of the long straight pieces between two jumps of the correction.
     fn fitted(
         &self,
-        (move_index, arc, form): (usize, &Arc, ArcForm),
+        (move_index, shape): (usize, Shape<'_>),
         steps: &[OutputMove],
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
         let fit = Fit {
             curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
-            arc: Some(arc),
-            form,
+            shape,
             options: self.options,
         };
+        let shortest_mm = self.options.shortest_block_mm(fit.curve.motion);
         let mut all = Vec::with_capacity(steps.len());
         let mut from = reached;
         for step in steps {
@@ -144,24 +152,15 @@ impl<'a> Steps<'a> {
                     share: [step.share_from, step.share_to],
                     ends: [from, step.target],
                 };
-                let mut share_from = step.share_from;
-                for piece in fit.pieces(&span)? {
-                    all.push(OutputMove {
-                        share_from,
-                        share_to: piece.share_to,
-                        target: piece.target,
-                        arc: piece.arc,
-                        ..*step
-                    });
-                    share_from = piece.share_to;
-                }
+                let pieces = fit.pieces(&span, shortest_mm.unwrap_or(0.0))?;
+                all.extend(self.in_place_of(step, pieces, &fit));
             }
             from = step.target;
         }
         Ok(all)
     }
 
-    /// The pieces of a straight move: where one is shorter than the controller takes, those between two jumps are made equally
+    /// Straight pieces: where one is shorter than the controller takes, those between two jumps are made equally
     /// long, if they follow the curve then and are long enough.
     fn shared(
         &mut self,
@@ -179,8 +178,7 @@ impl<'a> Steps<'a> {
         let spans = self.divided(motion, range, reached, Ends::OfJumps);
         let fit = Fit {
             curve: CorrectedCurve::new(motion, self.course(move_index)),
-            arc: None,
-            form: ArcForm::Centre,
+            shape: Shape::Straight,
             options: self.options,
         };
         let mut all = Vec::with_capacity(steps.len());
@@ -198,26 +196,46 @@ impl<'a> Steps<'a> {
                 ends: [from, step.target],
             };
             from = step.target;
-            let equal = match own.iter().any(short) && length(step) >= shortest_mm * count as f64 {
-                true => fit.equal(&span, count),
-                false => None,
+            let equal = match (own.iter().any(short), &motion.curve) {
+                (true, Curve::Arc(_)) => fit.equal_and_long(&span, (count, shortest_mm)),
+                (true, Curve::Line) if length(step) >= shortest_mm * count as f64 => {
+                    fit.equal(&span, count)
+                }
+                _ => None,
             };
-            let Some(equal) = equal else {
-                all.extend_from_slice(own);
-                continue;
-            };
-            let mut share_from = step.share_from;
-            for piece in equal {
-                all.push(OutputMove {
-                    share_from,
-                    share_to: piece.share_to,
-                    target: piece.target,
-                    ..*step
-                });
-                share_from = piece.share_to;
+            match equal {
+                Some(equal) => all.extend(self.in_place_of(step, equal, &fit)),
+                None => all.extend_from_slice(own),
             }
         }
         all
+    }
+
+    /// The pieces in place of a long one.
+    fn in_place_of(
+        &self,
+        step: &OutputMove,
+        pieces: Vec<FittedPiece>,
+        fit: &Fit<'_>,
+    ) -> Vec<OutputMove> {
+        let mut share_from = step.share_from;
+        let tilt = |share: f64| match fit.curve.turn(share) {
+            Some(turn) if share < step.share_to => {
+                let turn = Vector6::new(0.0, 0.0, 0.0, turn.x, turn.y, turn.z);
+                Correction::of_lengths(&turn, self.options.turn_lever_mm).turn
+            }
+            _ => step.tilt,
+        };
+        let pieces = pieces.into_iter().map(|piece| OutputMove {
+            share_from: std::mem::replace(&mut share_from, piece.share_to),
+            share_to: piece.share_to,
+            target: piece.target,
+            tilt: tilt(piece.share_to),
+            arc: piece.arc,
+            circle: piece.circle,
+            ..*step
+        });
+        pieces.collect()
     }
 
     fn divided(
@@ -251,6 +269,7 @@ impl<'a> Steps<'a> {
                 corner_step,
                 turn,
                 arc: None,
+                circle: None,
                 corrected: true,
             });
             share_from = share_to;

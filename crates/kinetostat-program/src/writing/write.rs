@@ -4,9 +4,9 @@ use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor};
 use crate::path::moves::Path;
 use crate::text::program::Program;
-use crate::writing::divide::divide;
+use crate::writing::divide::{Fitted, divide};
 use crate::writing::emit::Emitter;
-use crate::writing::options::WriteOptions;
+use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::written::Corrected;
 
 /// Writes the program whose commanded path is the path plus the field's correction.
@@ -52,6 +52,10 @@ pub fn write_corrected(
         }
         last = motion.line;
     }
-    let division = divide(path, field, (options, options.arcs), monitor)?;
+    let fitted = |_| match options.arcs {
+        Arcs::Fit => Fitted::Arcs,
+        Arcs::Lines => Fitted::Nothing,
+    };
+    let division = divide(path, field, (options, &fitted), monitor)?;
     Emitter::new(program, path, options, division).emit()
 }

@@ -8,6 +8,7 @@ use crate::path::moves::Move;
 use crate::writing::accounting::Accounting;
 use crate::writing::jump::Turn;
 use crate::writing::written_arc::WrittenArc;
+use crate::writing::written_circle::WrittenCircle;
 
 /// One motion of the written program: straight, or an arc that is kept or fitted. A doctest is with [`WrittenArc`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -35,24 +36,33 @@ pub struct Piece {
     pub kept_arc: bool,
     /// An arc that was fitted to the corrected curve of one; `None` for straight pieces and kept arcs.
     pub arc: Option<WrittenArc>,
+    /// A circle through a place that was fitted to the corrected curve of an arc.
+    pub circle: Option<WrittenCircle>,
     /// Its feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so the part is
     /// cut more slowly here than programmed.
     pub feed_limited: bool,
 }
 
 impl Piece {
+    /// Whether it is round, whose ends and places between were fitted to the corrected curve.
+    #[must_use]
+    pub fn is_fitted(&self) -> bool {
+        self.arc.is_some() || self.circle.is_some()
+    }
+
     /// Where the tool is commanded to be, in mm, when a part (0 to 1) of the piece's stretch of its move is done.
     #[must_use]
     pub fn commanded(&self, motion: &Move, part: f64) -> Vector3<f64> {
-        match &self.arc {
+        match (&self.arc, &self.circle) {
             _ if self.kept_arc => motion.point(part),
-            Some(_) if part <= 0.0 => self.commanded_from,
-            Some(_) if part >= 1.0 => self.commanded_to,
-            Some(arc) => {
+            _ if part <= 0.0 => self.commanded_from,
+            _ if part >= 1.0 => self.commanded_to,
+            (Some(arc), _) => {
                 let curve = arc.between(&self.commanded_from, &self.commanded_to);
                 curve.point(arc.turned(part))
             }
-            None => self.commanded_from.lerp(&self.commanded_to, part),
+            (None, Some(circle)) => circle.commanded(part),
+            (None, None) => self.commanded_from.lerp(&self.commanded_to, part),
         }
     }
 
@@ -60,9 +70,13 @@ impl Piece {
     #[must_use]
     pub fn length_mm(&self, motion: &Move) -> f64 {
         let (from, to) = (&self.commanded_from, &self.commanded_to);
-        match &self.arc {
+        let curve = match (&self.arc, &self.circle) {
+            (Some(arc), _) => Some(arc.between(from, to)),
+            (None, circle) => circle.map(|circle| circle.curve),
+        };
+        match curve {
             _ if self.kept_arc => motion.length_mm(),
-            Some(arc) => Curve::Arc(arc.between(from, to)).length_between(from, to, 0.0, 1.0),
+            Some(arc) => Curve::Arc(arc).length_between(from, to, 0.0, 1.0),
             None => (to - from).norm(),
         }
     }

@@ -5,6 +5,11 @@ use serde::Serialize;
 
 use crate::path::curve::Arc;
 
+/// Share of a sweep at which the tool is when a part of the path is done, see [`WrittenArc::slip`].
+pub(crate) fn slipped(slip: &[f64; 2], part: f64) -> f64 {
+    part + part * (1.0 - part) * (slip[0] + slip[1] * (1.0 - 2.0 * part))
+}
+
 /// An arc of the written program about an axis of the part, with the ends of its [`Piece`](crate::Piece).
 ///
 /// ```
@@ -54,7 +59,7 @@ impl WrittenArc {
     /// Share of the sweep at which the tool is when a part of the piece's stretch of the path is done.
     #[must_use]
     pub fn turned(&self, part: f64) -> f64 {
-        part + part * (1.0 - part) * (self.slip[0] + self.slip[1] * (1.0 - 2.0 * part))
+        slipped(&self.slip, part)
     }
 
     /// Its curve between two ends; radius and height grow evenly with the angle.

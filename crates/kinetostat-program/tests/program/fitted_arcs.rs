@@ -99,7 +99,7 @@ fn every_form_of_arc_follows_every_kind_of_field_with_few_arcs() {
         "{arcs} arcs, {samples} places: worst {worst:.3} of what is allowed; radii differ by {radii:.3} last digits at most, {mean:.4} on average"
     );
     assert!(arcs > 2000 && worst <= 1.0);
-    assert!(radii < 0.8 && mean < 0.2, "{radii} {mean}");
+    assert!(radii < 1.0 && mean < 0.2, "{radii} {mean}");
 }
 
 #[test]

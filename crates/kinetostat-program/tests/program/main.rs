@@ -15,6 +15,7 @@ mod divided_blocks;
 mod expanding;
 mod expanding_radius;
 mod fault_lists;
+mod fewest_arcs;
 mod fitted_arcs;
 mod internal;
 mod map;

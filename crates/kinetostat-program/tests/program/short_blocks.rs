@@ -89,3 +89,67 @@ fn limits_out_of_range_are_refused() {
         assert!(matches!(refused, Err(WriteError::Option { .. })));
     }
 }
+
+/// A correction that bends more and more along an arc about the origin, and its height is a wave.
+fn wave(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    let at = request.position_mm;
+    let angle = at.y.atan2(at.x);
+    Ok(Vector3::new(0.0, 0.0, 0.02 * (2.0 * angle * angle).sin()) + at * 1e-3)
+}
+
+/// Lengths of the pieces at feed, and the lines of the warning of short ones.
+fn lengths(text: &str, writing: &WriteOptions) -> (Vec<f64>, Vec<usize>) {
+    let program = Program::read(text.as_bytes()).unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let (_, written) = written_with(text, &wave, &at_origin(), writing);
+    verify_against_field(&path, &written, &wave, writing, &Unwatched).unwrap();
+    let pieces = written.pieces.iter().filter(|piece| piece.move_index > 0);
+    let lengths = pieces
+        .map(|piece| piece.length_mm(&path.moves[piece.move_index]))
+        .collect();
+    let named = written.accounting.warnings.iter();
+    let named = named.filter(|warning| warning.text.contains("shorter than"));
+    (lengths, named.map(|warning| warning.line).collect())
+}
+
+#[test]
+fn arcs_and_their_chords_are_longer_than_asked_or_their_line_is_named() {
+    let mut held = [0; 2];
+    for (kind, arcs) in [Arcs::Fit, Arcs::Lines].into_iter().enumerate() {
+        for radius in [3, 8, 20, 31, 47] {
+            let text = format!(
+                "G21 G90 G17\nG0 X{radius} Y0 Z0\nG3 X-{radius} Y0 I-{radius} J0 F600\nM2\n"
+            );
+            let mut writing = bare();
+            writing.arcs = arcs;
+            let (free, named) = lengths(&text, &writing);
+            assert!(named.is_empty() && free.len() > 3, "{free:?}");
+            let least = free.iter().copied().fold(f64::INFINITY, f64::min);
+            let mean = free.iter().sum::<f64>() / free.len() as f64;
+            for part in [0.1, 0.3, 0.6, 0.9, 1.2] {
+                let shortest_mm = least + part * (mean - least);
+                for by_time in [false, true] {
+                    let mut writing = writing.clone();
+                    match by_time {
+                        // 600 mm/min are 10 mm/s.
+                        true => writing.max_blocks_per_s = Some(10.0 / shortest_mm),
+                        false => writing.min_block_mm = Some(shortest_mm),
+                    }
+                    let (now, named) = lengths(&text, &writing);
+                    let now = now.into_iter().fold(f64::INFINITY, f64::min);
+                    assert!(now.is_finite());
+                    // The speed is that along the part, on which the corrected arc is a little longer.
+                    match now >= shortest_mm * (1.0 - if by_time { 2e-3 } else { 1e-9 }) {
+                        true => held[kind] += usize::from(now > least),
+                        false => assert_eq!(named, [3], "{now} {shortest_mm}"),
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "longer than asked: {} of 50 with arcs, {} of 50 with chords",
+        held[0], held[1]
+    );
+    assert!(held[0] >= 12 && held[1] >= 40, "{held:?}");
+}

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::siemens::place::{AxisText, LETTERS, Place, digits_of, without};
+use crate::siemens::place::{AxisText, LETTERS, Place, VIA, digits_of, without};
 use crate::siemens::state::Code;
 use crate::siemens::writing::writer::{Reason, Writer};
 use crate::writing::piece::Piece;
@@ -14,15 +14,13 @@ impl Writer<'_> {
         };
         self.turns(pieces)?;
         let written = self.written;
-        let becomes_straight =
-            written.code.is_arc() && (first.via_mm.is_none() || !further.is_empty());
-        let code = match becomes_straight {
-            true => Code::Line,
-            false => written.code,
-        };
-        if becomes_straight {
+        let code = self.code_of(first);
+        if written.code.is_arc() {
+            // The point of a CIP becomes another one, or goes.
             let via = written.via.iter().flatten().map(|word| word.word.clone());
-            for word in written.arc_words.iter().cloned().chain(via) {
+            let via = via.filter(|_| code == Code::Line);
+            let centre = written.arc_words.iter().cloned();
+            for word in centre.filter(|_| code != written.code).chain(via) {
                 let word = without(self.file.bytes(), &word, written.words_at);
                 self.edits.replace(word, "");
             }
@@ -41,7 +39,7 @@ impl Writer<'_> {
         for (axis, wanted) in end.iter().enumerate() {
             place.axis(axis, *wanted, self.edits, &mut added);
         }
-        if let (Some(via), false) = (first.via_mm, becomes_straight) {
+        if let (Some(via), Code::Through) = (first.via_mm, code) {
             let via = self.in_frame(via);
             for (axis, wanted) in via.iter().enumerate() {
                 place.via(axis, *wanted, self.edits, &mut added);
@@ -52,18 +50,29 @@ impl Writer<'_> {
         self.insert(anchor, &added);
         self.feed(first.speed_factor)?;
         if !further.is_empty() {
-            let text = self.further(code, further)?;
+            let text = self.further(further)?;
             self.edits.replace(written.line.end..written.line.end, text);
         }
         Ok(())
     }
 
+    /// The code of a piece: that of an arc with a place between its ends is CIP, whose circle may lean.
+    fn code_of(&self, piece: &Piece) -> Code {
+        match (self.written.code, piece.via_mm) {
+            (code, None) if code.is_arc() => Code::Line,
+            (code, Some(_)) if code.is_arc() => Code::Through,
+            (code, _) => code,
+        }
+    }
+
     /// The blocks of further pieces, each behind a line ending.
-    fn further(&mut self, code: Code, pieces: &[&Piece]) -> Result<Vec<u8>, Reason> {
+    fn further(&mut self, pieces: &[&Piece]) -> Result<Vec<u8>, Reason> {
         let written = self.written;
         let mut text = Vec::new();
         let least = digits_of(self.options, written.unit_mm);
         for (index, piece) in pieces.iter().enumerate() {
+            let code = self.code_of(piece);
+            self.held.code = (code != written.code).then_some(code);
             let mut line = code.word().to_owned();
             let end = self.in_frame(piece.position_mm);
             let mut off = [0.0; 3];
@@ -77,6 +86,16 @@ impl Writer<'_> {
                     true => format!(" {letter}=AC({})", number.text),
                     false => format!(" {letter}{}", number.text),
                 };
+            }
+            if let (Some(via), Code::Through) = (piece.via_mm, code) {
+                let via = self.in_frame(via);
+                for (name, value) in VIA.iter().zip(via.iter()) {
+                    let number = AxisText::plain(format!("{:.least$}", value / written.unit_mm));
+                    line += &match written.steps {
+                        true => format!(" {name}=AC({})", number.text),
+                        false => format!(" {name}={}", number.text),
+                    };
+                }
             }
             self.held.off = written.frame.rotation * Vector3::from(off);
             self.direction_of(piece, &mut line);

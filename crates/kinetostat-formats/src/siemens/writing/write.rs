@@ -2,7 +2,8 @@
 //!
 //! The first piece of a motion stands in its own block, further ones in blocks of their own behind it, without numbers: the
 //! control needs none, and jumps only to those that are there. What acts at the end of a block (M0, M30, G9) goes to the last
-//! one. An arc that is corrected becomes straight. G codes, feeds and places that are modal are stated again where what is
+//! one. An arc that is corrected becomes circles through places (CIP), which may lean, or straight. G codes, feeds and places
+//! that are modal are stated again where what is
 //! written differs from what the next block counts on.
 
 use std::collections::BTreeMap;

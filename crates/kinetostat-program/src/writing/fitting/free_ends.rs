@@ -1,0 +1,199 @@
+//! Arcs whose ends between two others may leave the curve along the axis: the fewest, and of those the nearest.
+
+use nalgebra::Vector3;
+
+use crate::number::{larger, smaller};
+use crate::path::curve::Arc;
+use crate::writing::fitting::search::farthest;
+use crate::writing::fitting::stretch::{Fit, FittedPiece, Shape, Span, Tube};
+
+/// Parts of the longest piece at which the next one is tried to begin.
+const BEGINNINGS: [f64; 5] = [1.0, 0.92, 0.84, 0.7, 0.55];
+
+/// Most pieces of a stretch that are looked for in this way, which takes its time.
+const MOST: usize = 200;
+
+/// How much longer than the shortest block, along the path, what is left for the last piece is: the corrected arc may be shorter.
+const MARGIN: f64 = 1.05;
+
+/// Steps in the search for the least tolerance that as many pieces keep.
+const NARROWINGS: u32 = 6;
+
+/// The farthest that a piece can end from where it begins, and the heights there.
+struct Reach {
+    share: f64,
+    tube: Tube,
+    /// It ends where the stretch does.
+    whole: bool,
+}
+
+/// What the ends of the pieces of one stretch are held to.
+struct Search<'a> {
+    fit: &'a Fit<'a>,
+    arc: &'a Arc,
+    span: &'a Span,
+    within_mm: f64,
+    /// No piece is shorter than this.
+    shortest_block_mm: f64,
+}
+
+impl Fit<'_> {
+    /// As few arcs as these tolerances allow, none of them shorter than a length, and of those the ones that leave the curve
+    /// least; none where they are too many or where one would be straight.
+    pub fn free_ends(&self, span: &Span, shortest_block_mm: f64) -> Option<Vec<FittedPiece>> {
+        let Shape::Arcs(arc, _) = self.shape else {
+            return None;
+        };
+        let most = self.allowed_mm();
+        let search = |within_mm: f64| Search {
+            fit: self,
+            arc,
+            span,
+            within_mm,
+            shortest_block_mm,
+        };
+        let mut best = search(most).pieces(MOST)?;
+        let (mut low, mut high) = (0.5 * most, most);
+        for _ in 0..NARROWINGS {
+            let middle = 0.5 * (low + high);
+            match search(middle).pieces(best.len()) {
+                Some(pieces) => (best, high) = (pieces, middle),
+                None => low = middle,
+            }
+        }
+        Some(best)
+    }
+}
+
+impl Search<'_> {
+    fn pieces(&self, most: usize) -> Option<Vec<FittedPiece>> {
+        let mut pieces: Vec<FittedPiece> = Vec::new();
+        let mut last = FittedPiece::start(self.span);
+        let mut reach = self.reach(&last, self.span.share[1] - last.share_to)?;
+        while pieces.len() < most {
+            if reach.whole {
+                let target = self.span.ends[1];
+                pieces.push(self.piece((self.span.share[1], target), reach.tube));
+                return Some(pieces);
+            }
+            let mut best: Option<(Reach, FittedPiece)> = None;
+            for (next, stride) in self.beginnings(&last, &reach) {
+                let Some(further) = self.reach(&next, stride) else {
+                    continue;
+                };
+                let better = best.as_ref().is_none_or(|(best, _)| {
+                    (further.whole, further.share) > (best.whole, best.share)
+                });
+                if better {
+                    best = Some((further, next));
+                }
+                if best.as_ref().is_some_and(|(best, _)| best.whole) {
+                    break;
+                }
+            }
+            let (further, next) = best?;
+            // Nothing is gained by a piece that does not go on.
+            if !further.whole && further.share <= reach.share {
+                return None;
+            }
+            pieces.push(next);
+            (last, reach) = (next, further);
+        }
+        None
+    }
+
+    /// The ends that a piece may have where the next one sees farthest, with the stride of the longest.
+    fn beginnings(&self, last: &FittedPiece, reach: &Reach) -> Vec<(FittedPiece, f64)> {
+        let from = last.share_to;
+        let stride = reach.share - from;
+        let start = last.target.dot(&self.arc.axis);
+        let end = 0.5 * (reach.tube.heights[0] + reach.tube.heights[1]);
+        let mut found = Vec::new();
+        // What is left behind the piece is long enough as well, and not nothing.
+        let [_, to] = self.span.share;
+        let rest = larger(
+            MARGIN * self.shortest_block_mm / self.fit.curve.motion.length_mm(),
+            self.fit.shortest(),
+        );
+        for part in BEGINNINGS {
+            let share = (from + stride * part).min(to - rest);
+            if share <= from {
+                continue;
+            }
+            let part = (share - from) / stride;
+            let point = self.fit.curve.point(share);
+            let Some(tube) = self.tube(last, share, point) else {
+                continue;
+            };
+            let [low, high] = tube.heights;
+            let on_way = (start + (end - start) * part).clamp(low, high);
+            let heights = match high - low > 0.02 * self.within_mm {
+                true => vec![on_way, low, high],
+                false => vec![on_way],
+            };
+            for height in heights {
+                let target = point + self.arc.axis * (height - point.dot(&self.arc.axis));
+                let piece = self.piece((share, target), tube);
+                if self.is_long(&piece, last) {
+                    found.push((piece, stride));
+                }
+            }
+        }
+        found
+    }
+
+    /// The farthest end of a piece that begins where another ends.
+    fn reach(&self, last: &FittedPiece, stride: f64) -> Option<Reach> {
+        let from = last.share_to;
+        let [_, to] = self.span.share;
+        let end = self.span.ends[1];
+        let whole = self.tube(last, to, end).filter(|tube| {
+            let height = end.dot(&self.arc.axis);
+            let piece = self.piece((to, end), *tube);
+            (tube.heights[0]..=tube.heights[1]).contains(&height) && self.is_long(&piece, last)
+        });
+        if let Some(tube) = whole {
+            return Some(Reach {
+                share: to,
+                tube,
+                whole: true,
+            });
+        }
+        let (share, tube) = farthest([from, to], (stride, self.fit.shortest()), |share| {
+            self.tube(last, share, self.fit.curve.point(share))
+        })?;
+        Some(Reach {
+            share,
+            tube,
+            whole: false,
+        })
+    }
+
+    /// The arcs from the end of a piece to above and below a place; the place itself is within the tolerance, too.
+    fn tube(&self, last: &FittedPiece, share: f64, place: Vector3<f64>) -> Option<Tube> {
+        let part = Span {
+            share: [last.share_to, share],
+            ends: [last.target, place],
+        };
+        let mut tube = self.fit.tube(&part, self.within_mm)?;
+        let height = place.dot(&self.arc.axis);
+        tube.heights = [
+            larger(tube.heights[0], height - self.within_mm),
+            smaller(tube.heights[1], height + self.within_mm),
+        ];
+        (tube.heights[0] <= tube.heights[1]).then_some(tube)
+    }
+
+    fn piece(&self, (share_to, target): (f64, Vector3<f64>), tube: Tube) -> FittedPiece {
+        FittedPiece {
+            share_to,
+            target,
+            arc: Some(tube.arc),
+            circle: None,
+        }
+    }
+
+    fn is_long(&self, piece: &FittedPiece, last: &FittedPiece) -> bool {
+        piece.length_mm(&last.target, &self.arc.axis) >= self.shortest_block_mm
+    }
+}
