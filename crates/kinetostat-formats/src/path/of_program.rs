@@ -11,6 +11,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
+use crate::path::axis_turns::{TurnAboutAxis, axis_turns, first_leaning};
 use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
@@ -41,6 +42,20 @@ pub struct RobotPath {
     pub tools: Vec<FrameUse>,
     /// The file with the motions, an index of [`RobotProgram::files`].
     pub file: usize,
+    /// The program states the direction of the tool's axis alone, and it is not z throughout: about it the tool is turned by
+    /// [`PathOptions::turn_about_axis`].
+    pub axis_alone: bool,
+}
+
+impl RobotPath {
+    /// How far the tool is turned from one orientation to another, as far as the text of the program says it, rad.
+    pub(crate) fn turned(&self, to: &UnitQuaternion<f64>, from: &UnitQuaternion<f64>) -> f64 {
+        let axis = self.path.tool_axis;
+        match self.axis_alone {
+            true => (to * axis).angle(&(from * axis)),
+            false => to.angle_to(from),
+        }
+    }
 }
 
 /// The path of a program.
@@ -111,13 +126,6 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             ));
         }
     }
-    if let Some(tilted) = poses.iter().find(|motion| leans(motion)) {
-        faults.push(fault(
-            tilted,
-            "the tool's axis is not z of the part here".to_owned(),
-            "programs of five axes that state the axis alone are not corrected yet: give those of three axes, or write the program in the language of the robot",
-        ));
-    }
     faults.extend(poses.iter().filter_map(|motion| {
         let speed = motion
             .speed
@@ -144,16 +152,24 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut made = Maker {
+    let mut maker = Maker {
         program,
         options,
         in_base: !one,
+        turns: None,
+    };
+    let leaning = first_leaning(program);
+    if leaning.is_some() {
+        let rule = (options.turn_about_axis, options.tool_axis);
+        maker.turns = Some(axis_turns(program, rule, |motion| maker.frame(motion))?);
     }
-    .path();
+    let mut made = maker.path();
+    made.warnings.extend(leaning.map(|motion| by_rule(motion, options)));
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);
     }
     Ok(RobotPath {
+        axis_alone: leaning.is_some(),
         motions: (0..program.motions.len()).collect(),
         path: made,
         work_object: work_object.filter(|_| one),
@@ -174,6 +190,8 @@ struct Maker<'a> {
     options: &'a PathOptions,
     /// Poses in the axes of the robot's base.
     in_base: bool,
+    /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
+    turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
 }
 
 impl Maker<'_> {
@@ -189,6 +207,16 @@ impl Maker<'_> {
         Some(self.frame(motion) * target.pose()?.isometry())
     }
 
+    /// Where a motion ends, and how the tool stands there.
+    fn end(&self, index: usize) -> Option<Isometry3<f64>> {
+        let motion = &self.program.motions[index];
+        let mut end = self.pose(motion, &motion.target)?;
+        if let Some(turn) = self.turns.as_ref().and_then(|turns| turns[index]) {
+            end.rotation = turn;
+        }
+        Some(end)
+    }
+
     fn path(&self) -> Path {
         let mut moves: Vec<Move> = Vec::with_capacity(self.program.motions.len());
         let mut warnings = Vec::new();
@@ -200,7 +228,7 @@ impl Maker<'_> {
                 && motion.follows == index.checked_sub(1)
                 && before.is_some_and(|before| same_frame(&before.tool, &motion.tool));
             let start = last.filter(|_| follows);
-            let made = self.made(motion, start, last.unwrap_or_default());
+            let made = self.made(index, start, last.unwrap_or_default());
             if motion.runs == Runs::Elsewhere {
                 warnings.push(Warning {
                     line: motion.line,
@@ -208,7 +236,7 @@ impl Maker<'_> {
                         .to_owned(),
                 });
             }
-            last = self.pose(motion, &motion.target);
+            last = self.end(index);
             moves.push(made);
         }
         warnings.dedup_by(|b, a| a.text == b.text);
@@ -270,6 +298,28 @@ impl Maker<'_> {
         path
     }
 
+    /// Whether the text of a target, or the rule for the turn about its axis, says how the tool stands.
+    fn states_orientation(&self, motion: &Motion) -> bool {
+        // Languages of machines state at most the axis.
+        let by_axis = matches!(
+            self.program.language,
+            Language::Apt | Language::Siemens | Language::Heidenhain
+        );
+        if by_axis || self.turns.is_some() {
+            return self.turns.is_some();
+        }
+        let unstated = |text: &PoseText| {
+            matches!(
+                text.convention,
+                OrientationText::Unstated | OrientationText::Axis
+            )
+        };
+        match &motion.site.target {
+            TargetSite::Literal(text) => !unstated(text),
+            _ => true,
+        }
+    }
+
     /// Line of the first of many places that lie as near to each other as those of a program in metres.
     fn tiny(&self) -> Option<usize> {
         let places = self.program.motions.iter().filter_map(|motion| {
@@ -287,8 +337,9 @@ impl Maker<'_> {
         first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
     }
 
-    fn made(&self, motion: &Motion, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
-        let end = self.pose(motion, &motion.target);
+    fn made(&self, index: usize, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
+        let motion = &self.program.motions[index];
+        let end = self.end(index);
         let from = start.unwrap_or(before);
         let to = end.unwrap_or(before);
         let [a, b] = [from, to].map(|pose| pose.translation.vector);
@@ -350,7 +401,7 @@ impl Maker<'_> {
             curve,
             start: a,
             end: b,
-            tool_turn: states_orientation(motion).then(|| {
+            tool_turn: self.states_orientation(motion).then(|| {
                 let start = nearest(from.rotation, &to.rotation);
                 Box::new(ToolTurn::shortest(start, to.rotation))
             }),
@@ -371,27 +422,17 @@ impl Maker<'_> {
     }
 }
 
-/// Whether only the tool's axis is stated, and it is another one than z.
-fn leans(motion: &Motion) -> bool {
-    let by_axis = matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Axis);
-    let axis = motion
-        .target
-        .pose()
-        .map(|pose| pose.orientation * Vector3::z());
-    by_axis && axis.is_some_and(|axis| (axis - Vector3::z()).norm() > 1e-9)
-}
-
-/// Whether the text of a target says how the tool stands.
-fn states_orientation(motion: &Motion) -> bool {
-    let unstated = |text: &PoseText| {
-        matches!(
-            text.convention,
-            OrientationText::Unstated | OrientationText::Axis
-        )
+/// By which rule the tool is turned about its axis, at the first motion where that matters.
+fn by_rule(motion: &Motion, options: &PathOptions) -> Warning {
+    let rule = match options.turn_about_axis {
+        TurnAboutAxis::Least => "as little as possible from pose to pose",
+        TurnAboutAxis::Towards { .. } => "towards the direction that is stated",
     };
-    match &motion.site.target {
-        TargetSite::Literal(text) => !unstated(text),
-        _ => true,
+    Warning {
+        line: motion.line,
+        text: format!(
+            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule} (`turn_about_axis`)"
+        ),
     }
 }
 

@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::path::axis_turns::TurnAboutAxis;
+
 /// How the path of a robot's program is made.
 ///
 /// ```
@@ -19,6 +21,8 @@ pub struct PathOptions {
     /// Unit vector from the tool's tip to its holder, in axes of the tool's frame: -z where the frame's z points out of the
     /// spindle, as is usual at ABB and FANUC; -x at KUKA.
     pub tool_axis: Vector3<f64>,
+    /// How the tool is turned about its axis where the program states the axis alone.
+    pub turn_about_axis: TurnAboutAxis,
 }
 
 impl Default for PathOptions {
@@ -26,6 +30,7 @@ impl Default for PathOptions {
         Self {
             rapid_from_mm_per_s: None,
             tool_axis: -Vector3::z(),
+            turn_about_axis: TurnAboutAxis::Least,
         }
     }
 }

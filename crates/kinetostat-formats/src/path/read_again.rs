@@ -87,7 +87,7 @@ fn one(
     let wanted = written.orientations.get(index);
     let turned = wanted
         .zip(made.orientation(1.0))
-        .map(|(a, b)| a.angle_to(&b));
+        .map(|(a, b)| input.turned(a, &b));
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }
