@@ -161,10 +161,13 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let leaning = first_leaning(program);
     if leaning.is_some() {
         let rule = (options.turn_about_axis, options.tool_axis);
-        maker.turns = Some(axis_turns(program, rule, |motion| maker.frame(motion))?);
+        let is_rapid = |motion: &Motion| maker.is_rapid(motion);
+        let turns = axis_turns(program, rule, |motion| maker.frame(motion), is_rapid)?;
+        maker.turns = Some(turns);
     }
     let mut made = maker.path();
-    made.warnings.extend(leaning.map(|motion| by_rule(motion, options)));
+    made.warnings
+        .extend(leaning.map(|motion| by_rule(motion, options)));
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);
     }
@@ -298,6 +301,25 @@ impl Maker<'_> {
         path
     }
 
+    /// Whether a motion positions the tool in air.
+    fn is_rapid(&self, motion: &Motion) -> bool {
+        let fast = |limit: f64| {
+            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
+            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
+        };
+        // APT says it beside the motion, a machine's control in it.
+        let said = match self.program.language {
+            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
+            Language::Siemens => motion.speed.text == "G0",
+            Language::Heidenhain => motion.speed.text == "FMAX",
+            _ => false,
+        };
+        motion.kind == MotionKind::Joint
+            || motion.target.pose().is_none()
+            || said
+            || self.options.rapid_from_mm_per_s.is_some_and(fast)
+    }
+
     /// Whether the text of a target, or the rule for the turn about its axis, says how the tool stands.
     fn states_orientation(&self, motion: &Motion) -> bool {
         // Languages of machines state at most the axis.
@@ -377,24 +399,9 @@ impl Maker<'_> {
             Knowledge::Whole => (a, from),
             _ => (b, to),
         };
-        let fast = |limit: f64| {
-            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
-            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
-        };
-        // APT says it beside the motion, a machine's control in it.
-        let said = match self.program.language {
-            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
-            Language::Siemens => motion.speed.text == "G0",
-            Language::Heidenhain => motion.speed.text == "FMAX",
-            _ => false,
-        };
-        let rapid = motion.kind == MotionKind::Joint
-            || motion.target.pose().is_none()
-            || said
-            || self.options.rapid_from_mm_per_s.is_some_and(fast);
         Move {
             line: motion.line,
-            kind: match rapid {
+            kind: match self.is_rapid(motion) {
                 true => MoveKind::Rapid,
                 false => MoveKind::Feed,
             },

@@ -9,6 +9,7 @@
 )]
 
 mod apt;
+mod axes_alone;
 mod chance;
 mod fields;
 mod harness;

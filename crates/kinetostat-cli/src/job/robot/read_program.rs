@@ -78,7 +78,11 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 10] = [
+    (
+        "(`turn_about_axis`)",
+        "turn_about_axis = { tool = \"x\", part = [1, 0, 0] }",
+    ),
     (
         "as written by an option",
         "unknown_targets = \"left_as_written\"",
