@@ -78,6 +78,9 @@ impl Setting {
 
     /// The rotary axes of the machine, so that their words are read.
     pub(crate) fn turned_by(&mut self, rotary: Option<Arc<RotaryAxes>>) {
+        if let Some(robot) = &mut self.robot {
+            robot.settings.making.rotary.clone_from(&rotary);
+        }
         self.reading.rotary = rotary;
     }
 

@@ -5,6 +5,7 @@
 //! it does: another turn is another posture. So a rule says it, for every pose of the program, from the numbers of the text alone:
 //! what was written is read again by the same rule.
 
+use kinetostat_program::RotaryAxes;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::model::motion::Motion;
@@ -175,6 +176,42 @@ pub(crate) fn axis_turns(
     }
     match faults.is_empty() {
         true => Ok(turns),
+        false => Err(faults),
+    }
+}
+
+/// The angles of a machine's rotary axes at the end of every motion, deg; those of before where a motion states no axis.
+///
+/// Of the angles that point the tool along the axis, those nearest to the ones before; at first, to zero.
+pub(crate) fn rotary_angles(
+    program: &RobotProgram,
+    rotary: &RotaryAxes,
+) -> Result<Vec<Vec<f64>>, Vec<PathError>> {
+    let mut faults = Vec::new();
+    let mut last = vec![0.0; rotary.axes.len()];
+    let mut all = Vec::with_capacity(program.motions.len());
+    for motion in &program.motions {
+        let Some(axis) = axis_of(program, motion) else {
+            all.push(last.clone());
+            continue;
+        };
+        match rotary.angles_towards(&axis, &last) {
+            Some(angles) => last = angles,
+            None => faults.push(PathError {
+                file: program.files[motion.file].name().to_owned(),
+                line: motion.line,
+                reason: format!(
+                    "the rotary axes of the machine do not point the tool along ({:.4}, {:.4}, {:.4})",
+                    axis.x, axis.y, axis.z
+                ),
+                remedy: "check directions and words of the axes in the model ([[rotary_axis]]), and which axes the part has"
+                    .to_owned(),
+            }),
+        }
+        all.push(last.clone());
+    }
+    match faults.is_empty() {
+        true => Ok(all),
         false => Err(faults),
     }
 }

@@ -1,17 +1,21 @@
 //! From the motions of a program to a path.
 
+use std::sync::Arc;
+
 use kinetostat_program::{
-    CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
+    CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, RotaryAxes,
+    RotaryTurn, ToolTurn, Warning,
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
+use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
-use crate::path::axis_turns::{TurnAboutAxis, axis_turns, first_leaning};
+use crate::path::axis_turns::{TurnAboutAxis, axis_turns, first_leaning, rotary_angles};
 use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
@@ -157,17 +161,37 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         options,
         in_base: !one,
         turns: None,
+        rotary: None,
+        tool_axis: options.tool_axis,
     };
     let leaning = first_leaning(program);
     if leaning.is_some() {
         let rule = (options.turn_about_axis, options.tool_axis);
-        let is_rapid = |motion: &Motion| maker.is_rapid(motion);
-        let turns = axis_turns(program, rule, |motion| maker.frame(motion), is_rapid)?;
-        maker.turns = Some(turns);
+        match &options.rotary {
+            Some(rotary) => {
+                if let (false, Some(motion)) = (one, leaning) {
+                    return Err(vec![fault(
+                        motion,
+                        "the tool leans on rotary axes of the machine, and the program has several work objects".to_owned(),
+                        "write one program for each work object",
+                    )]);
+                }
+                maker.rotary = Some((Arc::clone(rotary), rotary_angles(program, rotary)?));
+                maker.tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
+            }
+            None => {
+                let is_rapid = |motion: &Motion| maker.is_rapid(motion);
+                let frame = |motion: &Motion| maker.frame(motion);
+                maker.turns = Some(axis_turns(program, rule, frame, is_rapid)?);
+            }
+        }
     }
     let mut made = maker.path();
     made.warnings
         .extend(leaning.map(|motion| by_rule(motion, options)));
+    if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
+        made.spindle_changes = spindle_changes(file);
+    }
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);
     }
@@ -195,6 +219,10 @@ struct Maker<'a> {
     in_base: bool,
     /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
     turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
+    /// Where the rotary axes of the machine stand there, deg, instead.
+    rotary: Option<(Arc<RotaryAxes>, Vec<Vec<f64>>)>,
+    /// From the tip to the holder, in axes of the tool.
+    tool_axis: Vector3<f64>,
 }
 
 impl Maker<'_> {
@@ -296,7 +324,7 @@ impl Maker<'_> {
                 text: finding.message.clone(),
             });
         }
-        let mut path = Path::of_moves(moves, self.options.tool_axis);
+        let mut path = Path::of_moves(moves, self.tool_axis);
         path.warnings = warnings;
         path
     }
@@ -408,10 +436,23 @@ impl Maker<'_> {
             curve,
             start: a,
             end: b,
-            tool_turn: self.states_orientation(motion).then(|| {
-                let start = nearest(from.rotation, &to.rotation);
-                Box::new(ToolTurn::shortest(start, to.rotation))
-            }),
+            tool_turn: match &self.rotary {
+                Some((axes, angles)) => {
+                    let before = match known {
+                        Knowledge::Whole => index.saturating_sub(1),
+                        _ => index,
+                    };
+                    Some(Box::new(ToolTurn::rotary(RotaryTurn {
+                        axes: Arc::clone(axes),
+                        start_deg: angles[before].clone(),
+                        end_deg: angles[index].clone(),
+                    })))
+                }
+                None => self.states_orientation(motion).then(|| {
+                    let start = nearest(from.rotation, &to.rotation);
+                    Box::new(ToolTurn::shortest(start, to.rotation))
+                }),
+            },
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {
                 mode: FeedMode::PerMinute,
@@ -432,13 +473,14 @@ impl Maker<'_> {
 /// By which rule the tool is turned about its axis, at the first motion where that matters.
 fn by_rule(motion: &Motion, options: &PathOptions) -> Warning {
     let rule = match options.turn_about_axis {
-        TurnAboutAxis::Least => "as little as possible from pose to pose",
-        TurnAboutAxis::Towards { .. } => "towards the direction that is stated",
+        _ if options.rotary.is_some() => "with the rotary axes of the machine",
+        TurnAboutAxis::Least => "as little as possible from pose to pose (`turn_about_axis`)",
+        TurnAboutAxis::Towards { .. } => "towards the direction that is stated (`turn_about_axis`)",
     };
     Warning {
         line: motion.line,
         text: format!(
-            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule} (`turn_about_axis`)"
+            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
         ),
     }
 }

@@ -1,5 +1,8 @@
 //! What the caller states of the path of a robot's program.
 
+use std::sync::Arc;
+
+use kinetostat_program::RotaryAxes;
 use nalgebra::Vector3;
 
 use crate::path::axis_turns::TurnAboutAxis;
@@ -23,6 +26,9 @@ pub struct PathOptions {
     pub tool_axis: Vector3<f64>,
     /// How the tool is turned about its axis where the program states the axis alone.
     pub turn_about_axis: TurnAboutAxis,
+    /// Rotary axes of the machine, in axes of the program's work object: where a program states the tool's axis alone they point the
+    /// tool along it, and turn evenly with the way between two poses. They say how the tool is turned about its axis, too.
+    pub rotary: Option<Arc<RotaryAxes>>,
 }
 
 impl Default for PathOptions {
@@ -31,6 +37,7 @@ impl Default for PathOptions {
             rapid_from_mm_per_s: None,
             tool_axis: -Vector3::z(),
             turn_about_axis: TurnAboutAxis::Least,
+            rotary: None,
         }
     }
 }

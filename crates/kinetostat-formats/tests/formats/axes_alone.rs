@@ -310,3 +310,124 @@ fn real_files_that_lean_are_corrected() {
     );
     assert!(all.is_empty() || done.len() >= 6, "{done:?}");
 }
+
+/// Machines of five axes: the angles that made the directions come back, for each arrangement of heads and tables.
+#[test]
+fn rotary_axes_of_a_machine_are_turned_to_the_axis() {
+    use kinetostat_program::{Carries, RotaryAxes, RotaryAxis};
+    use nalgebra::{Unit, Vector3 as V};
+    let axis = |letter, carries, direction: V<f64>| RotaryAxis {
+        letter,
+        carries,
+        direction: Unit::new_normalize(direction),
+        point_mm: V::new(3.0, -8.0, 20.0),
+    };
+    let (head, table) = (Carries::Tool, Carries::Part);
+    let upright = UnitQuaternion::identity();
+    let down = UnitQuaternion::from_axis_angle(&V::x_axis(), std::f64::consts::PI);
+    for (first, second, at_zero) in [
+        (axis('C', head, V::z()), axis('B', head, V::y()), upright),
+        (axis('A', head, V::x()), axis('C', table, -V::z()), down),
+        (axis('A', table, V::x()), axis('C', table, V::z()), down),
+        // A head whose axis is inclined by 45 degrees.
+        (
+            axis('C', head, V::z()),
+            axis('A', head, V::new(0.0, 1.0, 1.0)),
+            upright,
+        ),
+    ] {
+        let letters = [first.letter, second.letter];
+        let is_45 = second.direction.y > 0.5 && second.direction.z > 0.5;
+        let axes = RotaryAxes {
+            axes: vec![first, second],
+            tool_at_zero: at_zero,
+        };
+        let mut text = "UNITS/MM\nRAPID\nGOTO/0,0,50,0,0,1\nFEDRAT/600,MMPM\n".to_owned();
+        let mut angles = Vec::new();
+        for step in 1..60 {
+            let t = f64::from(step) * 0.1;
+            // The axis that leans the tool does not come back to zero.
+            let (lean, around) = (25.0 + 15.0 * (0.7 * t).sin(), 130.0 * t - 40.0);
+            let both = match letters {
+                ['C', _] => [around, lean],
+                _ => [lean, around],
+            };
+            // Of the tool: turned by hand, rotations one after the other.
+            let turn = |index: usize| {
+                let axis = &axes.axes[index];
+                UnitQuaternion::from_axis_angle(&axis.direction, both[index].to_radians())
+            };
+            let carried = |carries| {
+                (0..2).fold(UnitQuaternion::identity(), |all, index| {
+                    match axes.axes[index].carries == carries {
+                        true => all * turn(index),
+                        false => all,
+                    }
+                })
+            };
+            let direction = carried(table).inverse() * (carried(head) * V::z());
+            text += &format!(
+                "GOTO/{step},0,0,{:.12},{:.12},{:.12}\n",
+                direction.x, direction.y, direction.z
+            );
+            angles.push(both);
+        }
+        let mut making = PathOptions::default();
+        making.rotary = Some(axes.into());
+        let program = apt(&text);
+        let robot = path_of(&program, &making).unwrap();
+        for (index, wanted) in angles.iter().enumerate() {
+            let motion = &robot.path.moves[index + 1];
+            let turn = motion.tool_turn.as_ref().unwrap().rotary.as_ref().unwrap();
+            // From zero it may begin the other way round; from there on it goes on.
+            let away = |a: f64, b: f64| (a - b).abs();
+            let first = &robot.path.moves[1].tool_turn.as_ref().unwrap().rotary;
+            let begun = &first.as_ref().unwrap().end_deg;
+            let same_way = (0..2).all(|i| away(begun[i], angles[0][i]) < 1e-6);
+            if same_way {
+                let all = (0..2).all(|i| away(turn.end_deg[i], wanted[i]) < 1e-6);
+                assert!(all, "{letters:?} {index}: {:?} {wanted:?}", turn.end_deg);
+            }
+            let before = &turn.start_deg;
+            let steps = (0..2).map(|i| away(turn.end_deg[i], before[i]));
+            assert!(
+                index == 0 || steps.into_iter().all(|step| step < 40.0),
+                "{index}"
+            );
+            let axis = robot.path.tool_direction(index + 1, 1.0);
+            let stated = program.motions[index + 1]
+                .target
+                .pose()
+                .unwrap()
+                .orientation
+                * V::z();
+            assert!((axis - stated).norm() < 1e-9, "{letters:?} {index}");
+        }
+        // Corrected and read again with the same axes.
+        let reading = ReadOptions::default();
+        let correctable = Correctable {
+            program: &program,
+            path: &robot,
+            reading: &reading,
+            making: &making,
+            writing: &WriteOptions::default(),
+        };
+        let mut writing = PathWriteOptions::default();
+        writing.header = None;
+        let written = correctable
+            .write(&Bending(0.0), &writing, &Unwatched)
+            .unwrap();
+        correctable.verify(&written, &writing).unwrap();
+        // A direction that the machine does not reach is told by line.
+        if is_45 {
+            let far = apt("UNITS/MM\nGOTO/0,0,0,0,0,1\nGOTO/1,0,0,0,0.1,-0.994987437\n");
+            let faults = path_of(&far, &making).unwrap_err();
+            assert!(
+                faults[0]
+                    .to_string()
+                    .contains("line 3: the rotary axes of the machine do not point"),
+                "{faults:?}"
+            );
+        }
+    }
+}
