@@ -39,7 +39,7 @@ pub(crate) fn ends_of(
 ) -> Vec<Range<usize>> {
     let count = match ends {
         Ends::Circular => 2,
-        Ends::Joint | Ends::Linear => 1,
+        Ends::Joint | Ends::Linear | Ends::Step => 1,
     };
     let mut found = Vec::with_capacity(count);
     let mut start = tokens.start + 1;

@@ -7,6 +7,7 @@ mod order;
 mod pieces;
 mod properties;
 mod random;
+mod segments;
 mod zero_change;
 
 use kinetostat_formats::*;
