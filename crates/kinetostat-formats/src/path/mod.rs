@@ -10,5 +10,6 @@ pub(crate) mod fault;
 pub(crate) mod header;
 pub(crate) mod of_program;
 pub(crate) mod options;
+pub(crate) mod path_warnings;
 pub(crate) mod read_again;
 pub(crate) mod tools;

@@ -15,17 +15,12 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
-use crate::path::axis_turns::{TurnAboutAxis, axis_turns, first_leaning, rotary_angles};
+use crate::path::axis_turns::{axis_turns, first_leaning, rotary_angles};
 use crate::path::circle::{about, through};
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
+use crate::path::path_warnings::{by_rule, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
-
-/// So many places say whether a program is small, ...
-const SEVERAL: usize = 8;
-
-/// ... as one of 3 m in metres is where its lengths are taken for millimetres.
-const METRES_AS_MM: f64 = 3.0;
 
 /// The path of a robot's program, and in which axes it is.
 ///
@@ -187,8 +182,11 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         }
     }
     let mut made = maker.path();
-    made.warnings
-        .extend(leaning.map(|motion| by_rule(motion, options)));
+    made.warnings.extend(
+        leaning
+            .iter()
+            .flat_map(|motion| by_rule(program, motion, options)),
+    );
     if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
         made.spindle_changes = spindle_changes(file);
     }
@@ -271,59 +269,13 @@ impl Maker<'_> {
             moves.push(made);
         }
         warnings.dedup_by(|b, a| a.text == b.text);
-        let begins =
-            |motion: &&Move| motion.known == Knowledge::End && motion.kind == MoveKind::Feed;
-        if let Some(first) = moves.iter().find(begins) {
-            warnings.push(Warning {
-                line: first.line,
-                text: format!(
-                    "where {} begins is not known, here first: behind another tool, behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
-                    match moves.iter().filter(begins).count() {
-                        1 => "1 motion at feed".to_owned(),
-                        n => format!("{n} motions at feed"),
-                    }
-                ),
-            });
-        }
-        if let Some(first) = moves.iter().find(|motion| motion.turns_in_place()) {
-            warnings.push(Warning {
-                line: first.line,
-                text: "the tool turns at one place, here first: it is corrected where it has turned, not on the way".to_owned(),
-            });
-        }
-        let slow = |motion: &&Motion| {
-            motion.kind != MotionKind::Joint
-                && motion.target.pose().is_some()
-                && motion.speed.mm_per_s.is_none()
-        };
-        let unknown = self.program.motions.iter().find(slow);
-        if let (Some(motion), Some(_)) = (unknown, self.options.rapid_from_mm_per_s) {
-            warnings.push(Warning {
-                line: motion.line,
-                text: format!(
-                    "the speed `{}` is not known, here first: such motions are taken to cut",
-                    motion.speed.text
-                ),
-            });
-        }
-        if let Some(line) = self.tiny() {
-            warnings.push(Warning {
-                line,
-                text: "all places of the program lie within 3 mm of each other: are its lengths in metres? They are taken for millimetres".to_owned(),
-            });
-        }
-        if self.in_base {
-            warnings.push(Warning {
-                line: 1,
-                text: "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned(),
-            });
-        }
-        for finding in &self.program.findings {
-            warnings.push(Warning {
-                line: finding.line,
-                text: finding.message.clone(),
-            });
-        }
+        let poses = |index: usize| self.end(index).map(|pose| pose.translation.vector);
+        warnings.extend(warnings_of(
+            (self.program, self.options),
+            &moves,
+            self.in_base,
+            poses,
+        ));
         let mut path = Path::of_moves(moves, self.tool_axis);
         path.warnings = warnings;
         path
@@ -368,23 +320,6 @@ impl Maker<'_> {
             TargetSite::Literal(text) => !unstated(text),
             _ => true,
         }
-    }
-
-    /// Line of the first of many places that lie as near to each other as those of a program in metres.
-    fn tiny(&self) -> Option<usize> {
-        let places = self.program.motions.iter().filter_map(|motion| {
-            let pose = self.pose(motion, &motion.target)?;
-            Some((motion.line, pose.translation.vector))
-        });
-        let (mut count, mut first) = (0, None);
-        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
-        for (line, place) in places {
-            count += 1;
-            first.get_or_insert(line);
-            (low, high) = (low.inf(&place), high.sup(&place));
-        }
-        let spread = (high - low).amax();
-        first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
     }
 
     fn made(&self, index: usize, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
@@ -467,21 +402,6 @@ impl Maker<'_> {
                 to_machine: [false; 3],
             },
         }
-    }
-}
-
-/// By which rule the tool is turned about its axis, at the first motion where that matters.
-fn by_rule(motion: &Motion, options: &PathOptions) -> Warning {
-    let rule = match options.turn_about_axis {
-        _ if options.rotary.is_some() => "with the rotary axes of the machine",
-        TurnAboutAxis::Least => "as little as possible from pose to pose (`turn_about_axis`)",
-        TurnAboutAxis::Towards { .. } => "towards the direction that is stated (`turn_about_axis`)",
-    };
-    Warning {
-        line: motion.line,
-        text: format!(
-            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
-        ),
     }
 }
 
