@@ -1,7 +1,7 @@
 //! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
 
 use kinetostat_program::{
-    Corrected, CorrectionField, Curve, MachineProgram, Monitor, Path, Plan, PlannedMove,
+    Corrected, CorrectionField, Curve, MachineProgram, Monitor, Move, Path, Plan, PlannedMove,
     Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenMove,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -162,8 +162,14 @@ impl Correctable<'_> {
         let mut written = Vec::with_capacity(plan.moves().len());
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
             let count = planned.pieces.len();
+            // Where rotary axes turn the tool, the angles of the program say how it stands: written directions have fewer digits.
+            let stands = |motion: &Move| {
+                let turn = motion.tool_turn.as_ref();
+                turn.is_none_or(|turn| turn.rotary.is_none())
+                    .then(|| motion.orientation(1.0))?
+            };
             let ends: Vec<_> = (moves.by_ref().take(count))
-                .map(|m| (m.end, m.orientation(1.0), m.line))
+                .map(|m| (m.end, stands(m), m.line))
                 .collect();
             if ends.len() != count {
                 return Err(broken(

@@ -70,6 +70,12 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
+    if settings.corrected == Directions::ALL && path.axis_alone && settings.making.rotary.is_some()
+    {
+        return Err(Failure::input(
+            "the rotary axes of the machine turn the tool, and they are not corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        ));
+    }
     Ok(RobotRead {
         program,
         path,
