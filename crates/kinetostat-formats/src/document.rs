@@ -10,7 +10,7 @@ use crate::heidenhain::expand::program::called as called_by_heidenhain;
 use crate::heidenhain::reading::reader::read_heidenhain;
 use crate::heidenhain::writing::write::write_heidenhain;
 use crate::krl::reader::read_krl;
-use crate::krl::write::KrlSyntax;
+use crate::krl::write::write_krl;
 use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};
@@ -143,7 +143,7 @@ pub fn write(
         Language::Rapid => write_with(program, pieces, options, &RapidSyntax),
         Language::FanucLs => write_ls(program, pieces, options),
         Language::Apt => write_apt(program, pieces, options),
-        Language::Krl => write_with(program, pieces, options, &KrlSyntax),
+        Language::Krl => write_krl(program, pieces, options),
         Language::Poses => write_poses(program, pieces, options),
         Language::Siemens => write_siemens(program, pieces, options),
         Language::Heidenhain => write_heidenhain(program, pieces, options),

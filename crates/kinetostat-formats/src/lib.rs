@@ -87,6 +87,7 @@ pub use options::{
     CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
     WriteOptions,
 };
+pub use path::axis_turns::TurnAboutAxis;
 pub use path::correctable::Correctable;
 pub use path::fault::PathError;
 pub use path::of_program::{RobotPath, path_of};

@@ -24,6 +24,8 @@ pub(crate) struct RobotTable {
     pub rapid_from_mm_per_s: Option<Spanned<f64>>,
     /// From the tool's tip to its holder, in axes of the tool.
     pub tool_axis: Option<Spanned<Axis>>,
+    /// How the tool is turned about its axis where the program states the axis alone; without it as little as possible.
+    pub turn_about_axis: Option<Spanned<TurnTable>>,
     /// Whether external axes may move.
     pub external_axes: Option<ExternalAxesWord>,
     /// What becomes of motions to ends that are not known from the text.
@@ -34,6 +36,16 @@ pub(crate) struct RobotTable {
     pub length_unit: Option<Spanned<LengthUnitWord>>,
     /// How the controller moves between the rows of a table of joint values.
     pub joint_rows: Option<Spanned<JointRowsWord>>,
+}
+
+/// A direction of the tool that lies at every pose as near as possible to one of the part.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TurnTable {
+    /// In axes of the tool's frame.
+    pub tool: Axis,
+    /// In axes of the part.
+    pub part: Axis,
 }
 
 /// Paths that the controller moves aside by the tool's radius.

@@ -20,6 +20,7 @@ use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::flat_text;
 use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
@@ -88,6 +89,12 @@ impl Setting {
 
     /// The rotary axes of the machine, so that their words are read.
     pub(crate) fn turned_by(&mut self, rotary: Option<Arc<RotaryAxes>>) {
+        if let Some(robot) = &mut self.robot {
+            robot.settings.making.rotary.clone_from(&rotary);
+            if rotary.is_some() {
+                robot.reading = Reading::new();
+            }
+        }
         self.reading.rotary = rotary;
     }
 

@@ -7,6 +7,7 @@ mod common;
 
 mod absurd;
 mod assemble;
+mod axes_alone;
 mod book;
 mod checks_under_load;
 mod commands;

@@ -12,6 +12,7 @@ pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod places;
 pub(crate) mod reader;
+pub(crate) mod spindle;
 pub(crate) mod state;
 pub(crate) mod table;
 pub(crate) mod write;

@@ -9,6 +9,7 @@ use crate::apt::dialect::Dialect;
 use crate::apt::lines::{Statement, statements_of};
 use crate::apt::numbers::{Argument, all_numbers, arguments_of};
 use crate::apt::places::{Frames, frame_use, pose_text, work_object};
+use crate::apt::spindle::spindle_of;
 use crate::apt::state::{State, feed_of, system_of, unit_of};
 use crate::apt::table::row;
 use crate::error::ProgramError;
@@ -169,7 +170,11 @@ impl Reader<'_, '_> {
             self.end_circle();
         }
         let understood = row(&word).is_some_and(|row| row.treatment == Treatment::Understood);
-        if understood && !statement.slash && !statement.arguments.is_empty() && word != b"TLON" {
+        if understood
+            && !statement.slash
+            && !statement.arguments.is_empty()
+            && !matches!(&word[..], b"TLON" | b"SPINDL")
+        {
             let remedy = "write it as WORD/arguments";
             self.state.place = None;
             return self.fault(span, "no slash stands behind the word", remedy);
@@ -181,9 +186,10 @@ impl Reader<'_, '_> {
             b"FROM" => self.from(statement),
             b"RAPID" => self.state.rapid = Some(span.clone()),
             b"FEDRAT" => match feed_of(self.file, statement, self.unit_mm) {
-                Some(feed) => self.state.feed = feed,
+                Some(feed) => (self.state.feed, self.state.mm_per_turn) = feed,
                 None => self.fault(span, "the feed has no number", "state it: FEDRAT/600,MMPM"),
             },
+            b"SPINDL" => self.state.spindle = spindle_of(self.file, statement, self.state.spindle),
             b"CIRCLE" => self.circle(statement),
             b"TLON" => {
                 let reason = "the end of the arc is where it meets a line, which is not computed";
@@ -463,6 +469,17 @@ impl Reader<'_, '_> {
         self.state.place = None;
     }
 
+    /// The feed in force; one by turns of the spindle is known while those are.
+    fn feed(&self) -> Speed {
+        let mut feed = self.state.feed.clone();
+        let turns = self.state.spindle.rpm().filter(|rpm| *rpm > 0.0);
+        let by_turns = self.state.mm_per_turn.zip(turns);
+        if let Some((mm_per_turn, rpm)) = by_turns {
+            feed.mm_per_s = Some(mm_per_turn * rpm / 60.0);
+        }
+        feed
+    }
+
     fn push(
         &mut self,
         statement: &Statement,
@@ -482,7 +499,7 @@ impl Reader<'_, '_> {
                 mm_per_s: None,
                 text: String::from_utf8_lossy(self.file.part(&span)).into_owned(),
             },
-            None => self.state.feed.clone(),
+            None => self.feed(),
         };
         let arc_lines = circle.map(|circle| {
             let fixed =

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use kinetostat_program::Spindle;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::apt::arc::Circle;
@@ -20,6 +21,9 @@ pub(crate) struct State {
     /// The motion that led there.
     pub last: Option<usize>,
     pub feed: Speed,
+    /// The feed counts by turns of the spindle, mm in one.
+    pub mm_per_turn: Option<f64>,
+    pub spindle: Spindle,
     /// Text of a RAPID that waits for its GOTO.
     pub rapid: Option<Range<usize>>,
     /// A CIRCLE that waits for its GOTO.
@@ -41,6 +45,8 @@ impl State {
                 mm_per_s: None,
                 text: String::new(),
             },
+            mm_per_turn: None,
+            spindle: Spindle::default(),
             rapid: None,
             circle: None,
             in_cycle: false,
@@ -80,27 +86,36 @@ pub(crate) fn unit_of(
     (unit, others)
 }
 
-/// The speed of a FEDRAT in a unit of so many mm; none where its text is not a feed.
-pub(crate) fn feed_of(file: &SourceFile, statement: &Statement, unit_mm: f64) -> Option<Speed> {
+/// The speed of a FEDRAT in a unit of so many mm, and where it counts by turns of the spindle, the way in one, mm; none where its text
+/// is not a feed.
+pub(crate) fn feed_of(
+    file: &SourceFile,
+    statement: &Statement,
+    unit_mm: f64,
+) -> Option<(Speed, Option<f64>)> {
     let arguments = arguments_of(file.bytes(), &statement.arguments);
     let mut value = None;
-    let mut per_minute = Some(unit_mm);
+    let (mut per_minute, mut per_turn) = (Some(unit_mm), None);
     for argument in &arguments {
         match argument {
             Argument::Number(number) => value = value.or(Some(number.value)),
             Argument::Word(word) => match file.part(word).to_ascii_uppercase().as_slice() {
                 b"MMPM" => per_minute = Some(1.0),
                 b"IPM" => per_minute = Some(25.4),
+                b"MMPR" => (per_minute, per_turn) = (None, Some(1.0)),
+                b"IPR" => (per_minute, per_turn) = (None, Some(25.4)),
+                b"PERREV" | b"FPR" => (per_minute, per_turn) = (None, Some(unit_mm)),
                 b"PERMIN" | b"FPM" | b"" => {}
-                // Per turn of the spindle, by time, or by the controller.
+                // By time, or by the controller.
                 _ => per_minute = None,
             },
         }
     }
     let text = String::from_utf8_lossy(file.part(&statement.span)).into_owned();
-    (!arguments.is_empty()).then(|| Speed {
-        mm_per_s: per_minute.and_then(|mm| Some(value? * mm / 60.0)),
-        text,
+    (!arguments.is_empty()).then(|| {
+        let mm_per_s = per_minute.and_then(|mm| Some(value? * mm / 60.0));
+        let mm_per_turn = per_turn.and_then(|mm| Some(value? * mm));
+        (Speed { mm_per_s, text }, mm_per_turn)
     })
 }
 

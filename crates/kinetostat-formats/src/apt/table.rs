@@ -78,7 +78,7 @@ pub const APT_STATEMENTS: &[StatementRow] = &[
     line("OPSKIP", Carried, ISO),
     line("REWIND", Carried, ISO),
     line("DELAY", Carried, ISO),
-    line("SPINDL", Carried, ISO),
+    line("SPINDL", Understood, ISO),
     line("COOLNT", Carried, ISO),
     line("SELECT", Carried, ISO),
     line("SELCTL", Carried, ISO),

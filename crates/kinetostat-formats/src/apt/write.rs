@@ -1,19 +1,24 @@
 //! What the writer must know of APT.
 //!
 //! A piece of a motion is a `GOTO` before it, with a `RAPID` behind where the motion has one: RAPID holds for the next
-//! `GOTO` alone. A divided arc loses its `CIRCLE`. A `GODLTA` whose end or start changes becomes a `GOTO`.
+//! `GOTO` alone. A divided arc loses its `CIRCLE`. A `GODLTA` whose end or start changes becomes a `GOTO`. A `GOTO` without an
+//! axis gets one where that is corrected, or the one before it is.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::{UnitQuaternion, Vector3};
+
 use crate::apt::lines::statements_of;
+use crate::apt::reader::read_apt;
 use crate::apt::state::unit_of;
 use crate::error::WriteError;
 use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::options::WriteOptions;
+use crate::options::{CutterCompensation, ReadOptions, UnknownTargets, WriteOptions};
 use crate::text::edits::Edits;
+use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
 use crate::writing::piece::Piece;
 use crate::writing::syntax::{PieceLiterals, Syntax};
@@ -27,6 +32,8 @@ pub(crate) fn write_apt(
     if pieces.is_empty() {
         return write_with(program, pieces, options, &AptSyntax);
     }
+    let own = with_own_axes(program, pieces);
+    let program = own.as_ref().unwrap_or(program);
     let units: Vec<f64> = program
         .files
         .iter()
@@ -95,6 +102,49 @@ const SAME_MM: f64 = 1e-6;
 /// Least change of an axis that is written, rad.
 const SAME_RAD: f64 = 1e-9;
 
+/// The program with the axis in force written into each GOTO that needs one of its own; none where no GOTO does.
+fn with_own_axes(program: &RobotProgram, pieces: &[Piece]) -> Option<RobotProgram> {
+    let wanted: BTreeMap<usize, Option<UnitQuaternion<f64>>> = (pieces.iter())
+        .map(|piece| (piece.motion, piece.orientation))
+        .collect();
+    let z = Vector3::z();
+    let mut edits: Vec<Edits> = program.files.iter().map(|_| Edits::default()).collect();
+    let mut needed = false;
+    // The axis behind the last motion, as written, and whether that is the text's own.
+    let mut turned = false;
+    for (index, motion) in program.motions.iter().enumerate() {
+        let (Some(pose), TargetSite::Literal(text)) = (motion.target.pose(), &motion.site.target)
+        else {
+            continue;
+        };
+        let own = pose.orientation * z;
+        let to = wanted.get(&index).copied().flatten();
+        let turns = to.is_some_and(|to| (to * z).angle(&own) > SAME_RAD);
+        let states = text.convention == OrientationText::Axis;
+        let word = program.files[motion.file].part(&motion.site.keyword);
+        if !states && (turns || turned) && word.eq_ignore_ascii_case(b"GOTO") {
+            let axis = format!(",{:.7},{:.7},{:.7}", own.x, own.y, own.z);
+            edits[motion.file].replace(text.whole.end..text.whole.end, axis);
+            needed = true;
+        }
+        turned = turns;
+    }
+    if !needed {
+        return None;
+    }
+    let files = program.files.iter().zip(edits).map(|(file, edits)| {
+        let bytes = edits.applied_to(file.bytes())?;
+        Some(SourceFile::new(file.name(), bytes))
+    });
+    let reading = ReadOptions {
+        unknown_targets: UnknownTargets::LeftAsWritten,
+        cutter_compensation: CutterCompensation::CentrePath,
+        ..ReadOptions::default()
+    };
+    let again = read_apt(files.collect::<Option<Vec<_>>>()?, &reading).ok()?;
+    (again.motions.len() == program.motions.len()).then_some(again)
+}
+
 /// Checks that no GOTO without an axis of its own gets another: the axis holds until the next one.
 fn axes(program: &RobotProgram, ends: &BTreeMap<usize, &Piece>) -> Result<(), WriteError> {
     let mut turned: Option<usize> = None;
@@ -117,7 +167,7 @@ fn axes(program: &RobotProgram, ends: &BTreeMap<usize, &Piece>) -> Result<(), Wr
         let (Some(wanted), Some(pose)) = (wanted, motion.target.pose()) else {
             continue;
         };
-        let z = nalgebra::Vector3::z_axis();
+        let z = Vector3::z_axis();
         let differs = (wanted * z).angle(&(pose.orientation * z)) > SAME_RAD;
         match (differs, own) {
             (true, true) => turned = Some(motion.file),

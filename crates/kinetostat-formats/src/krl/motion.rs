@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::krl::aggregate::position_of;
 use crate::krl::lex::TokenFile;
 use crate::krl::settings::Setter;
 use crate::krl::state::{Settings, State, Thing};
@@ -12,7 +15,7 @@ use crate::krl::values::{Reason, Values};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, TargetSite};
-use crate::model::target::Target;
+use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::UnknownTargets;
 
 /// A motion that waits for what was in force before it.
@@ -25,6 +28,8 @@ pub(crate) struct Followed {
     pub rounding: Option<Thing>,
     /// Its own WITH states the speed.
     pub own_speed: bool,
+    /// By how much its end is off the pose before, in the axes of the base, mm.
+    pub step_mm: Option<Vector3<f64>>,
     /// Members that its end leaves open, and those of the pose on its circle.
     pub open: Option<[Option<f64>; 6]>,
     pub via_open: Option<[Option<f64>; 6]>,
@@ -140,30 +145,35 @@ pub(crate) fn follow(
         ));
     }
     let mut behind = end_tokens.end;
+    // In whose axes a step is: those of the base without a word.
+    if row.ends == Ends::Step && file.is(behind, b'#') {
+        if !file.name(behind + 1).is_some_and(|name| name.is("BASE")) {
+            return Err((
+                "its steps are in the axes of the tool".to_owned(),
+                "write the end with LIN and all its numbers",
+            ));
+        }
+        behind += 2;
+    }
     if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
         behind += 1;
     }
     let rest = rest_of(file, behind..tokens.end)?;
     let speed_before = state.get(Thing::Speed);
-    let mut start = rest.with.start;
-    while start < rest.with.end {
-        let end = file
-            .find(start..rest.with.end, b',')
-            .unwrap_or(rest.with.end);
-        if let Some(equals) = file.assign(&(start..end)) {
-            let mut setter = Setter {
-                values,
-                settings,
-                routine,
-            };
-            setter.assign(&(start..end), equals, &mut state)?;
-        }
-        start = end + 1;
-    }
+    with((values, settings, routine), &rest.with, &mut state)?;
     let own_speed = state.get(Thing::Speed) != speed_before;
-    let end = left(targets.find(values, routine, &end_tokens), unknown)?;
+    let (step_mm, end) = match row.ends {
+        Ends::Step => {
+            let step = step_of(file, &end_tokens)?;
+            (Some(step), by_step())
+        }
+        _ => {
+            let found = targets.find(values, routine, &end_tokens);
+            (None, left(found, unknown)?)
+        }
+    };
     let (kind, via, via_open) = match row.ends {
-        Ends::Linear => (MotionKind::Linear, None, None),
+        Ends::Linear | Ends::Step => (MotionKind::Linear, None, None),
         Ends::Joint => (MotionKind::Joint, None, None),
         Ends::Circular => {
             let via = left(targets.find(values, routine, &ends[0]), unknown)?;
@@ -212,9 +222,65 @@ pub(crate) fn follow(
         state,
         rounding: rest.rounding,
         own_speed,
+        step_mm,
         open: end.open,
         via_open,
     })
+}
+
+/// Takes what WITH puts in force.
+pub(crate) fn with(
+    (values, settings, routine): (&Values<'_>, &mut Settings, usize),
+    tokens: &Range<usize>,
+    state: &mut State,
+) -> Result<(), Reason> {
+    let file = values.file(routine);
+    let mut start = tokens.start;
+    while start < tokens.end {
+        let end = file.find(start..tokens.end, b',').unwrap_or(tokens.end);
+        if let Some(equals) = file.assign(&(start..end)) {
+            let mut setter = Setter {
+                values,
+                settings,
+                routine,
+            };
+            setter.assign(&(start..end), equals, state)?;
+        }
+        start = end + 1;
+    }
+    Ok(())
+}
+
+/// `{X 10,Z -5}`: a step along the axes of the base that turns nothing.
+fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vector3<f64>, Reason> {
+    let remedy = "write the end with LIN and all its numbers";
+    let position =
+        position_of(file, tokens).map_err(|reason| (format!("its step: {reason}"), remedy))?;
+    let values = position.values().map(Option::unwrap_or_default);
+    let turns = values[3..].iter().any(|angle| *angle != 0.0);
+    let moves_others = position.external.iter().flatten().any(|step| *step != 0.0)
+        || position.axes.iter().any(Option::is_some);
+    match turns || moves_others {
+        true => Err((
+            "it goes on from where the tool is, and turns it or moves axes".to_owned(),
+            remedy,
+        )),
+        false => Ok(Vector3::new(values[0], values[1], values[2])),
+    }
+}
+
+/// The end of a step before the pose that it goes on from is known.
+fn by_step() -> End {
+    End {
+        target: Target::Pose(PoseTarget {
+            position_mm: Vector3::zeros(),
+            orientation: UnitQuaternion::identity(),
+            configuration: Configuration::default(),
+            external: Vec::new(),
+        }),
+        site: TargetSite::Fixed("it goes on from where the tool is"),
+        open: None,
+    }
 }
 
 /// A frame that nothing before it sets.

@@ -79,6 +79,7 @@ impl Resolver<'_, '_> {
             mut motion,
             rounding,
             own_speed,
+            step_mm,
             open,
             via_open,
             ..
@@ -115,6 +116,25 @@ impl Resolver<'_, '_> {
             .follows
             .and_then(|index| self.before(index, &motion).cloned());
         let mut fault = None;
+        if let (Some(step_mm), Target::Pose(pose)) = (step_mm, &mut motion.target) {
+            match (&before, self.unknown) {
+                (Some(before), _) => {
+                    *pose = before.clone();
+                    pose.position_mm += step_mm;
+                }
+                (None, UnknownTargets::LeftAsWritten) => {
+                    motion.target = Target::Unknown {
+                        reason: STEP.to_owned(),
+                    }
+                }
+                (None, UnknownTargets::Refused) => {
+                    fault = Some((
+                        STEP.to_owned(),
+                        "write the end with LIN and all its numbers",
+                    ));
+                }
+            }
+        }
         let mut fill = |target: &mut Target, open: Option<[Option<f64>; 6]>| {
             let (Some(open), Target::Pose(pose)) = (open, &mut *target) else {
                 return;
@@ -196,6 +216,9 @@ impl Resolver<'_, '_> {
 }
 
 const OPEN: &str = "it states only some of X, Y, Z, A, B, C, and the pose before it is not known from the text in these axes";
+
+const STEP: &str =
+    "it goes on from where the tool is, and that is not known from the text in these axes";
 
 /// Names of frames that are not known, each once.
 pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {

@@ -15,8 +15,12 @@ const AT_RUN_TIME: Treatment = Refused {
     remedy: "take this statement into a program of its own",
 };
 const SPLINE: Treatment = Refused {
-    reason: "the way between the points of a spline block depends on all of them",
-    remedy: "write it as LIN and CIRC, or take the block into a program of its own",
+    reason: "the way between the points of a spline depends on all of them",
+    remedy: "write the block with SLIN and SCIRC, with points as near to each other as the way needs, or take it into a program of its own",
+};
+const TIMES: Treatment = Refused {
+    reason: "it shares out the time of a spline block, and the speed along the part with it",
+    remedy: "state the speed of the segments (WITH $VEL.CP), or take the block into a program of its own",
 };
 const RELATIVE: Treatment = Refused {
     reason: "it goes on from where the tool is",
@@ -37,6 +41,8 @@ pub(crate) enum Ends {
     Joint,
     Linear,
     Circular,
+    /// By steps from where the tool is.
+    Step,
 }
 
 /// A motion that is understood.
@@ -74,12 +80,14 @@ const fn motion(
 }
 
 /// All motions that are understood.
-pub(crate) const MOTIONS: [MotionRow; 6] = [
+pub(crate) const MOTIONS: [MotionRow; 8] = [
     motion("PTP", Ends::Joint, None, "C_PTP", EXPERT),
     motion("LIN", Ends::Linear, Some("LIN"), "C_DIS", EXPERT),
     motion("CIRC", Ends::Circular, Some("LIN"), "C_DIS", EXPERT),
+    motion("LIN_REL", Ends::Step, Some("LIN"), "C_DIS", EXPERT),
     motion("SPTP", Ends::Joint, None, "C_SPL", KSS),
     motion("SLIN", Ends::Linear, Some("SLIN"), "C_SPL", KSS),
+    motion("SLIN_REL", Ends::Step, Some("SLIN"), "C_SPL", KSS),
     motion("SCIRC", Ends::Circular, Some("SLIN"), "C_SPL", KSS),
 ];
 
@@ -127,7 +135,7 @@ const fn sorted() -> [StatementRow; COUNT] {
 }
 
 #[rustfmt::skip]
-const OTHERS: [StatementRow; 125] = [
+const OTHERS: [StatementRow; 124] = [
     line("DEF", Understood, EXPERT),
     line("DEFFCT", Understood, EXPERT),
     line("DEFDAT", Understood, EXPERT),
@@ -181,15 +189,14 @@ const OTHERS: [StatementRow; 125] = [
     }, EXPERT),
     line("BRAKE", BRAKES, EXPERT),
     line("PTP_REL", RELATIVE, EXPERT),
-    line("LIN_REL", RELATIVE, EXPERT),
     line("CIRC_REL", RELATIVE, EXPERT),
     line("SPTP_REL", RELATIVE, KSS),
-    line("SLIN_REL", RELATIVE, KSS),
     line("SCIRC_REL", RELATIVE, KSS),
-    line("SPLINE", SPLINE, KSS),
+    line("SPLINE", Understood, KSS),
+    line("ENDSPLINE", Understood, KSS),
     line("PTP_SPLINE", SPLINE, KSS),
     line("SPL", SPLINE, KSS),
-    line("TIME_BLOCK", SPLINE, KSS),
+    line("TIME_BLOCK", TIMES, KSS),
     line("CONST_VEL", Carried, KSS),
     line("STOP", Carried, KSS),
     line("ASYPTP", ASYNCHRONOUS, KSS),

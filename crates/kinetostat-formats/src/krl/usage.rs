@@ -39,7 +39,7 @@ pub(crate) fn ends_of(
 ) -> Vec<Range<usize>> {
     let count = match ends {
         Ends::Circular => 2,
-        Ends::Joint | Ends::Linear => 1,
+        Ends::Joint | Ends::Linear | Ends::Step => 1,
     };
     let mut found = Vec::with_capacity(count);
     let mut start = tokens.start + 1;
@@ -51,6 +51,8 @@ pub(crate) fn ends_of(
                 Kind::Symbol(b'{' | b'[' | b'(') => open += 1,
                 Kind::Symbol(b'}' | b']' | b')') => open = open.saturating_sub(1),
                 Kind::Symbol(b',') if open == 0 => break,
+                // In whose axes a step is: #BASE, #TOOL.
+                Kind::Symbol(b'#') if open == 0 && at > start => break,
                 // A word behind a whole value begins what is behind the end: C_DIS, WITH.
                 Kind::Word
                     if open == 0

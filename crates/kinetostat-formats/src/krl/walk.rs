@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::error::{ProgramError, excerpt, note};
 use crate::krl::calls::{Call, Summary};
 use crate::krl::lex::TokenFile;
-use crate::krl::motion::{Followed, Statement as MotionStatement, follow};
+use crate::krl::motion::{Followed, Statement as MotionStatement, follow, with};
 use crate::krl::settings::Setter;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
 use crate::krl::table::{MotionRow, OPERATORS, motion_row, row};
@@ -16,7 +16,7 @@ use crate::krl::targets::Targets;
 use crate::krl::touched::Touched;
 use crate::krl::tree::{Least, Statement};
 use crate::krl::values::{Reason, Values};
-use crate::model::motion::Runs;
+use crate::model::motion::{Runs, Zone};
 use crate::model::program::Finding;
 use crate::options::UnknownTargets;
 use crate::table::Treatment;
@@ -33,6 +33,8 @@ struct Now {
     runs: Runs,
     /// Where a RETURN left it.
     left: Option<State>,
+    /// What was in force before the spline block that is open.
+    spline: Option<State>,
     depth: usize,
 }
 
@@ -76,6 +78,7 @@ impl<'w, 'p> Walker<'w, 'p> {
                 routine: 0,
                 runs: Runs::Once,
                 left: None,
+                spline: None,
                 depth: 0,
             },
         }
@@ -105,6 +108,7 @@ impl<'w, 'p> Walker<'w, 'p> {
             routine: index,
             runs,
             left: None,
+            spline: None,
             depth,
         };
         let outer = std::mem::replace(&mut self.now, now);
@@ -208,6 +212,9 @@ impl<'w, 'p> Walker<'w, 'p> {
         if let Some(row) = motion_row(&name) {
             return self.motion(row, &tokens, state);
         }
+        if name.is("SPLINE") || name.is("ENDSPLINE") {
+            return self.spline(&tokens, state);
+        }
         if name.letters().starts_with(b"EXT") && row(&name).is_some() {
             return state;
         }
@@ -259,8 +266,60 @@ impl<'w, 'p> Walker<'w, 'p> {
         }
     }
 
+    /// `SPLINE WITH $VEL.CP=0.2` and `ENDSPLINE C_SPL`: what the first puts in force, the second takes back.
+    fn spline(&mut self, tokens: &Range<usize>, mut state: State) -> State {
+        let file = self.file();
+        let begins = file
+            .name(tokens.start)
+            .is_some_and(|name| name.is("SPLINE"));
+        match (begins, self.now.spline.take()) {
+            (true, None) => {
+                self.now.spline = Some(state);
+                let is_with = file
+                    .name(tokens.start + 1)
+                    .is_some_and(|name| name.is("WITH"));
+                if is_with && tokens.len() > 1 {
+                    let routine = self.now.routine;
+                    let to = (self.values, &mut self.settings, routine);
+                    if let Err(reason) = with(to, &(tokens.start + 2..tokens.end), &mut state) {
+                        self.refuse(tokens, reason);
+                    }
+                }
+                state
+            }
+            (false, Some(mut before)) => {
+                before.set(Thing::Place, state.get(Thing::Place));
+                before
+            }
+            (_, open) => {
+                self.now.spline = open;
+                let reason = "a spline block begins in another one, or ends without a beginning";
+                self.refuse(
+                    tokens,
+                    (
+                        reason.to_owned(),
+                        "write SPLINE, its segments, and ENDSPLINE",
+                    ),
+                );
+                state
+            }
+        }
+    }
+
     fn motion(&mut self, row: &'static MotionRow, tokens: &Range<usize>, state: State) -> State {
         let mut state = self.functions(tokens.start + 1..tokens.end, state);
+        let in_spline = self.now.spline.is_some();
+        if in_spline && !matches!(row.name, "SLIN" | "SCIRC") {
+            self.refuse(
+                tokens,
+                (
+                    "it is no segment of a spline block".to_owned(),
+                    "write SLIN or SCIRC, or write it behind ENDSPLINE",
+                ),
+            );
+            state.set(Thing::Place, Slot::Unknown);
+            return state;
+        }
         let statement = MotionStatement {
             row,
             routine: self.now.routine,
@@ -277,6 +336,13 @@ impl<'w, 'p> Walker<'w, 'p> {
         match followed {
             Ok(mut followed) => {
                 followed.motion.runs = self.now.runs;
+                if in_spline {
+                    // Segments pass their ends, and only their own WITH states a speed.
+                    followed.own_speed = true;
+                    if followed.motion.zone == Zone::Exact {
+                        followed.motion.zone = Zone::Unstated;
+                    }
+                }
                 self.motions.push(followed);
                 state.set(Thing::Place, Slot::Is(self.motions.len() - 1));
             }

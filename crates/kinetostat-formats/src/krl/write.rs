@@ -3,21 +3,89 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::error::WriteError;
 use crate::krl::folds::folds_of;
 use crate::krl::lex::{Kind, Line, TokenFile};
-use crate::krl::table::{MotionRow, motion_row};
+use crate::krl::reader::read_krl;
+use crate::krl::table::{Ends, MotionRow, motion_row};
 use crate::model::motion::{Motion, Zone};
+use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
-use crate::options::{ExactStops, WriteOptions};
+use crate::options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
+use crate::text::source::SourceFile;
+use crate::writing::motions::write_with;
+use crate::writing::piece::Piece;
 use crate::writing::syntax::{PieceLiterals, Renamed, Syntax};
 
 /// Most characters of a name.
 const LONGEST: usize = 24;
 
 /// KRL.
-pub(crate) struct KrlSyntax;
+struct KrlSyntax;
+
+/// The files of a program with pieces in place of its motions.
+pub(crate) fn write_krl(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    let stated = with_stated_ends(program, pieces);
+    write_with(
+        stated.as_ref().unwrap_or(program),
+        pieces,
+        options,
+        &KrlSyntax,
+    )
+}
+
+/// The program with the ends of those steps (`LIN_REL`) stated that are corrected, or that go on from what is; none where no step is.
+fn with_stated_ends(program: &RobotProgram, pieces: &[Piece]) -> Option<RobotProgram> {
+    let changed: BTreeSet<usize> = pieces.iter().map(|piece| piece.motion).collect();
+    let mut edits: Vec<Edits> = program.files.iter().map(|_| Edits::default()).collect();
+    let mut needed = false;
+    for (index, motion) in program.motions.iter().enumerate() {
+        let row = row_of(program, motion).filter(|row| row.ends == Ends::Step);
+        let from = motion.follows.is_some_and(|from| changed.contains(&from));
+        let (Some(row), Some(pose), true) =
+            (row, motion.target.pose(), from || changed.contains(&index))
+        else {
+            continue;
+        };
+        let [x, y, z] = pose.position_mm.into();
+        let angles = OrientationText::Abc.numbers_of(&pose.orientation, &[0.0; 3]);
+        let [a, b, c] = [0, 1, 2].map(|index| angles.get(index).copied().unwrap_or_default());
+        let end = format!("{{X {x:.6},Y {y:.6},Z {z:.6},A {a:.8},B {b:.8},C {c:.8}}}");
+        let edits = &mut edits[motion.file];
+        edits.replace(motion.site.keyword.clone(), row.straight.unwrap_or("LIN"));
+        let file = &program.files[motion.file];
+        let behind = file.part(&(motion.site.target_span.end..motion.span.end));
+        // In whose axes the step was.
+        let blanks = behind.len() - behind.trim_ascii_start().len();
+        let word = match behind.trim_ascii_start().starts_with(b"#") {
+            true => blanks + "#BASE".len(),
+            false => 0,
+        };
+        let span = motion.site.target_span.start..motion.site.target_span.end + word;
+        edits.replace(span, end);
+        needed = true;
+    }
+    if !needed {
+        return None;
+    }
+    let files = program.files.iter().zip(edits).map(|(file, edits)| {
+        let bytes = edits.applied_to(file.bytes())?;
+        Some(SourceFile::new(file.name(), bytes))
+    });
+    let reading = ReadOptions {
+        unknown_targets: UnknownTargets::LeftAsWritten,
+        external_axes: ExternalAxes::Carried,
+        ..ReadOptions::default()
+    };
+    let again = read_krl(files.collect::<Option<Vec<_>>>()?, &reading).ok()?;
+    (again.motions.len() == program.motions.len()).then_some(again)
+}
 
 /// The row of the word with which a motion begins.
 fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow> {

@@ -1,15 +1,16 @@
 //! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
 
 use kinetostat_program::{
-    Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Path, Plan, PlannedMove,
-    Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions, WrittenEnd,
-    WrittenMove,
+    Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Move, Path, Plan,
+    PlannedMove, Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions,
+    WrittenEnd, WrittenMove,
 };
-use nalgebra::{Isometry3, UnitQuaternion};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::document::{read, write};
 use crate::error::WriteError;
-use crate::model::motion::MotionKind;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
@@ -69,6 +70,9 @@ pub struct Correctable<'a> {
 /// Turns of the tool below this are not written, rad: those of the last digit of an angle.
 const SAME_RAD: f64 = 1e-7;
 
+/// Axes of the tool nearer than this are one, rad.
+const SAME_AXIS: f64 = 1e-9;
+
 impl Correctable<'_> {
     fn text(&self, options: &PathWriteOptions) -> WriteOptions {
         let decimals = usize::from(options.decimals.unwrap_or(4));
@@ -87,6 +91,21 @@ impl Correctable<'_> {
         }
     }
 
+    /// An orientation of the tool as the text of a motion says it: where that is the axis alone, the one that the axis is read as.
+    fn as_stated(&self, motion: &Motion, turn: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+        let Some(pose) = motion.target.pose().filter(|_| self.path.axis_alone) else {
+            return turn;
+        };
+        let axis = turn * self.path.path.tool_axis;
+        let read = OrientationText::Axis.rotation_of(axis.as_slice());
+        let own = pose.orientation * Vector3::z();
+        // The last bits of an axis say nothing, and at -z they would say another turn.
+        match (axis - own).norm() < SAME_AXIS {
+            true => pose.orientation,
+            false => read.unwrap_or(pose.orientation),
+        }
+    }
+
     /// The pieces that a move becomes in the text; none where it stays as it is.
     fn pieces(&self, index: usize, plan: &PlannedMove, half_mm: f64) -> Vec<Piece> {
         let motion = &self.path.path.moves[index];
@@ -97,7 +116,7 @@ impl Correctable<'_> {
             && plan.pieces.iter().all(|piece| {
                 let turned = piece.orientation.zip(motion.orientation(1.0));
                 (piece.position_mm - motion.end).amax() <= half_mm
-                    && turned.is_none_or(|(to, from)| to.angle_to(&from) <= SAME_RAD)
+                    && turned.is_none_or(|(to, from)| self.path.turned(&to, &from) <= SAME_RAD)
             });
         if plan.kept || unchanged {
             return Vec::new();
@@ -119,7 +138,7 @@ impl Correctable<'_> {
             .map(|piece| Piece {
                 motion: number,
                 position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
-                orientation: piece.orientation.map(|o| to_own.rotation * o),
+                orientation: (piece.orientation).map(|o| self.as_stated(own, to_own.rotation * o)),
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
@@ -177,11 +196,17 @@ impl Correctable<'_> {
         let mut written = Vec::with_capacity(plan.moves().len());
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
             let count = planned.pieces.len();
+            // Where rotary axes turn the tool, the angles of the program say how it stands: written directions have fewer digits.
+            let stands = |motion: &Move| {
+                let turn = motion.tool_turn.as_ref();
+                turn.is_none_or(|turn| turn.rotary.is_none())
+                    .then(|| motion.orientation(1.0))?
+            };
             let ends: Vec<_> = (moves.by_ref().take(count))
                 .zip(&planned.pieces)
                 .map(|(m, piece)| WrittenEnd {
                     position_mm: m.end,
-                    orientation: m.orientation(1.0),
+                    orientation: stands(m),
                     line: m.line,
                     circle: match (&m.curve, piece.via_mm) {
                         (Curve::Arc(arc), Some(_)) => Some(*arc),

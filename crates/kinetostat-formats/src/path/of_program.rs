@@ -1,27 +1,27 @@
 //! From the motions of a program to a path.
 
+use std::sync;
+
 use kinetostat_program::{
-    Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, ToolTurn, Warning,
+    Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, RotaryAxes,
+    RotaryTurn, ToolTurn, Warning,
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
+use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
+use crate::path::axis_turns::{axis_turns, first_leaning, rotary_angles};
 use crate::path::circle::about;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
+use crate::path::path_warnings::{by_rule, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
 use crate::text::source::SourceFile;
-
-/// So many places say whether a program is small, ...
-const SEVERAL: usize = 8;
-
-/// ... as one of 3 m in metres is where its lengths are taken for millimetres.
-const METRES_AS_MM: f64 = 3.0;
 
 /// The path of a robot's program, and in which axes it is.
 ///
@@ -42,6 +42,20 @@ pub struct RobotPath {
     pub tools: Vec<FrameUse>,
     /// The file with the motions, an index of [`RobotProgram::files`].
     pub file: usize,
+    /// The program states the direction of the tool's axis alone, and it is not z throughout: about it the tool is turned by
+    /// [`PathOptions::turn_about_axis`].
+    pub axis_alone: bool,
+}
+
+impl RobotPath {
+    /// How far the tool is turned from one orientation to another, as far as the text of the program says it, rad.
+    pub(crate) fn turned(&self, to: &UnitQuaternion<f64>, from: &UnitQuaternion<f64>) -> f64 {
+        let axis = self.path.tool_axis;
+        match self.axis_alone {
+            true => (to * axis).angle(&(from * axis)),
+            false => to.angle_to(from),
+        }
+    }
 }
 
 /// The path of a program.
@@ -112,13 +126,6 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             ));
         }
     }
-    if let Some(tilted) = poses.iter().find(|motion| leans(motion)) {
-        faults.push(fault(
-            tilted,
-            "the tool's axis is not z of the part here".to_owned(),
-            "programs of five axes that state the axis alone are not corrected yet: give those of three axes, or write the program in the language of the robot",
-        ));
-    }
     faults.extend(poses.iter().filter_map(|motion| {
         let speed = motion
             .speed
@@ -145,16 +152,50 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut made = Maker {
+    let mut maker = Maker {
         program,
         options,
         in_base: !one,
+        turns: None,
+        rotary: None,
+        tool_axis: options.tool_axis,
+    };
+    let leaning = first_leaning(program);
+    if leaning.is_some() {
+        let rule = (options.turn_about_axis, options.tool_axis);
+        match &options.rotary {
+            Some(rotary) => {
+                if let (false, Some(motion)) = (one, leaning) {
+                    return Err(vec![fault(
+                        motion,
+                        "the tool leans on rotary axes of the machine, and the program has several work objects".to_owned(),
+                        "write one program for each work object",
+                    )]);
+                }
+                maker.rotary = Some((sync::Arc::clone(rotary), rotary_angles(program, rotary)?));
+                maker.tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
+            }
+            None => {
+                let is_rapid = |motion: &Motion| maker.is_rapid(motion);
+                let frame = |motion: &Motion| maker.frame(motion);
+                maker.turns = Some(axis_turns(program, rule, frame, is_rapid)?);
+            }
+        }
     }
-    .path();
+    let mut made = maker.path();
+    made.warnings.extend(
+        leaning
+            .iter()
+            .flat_map(|motion| by_rule(program, motion, options)),
+    );
+    if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
+        made.spindle_changes = spindle_changes(file);
+    }
     if tools.len() > 1 {
         made.tool_changes = changes(&poses, &tools);
     }
     Ok(RobotPath {
+        axis_alone: leaning.is_some(),
         motions: (0..program.motions.len()).collect(),
         path: made,
         work_object: work_object.filter(|_| one),
@@ -175,6 +216,12 @@ struct Maker<'a> {
     options: &'a PathOptions,
     /// Poses in the axes of the robot's base.
     in_base: bool,
+    /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
+    turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
+    /// Where the rotary axes of the machine stand there, deg, instead.
+    rotary: Option<(sync::Arc<RotaryAxes>, Vec<Vec<f64>>)>,
+    /// From the tip to the holder, in axes of the tool.
+    tool_axis: Vector3<f64>,
 }
 
 impl Maker<'_> {
@@ -190,6 +237,16 @@ impl Maker<'_> {
         Some(self.frame(motion) * target.pose()?.isometry())
     }
 
+    /// Where a motion ends, and how the tool stands there.
+    fn end(&self, index: usize) -> Option<Isometry3<f64>> {
+        let motion = &self.program.motions[index];
+        let mut end = self.pose(motion, &motion.target)?;
+        if let Some(turn) = self.turns.as_ref().and_then(|turns| turns[index]) {
+            end.rotation = turn;
+        }
+        Some(end)
+    }
+
     fn path(&self) -> Path {
         let mut moves: Vec<Move> = Vec::with_capacity(self.program.motions.len());
         let mut warnings = Vec::new();
@@ -201,7 +258,7 @@ impl Maker<'_> {
                 && motion.follows == index.checked_sub(1)
                 && before.is_some_and(|before| same_frame(&before.tool, &motion.tool));
             let start = last.filter(|_| follows);
-            let made = self.made(motion, start, last.unwrap_or_default());
+            let made = self.made(index, start, last.unwrap_or_default());
             if motion.runs == Runs::Elsewhere {
                 warnings.push(Warning {
                     line: motion.line,
@@ -209,87 +266,66 @@ impl Maker<'_> {
                         .to_owned(),
                 });
             }
-            last = self.pose(motion, &motion.target);
+            last = self.end(index);
             moves.push(made);
         }
         warnings.dedup_by(|b, a| a.text == b.text);
-        let begins =
-            |motion: &&Move| motion.known == Knowledge::End && motion.kind == MoveKind::Feed;
-        if let Some(first) = moves.iter().find(begins) {
-            warnings.push(Warning {
-                line: first.line,
-                text: format!(
-                    "where {} begins is not known, here first: behind another tool, behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
-                    match moves.iter().filter(begins).count() {
-                        1 => "1 motion at feed".to_owned(),
-                        n => format!("{n} motions at feed"),
-                    }
-                ),
-            });
-        }
-        if let Some(first) = moves.iter().find(|motion| motion.turns_in_place()) {
-            warnings.push(Warning {
-                line: first.line,
-                text: "the tool turns at one place, here first: it is corrected where it has turned, not on the way".to_owned(),
-            });
-        }
-        let slow = |motion: &&Motion| {
-            motion.kind != MotionKind::Joint
-                && motion.target.pose().is_some()
-                && motion.speed.mm_per_s.is_none()
-        };
-        let unknown = self.program.motions.iter().find(slow);
-        if let (Some(motion), Some(_)) = (unknown, self.options.rapid_from_mm_per_s) {
-            warnings.push(Warning {
-                line: motion.line,
-                text: format!(
-                    "the speed `{}` is not known, here first: such motions are taken to cut",
-                    motion.speed.text
-                ),
-            });
-        }
-        if let Some(line) = self.tiny() {
-            warnings.push(Warning {
-                line,
-                text: "all places of the program lie within 3 mm of each other: are its lengths in metres? They are taken for millimetres".to_owned(),
-            });
-        }
-        if self.in_base {
-            warnings.push(Warning {
-                line: 1,
-                text: "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned(),
-            });
-        }
-        for finding in &self.program.findings {
-            warnings.push(Warning {
-                line: finding.line,
-                text: finding.message.clone(),
-            });
-        }
-        let mut path = Path::of_moves(moves, self.options.tool_axis);
+        let poses = |index: usize| self.end(index).map(|pose| pose.translation.vector);
+        warnings.extend(warnings_of(
+            (self.program, self.options),
+            &moves,
+            self.in_base,
+            poses,
+        ));
+        let mut path = Path::of_moves(moves, self.tool_axis);
         path.warnings = warnings;
         path
     }
 
-    /// Line of the first of many places that lie as near to each other as those of a program in metres.
-    fn tiny(&self) -> Option<usize> {
-        let places = self.program.motions.iter().filter_map(|motion| {
-            let pose = self.pose(motion, &motion.target)?;
-            Some((motion.line, pose.translation.vector))
-        });
-        let (mut count, mut first) = (0, None);
-        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
-        for (line, place) in places {
-            count += 1;
-            first.get_or_insert(line);
-            (low, high) = (low.inf(&place), high.sup(&place));
-        }
-        let spread = (high - low).amax();
-        first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
+    /// Whether a motion positions the tool in air.
+    fn is_rapid(&self, motion: &Motion) -> bool {
+        let fast = |limit: f64| {
+            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
+            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
+        };
+        // APT says it beside the motion, a machine's control in it.
+        let said = match self.program.language {
+            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
+            Language::Siemens => motion.speed.text == "G0",
+            Language::Heidenhain => motion.speed.text == "FMAX",
+            _ => false,
+        };
+        motion.kind == MotionKind::Joint
+            || motion.target.pose().is_none()
+            || said
+            || self.options.rapid_from_mm_per_s.is_some_and(fast)
     }
 
-    fn made(&self, motion: &Motion, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
-        let end = self.pose(motion, &motion.target);
+    /// Whether the text of a target, or the rule for the turn about its axis, says how the tool stands.
+    fn states_orientation(&self, motion: &Motion) -> bool {
+        // Languages of machines state at most the axis.
+        let by_axis = matches!(
+            self.program.language,
+            Language::Apt | Language::Siemens | Language::Heidenhain
+        );
+        if by_axis || self.turns.is_some() {
+            return self.turns.is_some();
+        }
+        let unstated = |text: &PoseText| {
+            matches!(
+                text.convention,
+                OrientationText::Unstated | OrientationText::Axis
+            )
+        };
+        match &motion.site.target {
+            TargetSite::Literal(text) => !unstated(text),
+            _ => true,
+        }
+    }
+
+    fn made(&self, index: usize, start: Option<Isometry3<f64>>, before: Isometry3<f64>) -> Move {
+        let motion = &self.program.motions[index];
+        let end = self.end(index);
         let from = start.unwrap_or(before);
         let to = end.unwrap_or(before);
         let [a, b] = [from, to].map(|pose| pose.translation.vector);
@@ -326,37 +362,35 @@ impl Maker<'_> {
             Knowledge::Whole => (a, from),
             _ => (b, to),
         };
-        let fast = |limit: f64| {
-            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
-            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
-        };
-        // APT says it beside the motion, a machine's control in it.
-        let said = match self.program.language {
-            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
-            Language::Siemens => motion.speed.text == "G0",
-            Language::Heidenhain => motion.speed.text == "FMAX",
-            _ => false,
-        };
-        let rapid = motion.kind == MotionKind::Joint
-            || motion.target.pose().is_none()
-            || said
-            || self.options.rapid_from_mm_per_s.is_some_and(fast);
         Move {
             line: motion.line,
-            kind: match rapid {
+            kind: match self.is_rapid(motion) {
                 true => MoveKind::Rapid,
                 false => MoveKind::Feed,
             },
             curve,
             start: a,
             end: b,
-            tool_turn: states_orientation(motion).then(|| {
-                let start = nearest(from.rotation, &to.rotation);
-                Box::new(match self.swivels(motion) {
-                    true => ToolTurn::swivelled(start, to.rotation, Vector3::x_axis()),
-                    false => ToolTurn::shortest(start, to.rotation),
-                })
-            }),
+            tool_turn: match &self.rotary {
+                Some((axes, angles)) => {
+                    let before = match known {
+                        Knowledge::Whole => index.saturating_sub(1),
+                        _ => index,
+                    };
+                    Some(Box::new(ToolTurn::rotary(RotaryTurn {
+                        axes: sync::Arc::clone(axes),
+                        start_deg: angles[before].clone(),
+                        end_deg: angles[index].clone(),
+                    })))
+                }
+                None => self.states_orientation(motion).then(|| {
+                    let start = nearest(from.rotation, &to.rotation);
+                    Box::new(match self.swivels(motion) {
+                        true => ToolTurn::swivelled(start, to.rotation, Vector3::x_axis()),
+                        false => ToolTurn::shortest(start, to.rotation),
+                    })
+                }),
+            },
             extra: Vec::new(),
             feed: motion.speed.mm_per_s.map(|speed| Feed {
                 mode: FeedMode::PerMinute,
@@ -382,30 +416,6 @@ impl Maker<'_> {
         let word = file.and_then(|bytes| bytes.get(motion.site.keyword.clone()));
         let is = |name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name.as_bytes()));
         self.program.language == Language::Krl && (is("LIN") || is("CIRC"))
-    }
-}
-
-/// Whether only the tool's axis is stated, and it is another one than z.
-fn leans(motion: &Motion) -> bool {
-    let by_axis = matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Axis);
-    let axis = motion
-        .target
-        .pose()
-        .map(|pose| pose.orientation * Vector3::z());
-    by_axis && axis.is_some_and(|axis| (axis - Vector3::z()).norm() > 1e-9)
-}
-
-/// Whether the text of a target says how the tool stands.
-fn states_orientation(motion: &Motion) -> bool {
-    let unstated = |text: &PoseText| {
-        matches!(
-            text.convention,
-            OrientationText::Unstated | OrientationText::Axis
-        )
-    };
-    match &motion.site.target {
-        TargetSite::Literal(text) => !unstated(text),
-        _ => true,
     }
 }
 

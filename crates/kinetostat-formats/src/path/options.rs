@@ -1,6 +1,11 @@
 //! What the caller states of the path of a robot's program.
 
+use std::sync::Arc;
+
+use kinetostat_program::RotaryAxes;
 use nalgebra::Vector3;
+
+use crate::path::axis_turns::TurnAboutAxis;
 
 /// How the path of a robot's program is made.
 ///
@@ -19,6 +24,11 @@ pub struct PathOptions {
     /// Unit vector from the tool's tip to its holder, in axes of the tool's frame: -z where the frame's z points out of the
     /// spindle, as is usual at ABB and FANUC; -x at KUKA.
     pub tool_axis: Vector3<f64>,
+    /// How the tool is turned about its axis where the program states the axis alone.
+    pub turn_about_axis: TurnAboutAxis,
+    /// Rotary axes of the machine, in axes of the program's work object: where a program states the tool's axis alone they point the
+    /// tool along it, and turn evenly with the way between two poses. They say how the tool is turned about its axis, too.
+    pub rotary: Option<Arc<RotaryAxes>>,
 }
 
 impl Default for PathOptions {
@@ -26,6 +36,8 @@ impl Default for PathOptions {
         Self {
             rapid_from_mm_per_s: None,
             tool_axis: -Vector3::z(),
+            turn_about_axis: TurnAboutAxis::Least,
+            rotary: None,
         }
     }
 }

@@ -84,10 +84,14 @@ fn one(
             "it ends {off:.6} mm from where it was to be written"
         ));
     }
-    let wanted = written.orientations.get(index);
+    let wanted = match written.orientations.get(index) {
+        Some(wanted) => Some(*wanted),
+        // Rotary axes of a machine go on as they were.
+        None => motion.orientation(piece.share_to),
+    };
     let turned = wanted
         .zip(made.orientation(1.0))
-        .map(|(a, b)| a.angle_to(&b));
+        .map(|(a, b)| input.turned(&a, &b));
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }

@@ -377,7 +377,7 @@ fn span_of(site: &TargetSite) -> Range<usize> {
         TargetSite::Literal(text) => text.whole.clone(),
         TargetSite::Declared { name, .. } => name.clone(),
         TargetSite::Offset { call, .. } => call.clone(),
-        TargetSite::Fixed(_) => 0..0,
+        TargetSite::Joints(_) | TargetSite::Fixed(_) => 0..0,
     }
 }
 

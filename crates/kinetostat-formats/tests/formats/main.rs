@@ -9,6 +9,7 @@
 )]
 
 mod apt;
+mod axes_alone;
 mod chance;
 mod circles;
 mod fields;

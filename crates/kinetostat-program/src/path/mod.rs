@@ -11,6 +11,7 @@ pub(crate) mod pause;
 pub(crate) mod pauses;
 pub(crate) mod position_offset;
 pub(crate) mod rotary;
+pub(crate) mod rotary_angles;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
 pub(crate) mod tool_turn;

@@ -95,11 +95,21 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
+    if settings.corrected == Directions::ALL && path.axis_alone && settings.making.rotary.is_some()
+    {
+        return Err(Failure::input(
+            "the rotary axes of the machine turn the tool, and they are not corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        ));
+    }
     Ok(ReadOnce { program, path })
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 10] = [
+    (
+        "(`turn_about_axis`)",
+        "turn_about_axis = { tool = \"x\", part = [1, 0, 0] }",
+    ),
     (
         "as written by an option",
         "unknown_targets = \"left_as_written\"",

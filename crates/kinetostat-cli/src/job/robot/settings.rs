@@ -3,7 +3,7 @@
 use kinetostat::Directions;
 use kinetostat_formats::{
     BetweenRows, CutterCompensation, ExternalAxes, Language, LengthUnit, PathOptions, ReadOptions,
-    UnknownTargets, WriteOptions as TextOptions,
+    TurnAboutAxis, UnknownTargets, WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
 use nalgebra::Vector3;
@@ -102,6 +102,20 @@ pub(crate) fn settings(
             AxisWord::MinusZ => -Vector3::z(),
         };
     }
+    if let Some((j, Some(turn))) = table.map(|(j, table)| (j, &table.turn_about_axis)) {
+        let of_tool = direction_of(j, turn, &turn.get_ref().tool)?;
+        if of_tool.cross(&making.tool_axis).norm() < ALONG {
+            return Err(j.error(
+                turn,
+                "this direction of the tool lies along its axis, so that it says no turn about it",
+                "name another one of its frame, as in  turn_about_axis = { tool = \"y\", part = \"x\" }",
+            ));
+        }
+        making.turn_about_axis = TurnAboutAxis::Towards {
+            of_tool,
+            in_part: direction_of(j, turn, &turn.get_ref().part)?,
+        };
+    }
     let corrected = match flags.correct.unwrap_or(correct) {
         CorrectWord::Position => Directions::POSITION,
         CorrectWord::Pose => Directions::ALL,
@@ -133,8 +147,16 @@ fn frames(j: &JobFile, table: &RobotTable, reading: &mut ReadOptions) -> Answer<
     Ok(())
 }
 
+/// Directions nearer to the tool's axis say no turn about it (1.1 degrees).
+const ALONG: f64 = 0.02;
+
 fn direction(j: &JobFile, axis: &Spanned<Axis>) -> Answer<Vector3<f64>> {
-    let vector = match axis.get_ref() {
+    direction_of(j, axis, axis.get_ref())
+}
+
+/// The direction of an axis that stands at a place of the job file.
+fn direction_of<T>(j: &JobFile, at: &Spanned<T>, axis: &Axis) -> Answer<Vector3<f64>> {
+    let vector = match axis {
         Axis::Named(AxisName::X) => Vector3::x(),
         Axis::Named(AxisName::Y) => Vector3::y(),
         Axis::Named(AxisName::Z) => Vector3::z(),
@@ -148,7 +170,7 @@ fn direction(j: &JobFile, axis: &Spanned<Axis>) -> Answer<Vector3<f64>> {
         .filter(|unit| unit.iter().all(|x| x.is_finite()));
     unit.ok_or_else(|| {
         j.error(
-            axis,
+            at,
             "this axis has no direction",
             "write a letter (\"-z\", \"x\", ...) or three numbers that are not all zero",
         )

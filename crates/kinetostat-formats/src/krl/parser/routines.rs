@@ -63,7 +63,7 @@ impl Parser<'_, '_> {
             self.in_list = false;
             return;
         }
-        if is(0, "SPLINE") || is(0, "PTP_SPLINE") {
+        if is(0, "PTP_SPLINE") {
             self.in_spline = true;
         }
         let declares = is(0, "DECL")

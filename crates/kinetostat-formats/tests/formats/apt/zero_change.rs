@@ -76,11 +76,12 @@ fn axes_and_feeds_hold_on_and_rapid_does_not() {
     assert_eq!(last.position_mm.as_slice(), [1.0, 0.25, 0.0]);
     let axis = last.orientation * Vector3::z();
     assert!((axis - Vector3::new(0.6, 0.0, 0.8)).norm() < 1e-12);
-    // NX states the unit first; CATIA's feed per turn is no speed.
+    // NX states the unit first; CATIA's feed of 0.1 mm a turn is a speed at 70 turns a minute.
     let of_nx = super::program(NX);
     assert_eq!(of_nx.motions[1].speed.mm_per_s, Some(10.35));
     let of_catia = super::program(CATIA);
-    assert_eq!(of_catia.motions[2].speed.mm_per_s, None);
+    let speed = of_catia.motions[2].speed.mm_per_s.unwrap();
+    assert!((speed - 7.0 / 60.0).abs() < 1e-12, "{speed}");
     assert_eq!(place(&of_catia, 2), [-0.4, 0.0, -19.0]);
 }
 

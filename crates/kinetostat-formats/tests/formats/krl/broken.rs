@@ -32,7 +32,27 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
     let cases = [
         (
             "LIN_REL {X 10}",
-            "it goes on from where the tool is; write the end with LIN",
+            "it goes on from where the tool is, and that is not known from the text in these axes; write the end with LIN",
+        ),
+        (
+            "LIN_REL {X 10,A 3}",
+            "it goes on from where the tool is, and turns it or moves axes",
+        ),
+        (
+            "LIN_REL {X 10} #TOOL",
+            "its steps are in the axes of the tool",
+        ),
+        (
+            "SPLINE\nLIN XP1\nENDSPLINE",
+            "it is no segment of a spline block",
+        ),
+        (
+            "SPLINE\nSPLINE\nENDSPLINE",
+            "a spline block begins in another one",
+        ),
+        (
+            "SPLINE\nTIME_BLOCK START\nENDSPLINE",
+            "it shares out the time of a spline block",
         ),
         ("PTP_REL {A1 10}", "it goes on from where the tool is"),
         (
@@ -45,7 +65,7 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "SPLINE\nSPL XP1\nSLIN XP1\nENDSPLINE",
-            "depends on all of them; write it as LIN and CIRC",
+            "depends on all of them; write the block with SLIN and SCIRC",
         ),
         (
             "PTP $POS_ACT",

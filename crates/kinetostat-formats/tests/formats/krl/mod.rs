@@ -7,6 +7,7 @@ mod order;
 mod pieces;
 mod properties;
 mod random;
+mod segments;
 mod turns;
 mod zero_change;
 

@@ -1,0 +1,126 @@
+//! What a person should know of a path that was made.
+
+use kinetostat_program::{Knowledge, Move, MoveKind, Warning};
+use nalgebra::Vector3;
+
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::orientation::OrientationText;
+use crate::model::program::{Language, RobotProgram};
+use crate::model::site::TargetSite;
+use crate::path::axis_turns::TurnAboutAxis;
+use crate::path::options::PathOptions;
+
+/// So many places say whether a program is small, ...
+const SEVERAL: usize = 8;
+
+/// ... as one of 3 m in metres is where its lengths are taken for millimetres.
+const METRES_AS_MM: f64 = 3.0;
+
+/// Warnings of a path; `place` says where a motion ends.
+pub(crate) fn warnings_of(
+    (program, options): (&RobotProgram, &PathOptions),
+    moves: &[Move],
+    in_base: bool,
+    place: impl Fn(usize) -> Option<Vector3<f64>>,
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let begins = |motion: &&Move| motion.known == Knowledge::End && motion.kind == MoveKind::Feed;
+    if let Some(first) = moves.iter().find(begins) {
+        warnings.push(Warning {
+            line: first.line,
+            text: format!(
+                "where {} begins is not known, here first: behind another tool, behind joint values, in a branch or in what runs more than once. Only the end is corrected, and of a force that turns with the feed only the part along the tool",
+                match moves.iter().filter(begins).count() {
+                    1 => "1 motion at feed".to_owned(),
+                    n => format!("{n} motions at feed"),
+                }
+            ),
+        });
+    }
+    if let Some(first) = moves.iter().find(|motion| motion.turns_in_place()) {
+        warnings.push(Warning {
+            line: first.line,
+            text: "the tool turns at one place, here first: it is corrected where it has turned, not on the way".to_owned(),
+        });
+    }
+    let slow = |motion: &&Motion| {
+        motion.kind != MotionKind::Joint
+            && motion.target.pose().is_some()
+            && motion.speed.mm_per_s.is_none()
+    };
+    let unknown = program.motions.iter().find(slow);
+    if let (Some(motion), Some(_)) = (unknown, options.rapid_from_mm_per_s) {
+        warnings.push(Warning {
+            line: motion.line,
+            text: format!(
+                "the speed `{}` is not known, here first: such motions are taken to cut",
+                motion.speed.text
+            ),
+        });
+    }
+    if let Some(line) = tiny(program, place) {
+        warnings.push(Warning {
+            line,
+            text: "all places of the program lie within 3 mm of each other: are its lengths in metres? They are taken for millimetres".to_owned(),
+        });
+    }
+    if in_base {
+        warnings.push(Warning {
+            line: 1,
+            text: "the program uses several work objects: its places in results, heights of the load and tables of corrections are in axes of the robot's base".to_owned(),
+        });
+    }
+    for finding in &program.findings {
+        warnings.push(Warning {
+            line: finding.line,
+            text: finding.message.clone(),
+        });
+    }
+    warnings
+}
+
+/// Line of the first of many places that lie as near to each other as those of a program in metres.
+fn tiny(program: &RobotProgram, place: impl Fn(usize) -> Option<Vector3<f64>>) -> Option<usize> {
+    let motions = program.motions.iter().enumerate();
+    let places = motions.filter_map(|(index, motion)| Some((motion.line, place(index)?)));
+    let (mut count, mut first) = (0, None);
+    let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
+    for (line, place) in places {
+        count += 1;
+        first.get_or_insert(line);
+        (low, high) = (low.inf(&place), high.sup(&place));
+    }
+    let spread = (high - low).amax();
+    first.filter(|_| count >= SEVERAL && spread > 0.0 && spread < METRES_AS_MM)
+}
+
+/// By which rule the tool is turned about its axis, at the first motion where that matters; and where the axis itself is not stated.
+pub(crate) fn by_rule(
+    program: &RobotProgram,
+    leaning: &Motion,
+    options: &PathOptions,
+) -> Vec<Warning> {
+    let rule = match options.turn_about_axis {
+        _ if options.rotary.is_some() => "with the rotary axes of the machine",
+        TurnAboutAxis::Least => "as little as possible from pose to pose (`turn_about_axis`)",
+        TurnAboutAxis::Towards { .. } => "towards the direction that is stated (`turn_about_axis`)",
+    };
+    let mut warnings = vec![Warning {
+        line: leaning.line,
+        text: format!(
+            "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
+        ),
+    }];
+    let unstated = |motion: &&Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
+    // APT says z where it says nothing.
+    let first = program.motions.iter().find(unstated);
+    if let (Language::Siemens, Some(motion)) = (program.language, first) {
+        warnings.push(Warning {
+            line: motion.line,
+            text:
+                "the direction of the tool is not stated here (A3, B3, C3): z of the part is taken"
+                    .to_owned(),
+        });
+    }
+    warnings
+}
