@@ -66,6 +66,9 @@ pub(crate) fn starts(path: &Path) -> Vec<f64> {
 /// Blocks longer than this share of the path that is cut are looked at in more places.
 const PIECES: f64 = 500.0;
 
+/// A move that turns the tool is looked at after so much of its turn, deg.
+const TURN_DEG: f64 = 10.0;
+
 /// Arcs are looked at where chords leave them by at most this, mm.
 const ARC_MM: f64 = 0.01;
 
@@ -90,16 +93,28 @@ impl Programmed {
     /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
     fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
         let length = motion.length_mm();
-        let pieces = (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize;
+        // Of a program that only turns all lengths are zero.
+        let pieces = match length > 0.0 {
+            true => (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize,
+            false => 1,
+        };
+        let pieces = pieces.max(turns(motion, 1.0));
         let pieces = match &motion.curve {
             Curve::Line => pieces,
             Curve::Arc(arc) => pieces.max(arc.chords_within(ARC_MM)),
         };
-        let middles = pieces > 1 || length > self.short_mm;
+        let middles = pieces > 1 || length > self.short_mm || motion.turns_in_place();
         (1..=2 * pieces)
             .filter(move |half| middles || half % 2 == 0)
             .map(move |half| (half as f64 / (2 * pieces) as f64, half % 2 == 0))
     }
+}
+
+/// Into how many parts a share of a move is divided by the turn of the tool in the part.
+fn turns(motion: &Move, width: f64) -> usize {
+    (motion.turn_deg() * width / TURN_DEG)
+        .ceil()
+        .clamp(1.0, 1e6) as usize
 }
 
 /// A move from a place that the program does not tell has no length that counts.
@@ -109,6 +124,11 @@ fn known_length(motion: &Move) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A move from a known place that neither goes nor turns.
+fn stays(motion: &Move) -> bool {
+    motion.known == Knowledge::Whole && !motion.has_length() && !motion.turns_in_place()
 }
 
 /// The load at the start of a move is another one than that before it.
@@ -157,8 +177,7 @@ pub(crate) fn of_path<'a>(
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => Vec::new(),
             (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
-            _ if motion.turns_in_place() => vec![site((1.0, true))],
-            (Knowledge::Whole, MoveKind::Feed) if !motion.has_length() => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let start = jumps(path, load, placement, i).then_some((0.0, false));
                 let shares = start.into_iter().chain(programmed.shares(motion));
@@ -193,9 +212,7 @@ pub(crate) fn of_written<'a>(
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
-        let turns = motion.turns_in_place();
-        let stays = motion.known == Knowledge::Whole && !motion.has_length() && !turns;
-        if !piece.corrected || motion.known == Knowledge::Nothing || stays {
+        if !piece.corrected || motion.known == Knowledge::Nothing || stays(motion) {
             return sites;
         }
         let width = piece.share_to - piece.share_from;
@@ -258,9 +275,10 @@ pub(crate) fn of_written<'a>(
         };
         // At the end of a move every program is looked at.
         let mut at_end = piece.share_to >= 1.0;
-        if motion.is_known_feed() && !turns {
+        if motion.is_known_feed() {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
+            let count = count.max(turns(motion, width).min(10_000));
             let count = match (&motion.curve, piece.arc) {
                 // In each chord that would have been written, were it straight, an arc is looked at.
                 (Curve::Arc(arc), Some(_)) => {

@@ -28,3 +28,4 @@ mod sampled_models;
 mod springs;
 mod thinning;
 mod tools;
+mod turns_in_place;

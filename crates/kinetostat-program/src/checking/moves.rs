@@ -186,6 +186,9 @@ impl Verifier<'_> {
         let Some(feed) = motion.feed.filter(|_| motion.kind == MoveKind::Feed) else {
             return Ok(());
         };
+        if motion.turns_in_place() && motion.known == Knowledge::Whole {
+            return self.check_time_of_turn(motion, piece, read);
+        }
         let Some(written) = read.feed.filter(|written| written.mode == feed.mode) else {
             return Err(fail(
                 motion.line,
@@ -237,6 +240,42 @@ impl Verifier<'_> {
             ));
         }
         Ok(())
+    }
+}
+
+impl Verifier<'_> {
+    /// A piece of a turn in place takes its share of the time.
+    fn check_time_of_turn(
+        &mut self,
+        motion: &Move,
+        piece: &Piece,
+        read: &Move,
+    ) -> Result<(), WriteError> {
+        let broken = |what: &str| Err(fail(motion.line, piece.output_line, what.to_owned()));
+        let (Some(feed), Some(written)) = (motion.feed, read.feed) else {
+            return broken("the feed is lost");
+        };
+        let width = piece.share_to - piece.share_from;
+        let stands = (piece.commanded_to - piece.commanded_from).norm() <= NO_LENGTH_MM;
+        let error = match (written.mode, motion.turn_seconds()) {
+            // Where only rotary axes move F is theirs.
+            (mode, Some(_)) if mode == feed.mode && mode != FeedMode::InverseTime => {
+                if !stands || width < 1.0 {
+                    return broken("X, Y and Z move beside a feed in degrees a minute");
+                }
+                (written.value / feed.value - 1.0).abs()
+            }
+            (FeedMode::InverseTime, Some(_)) if piece.corner_step => 0.0,
+            (FeedMode::InverseTime, Some(seconds)) => {
+                (60.0 / written.value / (seconds * width) - 1.0).abs()
+            }
+            _ => return broken("the feed of a turn in place counts otherwise"),
+        };
+        self.found.largest_speed_error = larger(self.found.largest_speed_error, error);
+        match error <= SPEED_TOLERANCE {
+            true => Ok(()),
+            false => broken("the time of a turn in place is off"),
+        }
     }
 }
 

@@ -14,3 +14,4 @@ pub(crate) mod rotary;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
 pub(crate) mod tool_turn;
+pub(crate) mod turning;

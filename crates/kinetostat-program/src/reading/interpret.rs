@@ -461,7 +461,7 @@ impl<'o> Interpreter<'o> {
         };
         self.knowledge
             .push((known_before, self.places.known, lost.is_some()));
-        self.moves.push(Move {
+        let motion = Move {
             line: block.line_number,
             kind,
             curve,
@@ -478,7 +478,9 @@ impl<'o> Interpreter<'o> {
                 work_offset_mm: self.work_offset_mm(),
                 to_machine: [false; 3],
             },
-        });
+        };
+        self.rotary.refuse_turn_per_revolution(block, &motion)?;
+        self.moves.push(motion);
         Ok(())
     }
 
@@ -686,10 +688,6 @@ impl<'o> Interpreter<'o> {
             self.warn(first, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
         }
         self.warn_of_moved_axes();
-        let in_place = |motion: &&Move| motion.kind == MoveKind::Feed && motion.turns_in_place();
-        if let Some(line) = self.moves.iter().find(in_place).map(|motion| motion.line) {
-            self.warn(line, "the tool turns at one place, here first: it is corrected where it has turned, not on the way");
-        }
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
             // Where all rotary axes stand at zero the spindle is along z of the part.

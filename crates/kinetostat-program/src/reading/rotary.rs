@@ -1,7 +1,7 @@
 //! Words of rotary axes that the machine's model knows: how they turn tool and part, and whether places are those of the tool's tip.
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::path::moves::MoveKind;
+use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
 use crate::path::rotary::RotaryTurn;
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
@@ -103,6 +103,27 @@ impl<'o> RotaryWords<'o> {
             end_deg,
         };
         Ok(Some(Box::new(ToolTurn::rotary(turn))))
+    }
+
+    /// A turn in place has a feed in degrees or in time.
+    pub fn refuse_turn_per_revolution(
+        self,
+        block: &Block<'_>,
+        motion: &Move,
+    ) -> Result<(), ProgramError> {
+        let per_revolution = |feed: Feed| feed.mode == FeedMode::PerRevolution;
+        if motion.kind == MoveKind::Feed
+            && motion.feed.is_some_and(per_revolution)
+            && motion.turns_in_place()
+        {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "rotary axes turn alone with a feed per revolution of the spindle (G95): how fast is not known",
+                "write G94 and F in degrees a minute, or G93 and F in blocks a minute, before it",
+            ));
+        }
+        Ok(())
     }
 
     /// The first axis that stands at an angle.

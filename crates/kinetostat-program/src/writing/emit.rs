@@ -239,8 +239,10 @@ impl<'a> Emitter<'a> {
                 corrected: true,
             }];
         }
+        block.by_time = self.is_by_time(&mut block, &steps)?;
+        let restores = block.by_time && !block.ends_program();
         for (index, step) in steps.iter().enumerate() {
-            let last = index + 1 == steps.len();
+            let last = index + 1 == steps.len() && !restores;
             let from = self.state.position;
             let output_line = self.output_line;
             let content = if kept_arc {
@@ -262,8 +264,30 @@ impl<'a> Emitter<'a> {
             };
             self.account.piece(move_index, step, &written);
         }
+        if restores {
+            let content = block.line_of_feed(&mut self.state);
+            self.push_line(motion.line, content, own)?;
+            self.account.accounting.blocks_out += 1;
+        }
         self.note_block(line, motion, steps.len(), before);
         Ok(())
+    }
+
+    /// Whether pieces of a turn in place are written with their time: F counts degrees a minute only where X, Y and Z stand still.
+    fn is_by_time(
+        &self,
+        block: &mut BlockWriter<'_>,
+        steps: &[OutputMove],
+    ) -> Result<bool, WriteError> {
+        if !block.may_be_by_time() {
+            return Ok(false);
+        }
+        if steps.len() > 1 {
+            return Ok(true);
+        }
+        let mut trial = self.state.clone();
+        block.first_line(&mut trial, steps)?;
+        Ok((trial.position - self.state.position).norm() > UNCHANGED_MM)
     }
 
     /// A move that has no correction: to a place of the machine it is carried byte for byte, and else its

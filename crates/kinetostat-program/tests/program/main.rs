@@ -30,5 +30,6 @@ mod short_blocks;
 mod spindle;
 mod support;
 mod tools;
+mod turns_in_place;
 mod unknown_places;
 mod writing;
