@@ -3,14 +3,14 @@
 use kinetostat::batch::AlongPath;
 use kinetostat::{Directions, Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{
-    Correction, CorrectionField, Course, FieldFailure, Move, Request, Structure,
+    Correction, CorrectionField, Course, FieldFailure, Move, Request, RotaryTurn, Structure,
 };
 use nalgebra::Vector3;
 
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::postures::neighbour::in_chunks;
+use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
@@ -78,6 +78,10 @@ impl CorrectionField for ModelField<'_> {
         true
     }
 
+    fn turns_tool(&self) -> bool {
+        self.corrected == Directions::ALL
+    }
+
     fn structure(&self, move_index: usize, _motion: &Move) -> Structure {
         Structure {
             breaks: self.load.breaks(move_index),
@@ -138,6 +142,12 @@ impl ModelField<'_> {
                     },
                 }
             };
+            if turns && requests.iter().any(|r| self.rotary(r).is_some()) {
+                let all = requests.iter().zip(&wrenches);
+                return all
+                    .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
+                    .collect();
+            }
             if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
                 let all = places.iter().zip(&poses).zip(&targets);
                 return all
@@ -152,6 +162,77 @@ impl ModelField<'_> {
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
             .collect()
+        })
+    }
+}
+
+/// Steps of the iteration for the angles of rotary axes: each is exact to the share by which the deflection changes with them.
+const STEPS: usize = 8;
+
+/// Angles that change by less are found, rad.
+const SAME_RAD: f64 = 1e-10;
+
+impl ModelField<'_> {
+    fn rotary(&self, request: &Request) -> Option<&RotaryTurn> {
+        let motion = &self.load.path().moves[request.move_index];
+        motion.tool_turn.as_ref()?.rotary.as_ref()
+    }
+
+    /// The correction on a machine whose rotary axes turn tool and part: the tip exactly, and the tool's axis as far as these axes
+    /// can turn it. Of a place without their angles the position alone.
+    fn by_axes(
+        &self,
+        memory: &mut Neighbour,
+        mechanism: &Mechanism,
+        (request, wrench): (&Request, &Wrench),
+    ) -> Result<Correction, FieldFailure> {
+        let failed = |error: Error| FieldFailure::new(cause_and_advice(&error));
+        let path = self.load.path();
+        let motion = &path.moves[request.move_index];
+        let placed = |angles: Option<&[f64]>| match (angles, self.rotary(request)) {
+            (Some(angles), Some(rotary)) => {
+                let place = self.placement.turned(Some(&rotary.axes.part(angles)));
+                (place, place.orientation_of(Some(rotary.axes.tool(angles))))
+            }
+            _ => (
+                self.placement.on(motion, request.share),
+                self.placement.orientation_on(motion, request.share),
+            ),
+        };
+        let Some(rotary) = self.rotary(request) else {
+            let (place, orientation) = placed(None);
+            let pose = place.pose(&request.position_mm, orientation);
+            let (target, _) = memory
+                .target_and_tool(mechanism, &pose, wrench)
+                .map_err(failed)?;
+            let shift = target.translation.vector - pose.translation.vector;
+            return Ok(Correction::from(place.to_program(&shift)));
+        };
+        let programmed = rotary.angles_deg(request.share);
+        let wanted = path.tool_direction(request.move_index, request.share);
+        let mut angles = programmed.clone();
+        let mut shift_mm = Vector3::zeros();
+        for _ in 0..STEPS {
+            let (place, orientation) = placed(Some(&angles));
+            let pose = place.pose(&request.position_mm, orientation);
+            let (target, tool) = memory
+                .target_and_tool(mechanism, &pose, wrench)
+                .map_err(failed)?;
+            shift_mm = place.to_program(&(target.translation.vector - pose.translation.vector));
+            let reached = place.to_part_axes(&(tool.rotation * path.tool_axis));
+            let across = reached.cross(&wanted).cross(&reached);
+            let (turns, _) = rotary.axes.turns_for(&angles, &path.tool_axis, &across);
+            for (angle, turn) in angles.iter_mut().zip(&turns) {
+                *angle += turn.to_degrees();
+            }
+            if turns.iter().all(|turn| turn.abs() < SAME_RAD) {
+                break;
+            }
+        }
+        let turn = rotary.axes.tool(&angles) * rotary.axes.tool(&programmed).inverse();
+        Ok(Correction {
+            shift_mm,
+            turn: turn.scaled_axis(),
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_program::{
-    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, ToolTurn, Turn, irregular,
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, RotaryTurn, ToolTurn, Turn, irregular,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -35,6 +35,8 @@ pub(crate) struct Site {
     pub orientation: Option<UnitQuaternion<f64>>,
     /// What the written program commands; the same without compensation, or where only the position is corrected.
     pub commanded_orientation: Option<UnitQuaternion<f64>>,
+    /// Where the written program has the rotary axes, deg; none where it has them as the program.
+    pub commanded_deg: Option<Vec<f64>>,
     pub wrench: Wrench,
     /// On a corner step, the load by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
@@ -47,6 +49,15 @@ impl Site {
     pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
         let motion = &task.path().moves[self.move_index];
         task.placement.on(motion, self.share)
+    }
+
+    /// Where it lies as the written program turns it.
+    pub(crate) fn commanded_placement(&self, task: &Task<'_>) -> Placement {
+        let motion = &task.path().moves[self.move_index];
+        match (&self.commanded_deg, rotary(motion)) {
+            (Some(angles), Some(rotary)) => task.placement.turned(Some(&rotary.axes.part(angles))),
+            _ => self.placement(task),
+        }
     }
 }
 
@@ -169,6 +180,7 @@ pub(crate) fn of_path<'a>(
                 commanded: desired,
                 orientation: motion.orientation(share),
                 commanded_orientation: motion.orientation(share),
+                commanded_deg: None,
                 wrench: load.wrench(placement, i, share),
                 other_wrench: None,
                 end,
@@ -221,9 +233,14 @@ pub(crate) fn of_written<'a>(
             _ => piece.share_from + place * width,
         };
         let turn = commanded_turn(path, written, index);
+        let angles = commanded_angles(path, written, index);
         let mut push = |(place, share): (f64, f64),
                         (wrench, other_wrench): (Wrench, Option<Wrench>),
                         (end, programmed): (bool, bool)| {
+            let commanded_deg: Option<Vec<f64>> = angles.as_ref().map(|[from, to]| {
+                let both = from.iter().zip(to);
+                both.map(|(from, to)| from + (to - from) * place).collect()
+            });
             sites.push(Site {
                 line: motion.line,
                 move_index: piece.move_index,
@@ -241,11 +258,13 @@ pub(crate) fn of_written<'a>(
                 desired: motion.point(share),
                 commanded: piece.commanded(motion, place),
                 orientation: motion.orientation(share),
-                // In G-code the words of rotary axes say it, and they stay.
-                commanded_orientation: match &turn {
-                    Some(turn) => Some(turn.at(place)),
-                    None => motion.orientation(share),
+                // In G-code the words of rotary axes say it.
+                commanded_orientation: match (&turn, &commanded_deg, rotary(motion)) {
+                    (Some(turn), ..) => Some(turn.at(place)),
+                    (None, Some(angles), Some(rotary)) => Some(rotary.axes.tool(angles)),
+                    _ => motion.orientation(share),
                 },
+                commanded_deg,
                 wrench,
                 other_wrench,
                 end,
@@ -343,6 +362,22 @@ fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<Tool
         None => path.moves[written.pieces[index].move_index].orientation(0.0)?,
     };
     Some(ToolTurn::shortest(start, end))
+}
+
+fn rotary(motion: &Move) -> Option<&RotaryTurn> {
+    motion.tool_turn.as_ref()?.rotary.as_ref()
+}
+
+/// Where the rotary axes stand at both ends of a piece as written, deg; none where they stand as in the program.
+fn commanded_angles(path: &Path, written: &Corrected, index: usize) -> Option<[Vec<f64>; 2]> {
+    let own = rotary(&path.moves[written.pieces[index].move_index])?;
+    let to = written.rotary_deg.get(index)?.clone();
+    let before = index
+        .checked_sub(1)
+        .map(|before| &written.rotary_deg[before]);
+    let before = before.filter(|before| before.len() == to.len());
+    let from = before.cloned().unwrap_or_else(|| own.angles_deg(0.0));
+    Some([from, to])
 }
 
 fn kind(motion: &Move) -> PointKind {

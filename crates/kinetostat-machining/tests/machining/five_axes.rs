@@ -89,7 +89,7 @@ impl Machine {
     }
 
     /// A head that tilts the tool of an arm, and a table below it.
-    fn head_and_table() -> Self {
+    pub(crate) fn head_and_table() -> Self {
         let mut machine = Self::arm_with_table();
         machine.axes[0].1 = Carries::Tool;
         machine
@@ -135,6 +135,19 @@ impl Machine {
 
     /// Where the tip is in the part (mm) when the controller has it at X, Y, Z, A, C, under a force in base axes.
     pub(crate) fn tip(&self, at: &[f64; 5], force: &Vector3<f64>) -> Vector3<f64> {
+        self.tip_and_direction(at, force).0
+    }
+
+    /// The tool's axis in the part there: the direction that is z of the part where all axes stand at zero.
+    pub(crate) fn direction(&self, at: &[f64; 5], force: &Vector3<f64>) -> Vector3<f64> {
+        self.tip_and_direction(at, force).1
+    }
+
+    fn tip_and_direction(
+        &self,
+        at: &[f64; 5],
+        force: &Vector3<f64>,
+    ) -> (Vector3<f64>, Vector3<f64>) {
         let ([part, tool], origin) = self.turned(at[3], at[4]);
         let zero = &self.placement.base_from_part;
         let base_from_part = zero.rotation.to_rotation_matrix().into_inner();
@@ -154,9 +167,19 @@ impl Machine {
         let pose = Pose::from_parts(place(&vector![at[0], at[1], at[2]]).into(), rotation);
         let posture = self.mechanism.posture(&pose).expect("a posture");
         let wrench = Wrench::new(*force, Vector3::zeros());
-        let tool = posture.deflected_by(&wrench).expect("an equilibrium").tool;
+        // Without a force: the rigid machine.
+        let tool = match force.norm() > 0.0 {
+            true => posture.deflected_by(&wrench).expect("an equilibrium").tool,
+            false => pose,
+        };
         let in_base = (tool.translation.vector - zero.translation.vector) * 1e3;
-        part.transpose() * (base_from_part.transpose() * in_base - origin)
+        let tip = part.transpose() * (base_from_part.transpose() * in_base - origin);
+        let axis = self.placement.tool_orientation.inverse() * (base_from_part * Vector3::z());
+        let direction = tool.rotation * axis;
+        (
+            tip,
+            part.transpose() * (base_from_part.transpose() * direction),
+        )
     }
 
     fn run(&self, force: Vector3<f64>) -> (Run, String) {
@@ -207,9 +230,17 @@ impl Machine {
 
 /// Places of the blocks at feed: X Y Z A C before and after each.
 pub(crate) fn blocks(text: &str) -> Vec<[[f64; 5]; 2]> {
+    numbered_blocks(text)
+        .into_iter()
+        .map(|(_, block)| block)
+        .collect()
+}
+
+/// The same with their lines, from 1.
+pub(crate) fn numbered_blocks(text: &str) -> Vec<(usize, [[f64; 5]; 2])> {
     let (mut at, mut incremental, mut feed) = ([0.0; 5], false, false);
     let mut all = Vec::new();
-    for line in text.lines() {
+    for (index, line) in text.lines().enumerate() {
         let before = at;
         let mut moves = false;
         for word in line.split_whitespace() {
@@ -230,7 +261,7 @@ pub(crate) fn blocks(text: &str) -> Vec<[[f64; 5]; 2]> {
             }
         }
         if moves && feed {
-            all.push([before, at]);
+            all.push((index + 1, [before, at]));
         }
     }
     all

@@ -165,6 +165,7 @@ impl Verifier<'_> {
         let is_feed_mode =
             |code: &(u8, i64)| by_time && code.0 == b'G' && [930, 940].contains(&code.1);
         let split = shapes.len() > 1;
+        let turned = self.turned(motion);
         let kept_arc = shapes.contains(&Shape::Kept);
         let is_arc = motion.curve != Curve::Line && !kept_arc;
         let names_motion = motion_word(self.input.words(line)).is_some();
@@ -177,6 +178,7 @@ impl Verifier<'_> {
                     !(b"XYZF".contains(&word.letter)
                         || is_arc && (b"IJKRP".contains(&word.letter) || is_motion(word))
                         || kept_arc && !names_motion && is_motion(word)
+                        || turned && b"ABC".contains(&word.letter)
                         || by_time && is_feed_mode(&code_of(word))
                         || split && (b"ABCEUVW".contains(&word.letter) || is_after_motion(word)))
                 },
@@ -239,6 +241,12 @@ impl Verifier<'_> {
             && self.codes(self.output, first).contains(&(b'G', 930))
     }
 
+    /// Whether the angles of the program are corrected, and these words with them: they are checked with the moves.
+    fn turned(&self, motion: &Move) -> bool {
+        let turn = motion.tool_turn.as_ref();
+        !self.rotary_deg.is_empty() && turn.is_some_and(|turn| turn.rotary.is_some())
+    }
+
     fn ends_program(&self, line: &Line) -> bool {
         let ends = |code: &(u8, i64)| [(b'M', 20), (b'M', 300)].contains(code);
         self.codes(self.input, line).iter().any(ends)
@@ -292,6 +300,7 @@ impl Verifier<'_> {
                 b'F' => true,
                 // Whether the input named the motion too is checked with the codes.
                 b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && is_own(word),
+                b'A' | b'B' | b'C' if self.turned(motion) => true,
                 letter => motion
                     .extra
                     .iter()

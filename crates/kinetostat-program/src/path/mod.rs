@@ -13,5 +13,6 @@ pub(crate) mod position_offset;
 pub(crate) mod rotary;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
+pub(crate) mod tool_direction;
 pub(crate) mod tool_turn;
 pub(crate) mod turning;

@@ -15,12 +15,10 @@ use crate::writing::arc_words::{ArcWord, ToPrint};
 use crate::writing::fit::ArcForm;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
+use crate::writing::rotary_words::{EXTRA_DECIMALS, TurnedAxes};
 
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
-
-/// Digits after the point of shared-out words of other axes, at least.
-const EXTRA_DECIMALS: usize = 5;
 
 const AXES: [u8; 3] = *b"XYZ";
 
@@ -31,6 +29,8 @@ pub(crate) const UNCHANGED_MM: f64 = 1e-9;
 pub(crate) struct ProgramStyle {
     /// Axes that may be written.
     pub stated: [bool; 3],
+    /// See [`Path::tool_axis`].
+    pub tool_axis: Vector3<f64>,
     /// Every motion of the program has its own motion word, so its pieces must too: it may be meant for
     /// a firmware without modal motion (most printers').
     pub repeats_motion: bool,
@@ -46,6 +46,7 @@ impl ProgramStyle {
         };
         Self {
             stated: path.stated,
+            tool_axis: path.tool_axis,
             repeats_motion: path.moves.iter().all(names_motion),
         }
     }
@@ -79,6 +80,8 @@ pub(crate) struct BlockWriter<'a> {
     /// A turn in place by G94 whose pieces are written with their time (G93): beside X, Y and Z a controller takes F for the way of
     /// the tip, and not for the angle.
     pub by_time: bool,
+    /// Rotary axes whose angles are corrected.
+    pub turned: TurnedAxes<'a>,
 }
 
 /// The line of the block itself, or one of those behind it.
@@ -116,6 +119,11 @@ impl<'a> BlockWriter<'a> {
             max_feed_factor: options.max_feed_factor,
             turn_lever_mm: options.turn_lever_mm,
             by_time: false,
+            turned: TurnedAxes {
+                motion,
+                tool_axis: whole.tool_axis,
+                were_turned: false,
+            },
             separator: if spaced { " " } else { "" },
             lower_case: words
                 .iter()
@@ -152,6 +160,14 @@ impl<'a> BlockWriter<'a> {
             }
         }
         for (letter, text) in self.arc_words(state, step, from, Place::OwnLine)? {
+            match (text, self.word(letter)) {
+                (Some(text), Some(word)) => edits.push((number_span(word), text)),
+                (Some(text), None) => self.add(&mut added, letter, &text),
+                (None, _) => {}
+            }
+        }
+        let standing = |letter| self.word(letter).map(|word| word.value);
+        for (letter, text) in self.turned.words_of_piece(state, (steps, 0), standing) {
             match (text, self.word(letter)) {
                 (Some(text), Some(word)) => edits.push((number_span(word), text)),
                 (Some(text), None) => self.add(&mut added, letter, &text),
@@ -227,6 +243,12 @@ impl<'a> BlockWriter<'a> {
             }
         }
         for (letter, number) in self.arc_words(state, step, from, Place::FurtherLine)? {
+            if let Some(number) = number {
+                self.add(&mut text, letter, &number);
+            }
+        }
+        let turned = self.turned.words_of_piece(state, (steps, index), |_| None);
+        for (letter, number) in turned {
             if let Some(number) = number {
                 self.add(&mut text, letter, &number);
             }
@@ -492,6 +514,9 @@ impl<'a> BlockWriter<'a> {
             return Ok(());
         }
         for (extra, number) in self.motion.extra.iter().zip(self.extra_numbers(steps, 0)?) {
+            if self.turned.has_word(extra.letter, steps) {
+                continue;
+            }
             if let Some(word) = self.word(extra.letter as u8) {
                 edits.push((number_span(word), number));
             }
@@ -509,13 +534,11 @@ impl<'a> BlockWriter<'a> {
             return Ok(Vec::new());
         }
         let numbers = self.extra_numbers(steps, index)?;
-        Ok(self
-            .motion
-            .extra
-            .iter()
-            .map(|extra| extra.letter)
+        let letters = self.motion.extra.iter().map(|extra| extra.letter);
+        let own = letters
             .zip(numbers)
-            .collect())
+            .filter(|(letter, _)| !self.turned.has_word(*letter, steps));
+        Ok(own.collect())
     }
 
     /// The share of each extra axis' word in a piece.

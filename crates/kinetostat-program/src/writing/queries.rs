@@ -5,7 +5,7 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request};
 use crate::number::larger;
-use crate::path::moves::{Knowledge, Path};
+use crate::path::moves::{Knowledge, Move, MoveKind, Path};
 
 /// Asks the field and checks its answers.
 pub(crate) struct FieldQueries<'a> {
@@ -74,6 +74,10 @@ impl FieldQueries<'_> {
                     Some(Err(reason)) => return Err(failure(reason.message)),
                     None => return Err(failure("the field gave too few answers".to_owned())),
                 };
+                if turns_by_rotary_axes(&self.path.moves[request.move_index]) {
+                    // A rapid leaves the axes where the program has them.
+                    value.fixed_rows_mut::<3>(3).fill(0.0);
+                }
                 for axis in 0..3 {
                     if !self.path.stated[axis] {
                         self.left_out_mm = larger(self.left_out_mm, value[axis].abs());
@@ -88,6 +92,11 @@ impl FieldQueries<'_> {
         }
         Ok(values)
     }
+}
+
+fn turns_by_rotary_axes(motion: &Move) -> bool {
+    let turn = motion.tool_turn.as_ref();
+    motion.kind == MoveKind::Rapid && turn.is_some_and(|turn| turn.rotary.is_some())
 }
 
 /// Points queried in one call of the field.

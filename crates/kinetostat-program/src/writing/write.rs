@@ -6,7 +6,7 @@ use crate::path::moves::Path;
 use crate::text::program::Program;
 use crate::writing::divide::divide;
 use crate::writing::emit::Emitter;
-use crate::writing::options::WriteOptions;
+use crate::writing::options::{Arcs, WriteOptions};
 use crate::writing::written::Corrected;
 
 /// Writes the program whose commanded path is the path plus the field's correction.
@@ -52,6 +52,10 @@ pub fn write_corrected(
         }
         last = motion.line;
     }
-    let division = divide(path, field, (options, options.arcs), monitor)?;
+    let arcs = match field.turns_tool() {
+        true => Arcs::Lines,
+        false => options.arcs,
+    };
+    let division = divide(path, field, (options, arcs), monitor)?;
     Emitter::new(program, path, options, division).emit()
 }

@@ -152,7 +152,7 @@ fn its_pieces_have_their_time_and_the_feed_comes_back() {
     }
     // The next block has no F of its own.
     let made = written(&format!("{BEGIN}C180 F360\nX31\nM30\n"), &plain()).unwrap();
-    assert!(made.text.contains("\nG94 F360\nX31"), "{}", made.text);
+    assert!(made.text.contains("\nG94 F360\nX30.8"), "{}", made.text);
 }
 
 #[test]

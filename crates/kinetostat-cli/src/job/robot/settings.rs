@@ -87,10 +87,7 @@ pub(crate) fn settings(
             AxisWord::MinusZ => -Vector3::z(),
         };
     }
-    let corrected = match flags.correct.unwrap_or(correct) {
-        CorrectWord::Position => Directions::POSITION,
-        CorrectWord::Pose => Directions::ALL,
-    };
+    let corrected = flags.correct.unwrap_or(correct).directions();
     Ok(RobotSettings {
         reading,
         making,
