@@ -210,15 +210,17 @@ impl ModelField<'_> {
         };
         let programmed = rotary.angles_deg(request.share);
         let wanted = path.tool_direction(request.move_index, request.share);
-        let mut angles = programmed.clone();
-        let mut shift_mm = Vector3::zeros();
-        for _ in 0..STEPS {
-            let (place, orientation) = placed(Some(&angles));
+        let mut commanded = |angles: &[f64]| {
+            let (place, orientation) = placed(Some(angles));
             let pose = place.pose(&request.position_mm, orientation);
-            let (target, tool) = memory
-                .target_and_tool(mechanism, &pose, wrench)
-                .map_err(failed)?;
-            shift_mm = place.to_program(&(target.translation.vector - pose.translation.vector));
+            let found = memory.target_and_tool(mechanism, &pose, wrench);
+            let (target, tool) = found.map_err(failed)?;
+            let shift = place.to_program(&(target.translation.vector - pose.translation.vector));
+            Ok((place, tool, shift))
+        };
+        let mut angles = programmed.clone();
+        for _ in 0..STEPS {
+            let (place, tool, _) = commanded(&angles)?;
             let reached = place.to_part_axes(&(tool.rotation * path.tool_axis));
             let across = reached.cross(&wanted).cross(&reached);
             let (turns, _) = rotary.axes.turns_for(&angles, &path.tool_axis, &across);
@@ -229,6 +231,15 @@ impl ModelField<'_> {
                 break;
             }
         }
+        let turns = angles.iter().zip(&programmed);
+        let turns: Vec<f64> = turns.map(|(angle, own)| angle - own).collect();
+        let turns = rotary
+            .axes
+            .gradual_turns(&programmed, &path.tool_axis, &turns);
+        for (angle, (own, turn)) in angles.iter_mut().zip(programmed.iter().zip(&turns)) {
+            *angle = own + turn;
+        }
+        let (_, _, shift_mm) = commanded(&angles)?;
         let turn = rotary.axes.tool(&angles) * rotary.axes.tool(&programmed).inverse();
         Ok(Correction {
             shift_mm,

@@ -108,7 +108,7 @@ pub(crate) fn at_pole(task: &Task<'_>) -> Option<Warning> {
         WarningCode::AtPole,
         line,
         format!(
-            "the tool lies within 2 degrees of a rotary axis in this block{more}: about that axis its angle is not corrected, and a tilt across the other one stays (the figures count it)"
+            "the tool lies within 2 degrees of a rotary axis in this block{more}: turns about that axis are corrected in part, or not at all (nearer than 1 degree), and a tilt of the tool stays (the figures count it)"
         ),
     ))
 }

@@ -4,7 +4,7 @@
 //! free. Where two axes turn the tool about nearly the same direction (the pole: the tool lies along an axis) the direction is
 //! not followed across it, and the angles stay.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::path::rotary::RotaryAxes;
 
@@ -13,6 +13,9 @@ const STEP: f64 = 1e-4;
 
 /// The tool turns by less than this share of an angle where it is near the pole: 2 degrees beside it.
 const POLE: f64 = 0.035;
+
+/// And by less than this where it is at the pole: 1 degree.
+const AT_POLE: f64 = 0.5 * POLE;
 
 /// Steps of Newton's iteration.
 const STEPS: usize = 30;
@@ -50,10 +53,42 @@ impl RotaryAxes {
         tool_axis: &Vector3<f64>,
         across: &Vector3<f64>,
     ) -> (Vec<f64>, bool) {
-        let count = self.axes.len().min(angles_deg.len());
-        let mut slopes = DMatrix::zeros(3, count);
+        let svd = self.slopes(angles_deg, tool_axis).svd(true, true);
+        let wanted = DMatrix::from_column_slice(3, 1, across.as_slice());
+        let turns = match svd.solve(&wanted, AT_POLE) {
+            Ok(turns) => turns.iter().copied().collect(),
+            Err(_) => vec![0.0; angles_deg.len()],
+        };
+        (turns, is_near_pole(&svd.singular_values))
+    }
+
+    /// The same turns, less of what turns the axes near the pole: all of it 2 degrees beside it, nothing at 1 degree and nearer, so
+    /// that they begin gradually.
+    #[must_use]
+    pub fn gradual_turns(
+        &self,
+        angles_deg: &[f64],
+        tool_axis: &Vector3<f64>,
+        turns: &[f64],
+    ) -> Vec<f64> {
+        let svd = self.slopes(angles_deg, tool_axis).svd(false, true);
+        let mut kept = DVector::from_column_slice(turns);
+        let Some(directions) = svd.v_t else {
+            return turns.to_vec();
+        };
+        for (row, size) in directions.row_iter().zip(svd.singular_values.iter()) {
+            let part = ((size - AT_POLE) / (POLE - AT_POLE)).clamp(0.0, 1.0);
+            let along = row.transpose();
+            kept -= &along * (along.dot(&kept) * (1.0 - part));
+        }
+        kept.iter().copied().collect()
+    }
+
+    /// How the tool's direction changes with every angle, a column each.
+    fn slopes(&self, angles_deg: &[f64], tool_axis: &Vector3<f64>) -> DMatrix<f64> {
+        let mut slopes = DMatrix::zeros(3, angles_deg.len());
         let mut angles = angles_deg.to_vec();
-        for index in 0..count {
+        for index in 0..angles.len() {
             let own = angles[index];
             angles[index] = own + STEP.to_degrees();
             let above = self.tool_direction_at(&angles, tool_axis);
@@ -62,15 +97,7 @@ impl RotaryAxes {
             angles[index] = own;
             slopes.set_column(index, &((above - below) / (2.0 * STEP)));
         }
-        let svd = slopes.svd(true, true);
-        let free = svd.singular_values.iter().filter(|size| **size > POLE);
-        let at_pole = free.count() < 2.min(count);
-        let wanted = DMatrix::from_column_slice(3, 1, across.as_slice());
-        let turns = match svd.solve(&wanted, POLE) {
-            Ok(turns) => turns.iter().copied().collect(),
-            Err(_) => vec![0.0; count],
-        };
-        (turns, at_pole)
+        slopes
     }
 
     /// The angles nearest to others at which the tool lies along a direction in the part; `tool_axis` is its own, from its tip to its
@@ -102,6 +129,9 @@ impl RotaryAxes {
     /// // How A and C must turn for a small turn of the tool towards x.
     /// let (turns, _) = fork.turns_for(&[90.0, 30.0], &z, &Vector3::new(0.0, 1e-3, 0.0));
     /// assert!((turns[0] - 2e-3).abs() < 1e-9 && turns[1].abs() < 1e-9);
+    /// // 1.5 degrees beside the pole half of the turn of C is made.
+    /// let half = fork.gradual_turns(&[0.0, 1.5], &z, &[1.0, 0.0])[0];
+    /// assert!((half - 0.5).abs() < 0.01, "{half}");
     /// ```
     #[must_use]
     pub fn angles_towards(
@@ -153,4 +183,10 @@ fn turn_between(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
             any * std::f64::consts::PI
         }
     }
+}
+
+/// Two directions are turned fully: those across the tool.
+fn is_near_pole(sizes: &DVector<f64>) -> bool {
+    let free = sizes.iter().filter(|size| **size > POLE);
+    free.count() < 2.min(sizes.len())
 }

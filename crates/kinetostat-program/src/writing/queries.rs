@@ -74,8 +74,8 @@ impl FieldQueries<'_> {
                     Some(Err(reason)) => return Err(failure(reason.message)),
                     None => return Err(failure("the field gave too few answers".to_owned())),
                 };
-                if turns_by_rotary_axes(&self.path.moves[request.move_index]) {
-                    // A rapid leaves the axes where the program has them.
+                if is_last_with_rotary_axes(self.path, request.move_index) {
+                    // Behind it the angles count as those of the program.
                     value.fixed_rows_mut::<3>(3).fill(0.0);
                 }
                 for axis in 0..3 {
@@ -94,9 +94,15 @@ impl FieldQueries<'_> {
     }
 }
 
-fn turns_by_rotary_axes(motion: &Move) -> bool {
-    let turn = motion.tool_turn.as_ref();
-    motion.kind == MoveKind::Rapid && turn.is_some_and(|turn| turn.rotary.is_some())
+/// A rapid that turns by rotary axes, before moves that do not say how these stand.
+fn is_last_with_rotary_axes(path: &Path, move_index: usize) -> bool {
+    let states = |motion: &Move| {
+        let turn = motion.tool_turn.as_ref();
+        turn.is_some_and(|turn| turn.rotary.is_some()) && motion.known != Knowledge::Nothing
+    };
+    let motion = &path.moves[move_index];
+    let goes_on = path.moves.get(move_index + 1).is_some_and(states);
+    motion.kind == MoveKind::Rapid && states(motion) && !goes_on
 }
 
 /// Points queried in one call of the field.
