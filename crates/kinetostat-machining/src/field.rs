@@ -24,6 +24,8 @@ pub struct ModelField<'a> {
     pub load: &'a LoadAlongPath<'a>,
     /// What of the pose is corrected.
     corrected: Directions,
+    /// The orientation is corrected by rotary axes: the path has their angles.
+    turned_by_axes: bool,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,
 }
@@ -46,6 +48,7 @@ impl<'a> ModelField<'a> {
             placement,
             load,
             corrected: Directions::POSITION,
+            turned_by_axes: false,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
         }
     }
@@ -55,6 +58,8 @@ impl<'a> ModelField<'a> {
     #[must_use]
     pub fn correcting(mut self, directions: Directions) -> Self {
         self.corrected = directions;
+        let mut moves = self.load.path().moves.iter();
+        self.turned_by_axes = directions == Directions::ALL && moves.any(|m| rotary(m).is_some());
         self
     }
 
@@ -142,7 +147,7 @@ impl ModelField<'_> {
                     },
                 }
             };
-            if turns && requests.iter().any(|r| self.rotary(r).is_some()) {
+            if self.turned_by_axes {
                 let all = requests.iter().zip(&wrenches);
                 return all
                     .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
@@ -172,12 +177,11 @@ const STEPS: usize = 8;
 /// Angles that change by less are found, rad.
 const SAME_RAD: f64 = 1e-10;
 
-impl ModelField<'_> {
-    fn rotary(&self, request: &Request) -> Option<&RotaryTurn> {
-        let motion = &self.load.path().moves[request.move_index];
-        motion.tool_turn.as_ref()?.rotary.as_ref()
-    }
+fn rotary(motion: &Move) -> Option<&RotaryTurn> {
+    motion.tool_turn.as_ref()?.rotary.as_ref()
+}
 
+impl ModelField<'_> {
     /// The correction on a machine whose rotary axes turn tool and part: the tip exactly, and the tool's axis as far as these axes
     /// can turn it. Of a place without their angles the position alone.
     fn by_axes(
@@ -189,7 +193,7 @@ impl ModelField<'_> {
         let failed = |error: Error| FieldFailure::new(cause_and_advice(&error));
         let path = self.load.path();
         let motion = &path.moves[request.move_index];
-        let placed = |angles: Option<&[f64]>| match (angles, self.rotary(request)) {
+        let placed = |angles: Option<&[f64]>| match (angles, rotary(motion)) {
             (Some(angles), Some(rotary)) => {
                 let place = self.placement.turned(Some(&rotary.axes.part(angles)));
                 (place, place.orientation_of(Some(rotary.axes.tool(angles))))
@@ -199,7 +203,7 @@ impl ModelField<'_> {
                 self.placement.orientation_on(motion, request.share),
             ),
         };
-        let Some(rotary) = self.rotary(request) else {
+        let Some(rotary) = rotary(motion) else {
             let (place, orientation) = placed(None);
             let pose = place.pose(&request.position_mm, orientation);
             let (target, _) = memory

@@ -52,6 +52,10 @@ fn check(machine: &Machine) {
     assert!(tips < 0.001, "{tips}\n{text}");
     assert!(axes < 1e-6, "{axes} {before}\n{text}");
     assert!(before > 1e-5 && before > 50.0 * axes, "{before}");
+    let (tips, axes, places) = between(machine, &run, &text);
+    assert!(places > 30, "{places}");
+    assert!(tips < TOLERANCE_MM + 2e-4, "{tips}\n{text}");
+    assert!(axes < (TOLERANCE_MM + 2e-4) / 50.0, "{axes}\n{text}");
     let summary = &run.result.summary;
     assert!(
         summary.max_position_error_after_mm < 1.2 * TOLERANCE_MM + 0.001,
@@ -66,6 +70,40 @@ fn check(machine: &Machine) {
         summary.max_residual_rotation_deg
     );
     assert!(text.contains("G49") && !text.contains("G2 "), "{text}");
+}
+
+/// Along the straight pieces, at places that the division does not take: how far the tip is off its place (mm) and the tool off
+/// its direction (rad), where the program goes evenly from end to end.
+fn between(machine: &Machine, run: &Run, text: &str) -> (f64, f64, usize) {
+    let written = numbered_blocks(text);
+    let source = blocks(PROGRAM);
+    let lerp = |pair: &[[f64; 5]; 2], share: f64| {
+        [0, 1, 2, 3, 4].map(|k| pair[0][k] + (pair[1][k] - pair[0][k]) * share)
+    };
+    let (mut tips, mut axes, mut count) = (Worst::new(), Worst::new(), 0);
+    let (mut block, mut last) = (0, None);
+    for piece in &run.written.as_ref().expect("a program").pieces {
+        let Some((_, own)) = written.iter().find(|(line, _)| *line == piece.output_line) else {
+            continue;
+        };
+        block += usize::from(last.is_some_and(|last| last != piece.move_index));
+        last = Some(piece.move_index);
+        // The first comes from a rapid, with a load that comes gradually; the last is an arc.
+        if piece.corner_step || block == 0 || block + 1 == source.len() {
+            continue;
+        }
+        for part in [0.23, 0.5, 0.81] {
+            let share = piece.share_from + part * (piece.share_to - piece.share_from);
+            let (at, wanted) = (lerp(own, part), lerp(&source[block], share));
+            let place = vector![wanted[0], wanted[1], wanted[2]];
+            tips.add((machine.tip(&at, &FORCE) - place).norm());
+            let direction = machine.direction(&wanted, &Vector3::zeros());
+            axes.add(machine.direction(&at, &FORCE).angle(&direction));
+            count += 1;
+        }
+    }
+    assert_eq!(block + 1, source.len());
+    (tips.of(count), axes.of(count), count)
 }
 
 #[test]

@@ -53,13 +53,17 @@ impl RotaryAxes {
         tool_axis: &Vector3<f64>,
         across: &Vector3<f64>,
     ) -> (Vec<f64>, bool) {
-        let svd = self.slopes(angles_deg, tool_axis).svd(true, true);
-        let wanted = DMatrix::from_column_slice(3, 1, across.as_slice());
-        let turns = match svd.solve(&wanted, AT_POLE) {
-            Ok(turns) => turns.iter().copied().collect(),
-            Err(_) => vec![0.0; angles_deg.len()],
-        };
-        (turns, is_near_pole(&svd.singular_values))
+        let slopes = self.slopes(angles_deg, tool_axis);
+        let along = slopes.tr_mul(across);
+        let mut turns = DVector::zeros(slopes.ncols());
+        let (mut free, needed) = (0, 2.min(slopes.ncols()));
+        for (size, direction) in principal(&slopes) {
+            free += usize::from(size > POLE);
+            if size > AT_POLE {
+                turns += &direction * (direction.dot(&along) / (size * size));
+            }
+        }
+        (turns.iter().copied().collect(), free < needed)
     }
 
     /// The same turns, less of what turns the axes near the pole: all of it 2 degrees beside it, nothing at 1 degree and nearer, so
@@ -71,15 +75,10 @@ impl RotaryAxes {
         tool_axis: &Vector3<f64>,
         turns: &[f64],
     ) -> Vec<f64> {
-        let svd = self.slopes(angles_deg, tool_axis).svd(false, true);
         let mut kept = DVector::from_column_slice(turns);
-        let Some(directions) = svd.v_t else {
-            return turns.to_vec();
-        };
-        for (row, size) in directions.row_iter().zip(svd.singular_values.iter()) {
+        for (size, direction) in principal(&self.slopes(angles_deg, tool_axis)) {
             let part = ((size - AT_POLE) / (POLE - AT_POLE)).clamp(0.0, 1.0);
-            let along = row.transpose();
-            kept -= &along * (along.dot(&kept) * (1.0 - part));
+            kept -= &direction * (direction.dot(&kept) * (1.0 - part));
         }
         kept.iter().copied().collect()
     }
@@ -185,8 +184,35 @@ fn turn_between(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     }
 }
 
-/// Two directions are turned fully: those across the tool.
-fn is_near_pole(sizes: &DVector<f64>) -> bool {
-    let free = sizes.iter().filter(|size| **size > POLE);
-    free.count() < 2.min(sizes.len())
+/// Sweeps of Jacobi's rotations: of so few angles five are enough.
+const SWEEPS: usize = 30;
+
+/// Combinations of angles that turn the tool in directions across each other, with how far: singular values and right singular
+/// vectors of the slopes, from the eigenvectors of their normal matrix by Jacobi's rotations.
+fn principal(slopes: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+    let count = slopes.ncols();
+    let mut normal = slopes.tr_mul(slopes);
+    let mut vectors = DMatrix::identity(count, count);
+    let pairs = || (0..count).flat_map(|p| (p + 1..count).map(move |q| (p, q)));
+    for _ in 0..SWEEPS {
+        for (p, q) in pairs() {
+            let beside: f64 = normal[(p, q)];
+            if beside.abs() < f64::MIN_POSITIVE {
+                continue;
+            }
+            let half = (normal[(q, q)] - normal[(p, p)]) / (2.0 * beside);
+            let tangent = half.signum() / (half.abs() + half.hypot(1.0));
+            let cosine = 1.0 / tangent.hypot(1.0);
+            let mut turn = DMatrix::identity(count, count);
+            (turn[(p, p)], turn[(q, q)]) = (cosine, cosine);
+            (turn[(p, q)], turn[(q, p)]) = (tangent * cosine, -tangent * cosine);
+            normal = turn.transpose() * normal * &turn;
+            vectors *= &turn;
+        }
+    }
+    let each = (0..count).map(|k| {
+        let size = crate::number::larger(normal[(k, k)], 0.0).sqrt();
+        (size, vectors.column(k).into_owned())
+    });
+    each.collect()
 }

@@ -260,7 +260,8 @@ impl<'a> PieceAccount<'a> {
         if pieces > 1 {
             accounting.blocks_split += 1;
             let new = &self.pieces[self.pieces.len() - pieces..];
-            for piece in new.iter().filter(|piece| !piece.corner_step) {
+            let has_length = |piece: &&Piece| !piece.corner_step && !motion.turns_in_place();
+            for piece in new.iter().filter(has_length) {
                 let length = motion.length_between_mm(piece.share_from, piece.share_to);
                 let smallest = accounting.smallest_piece_mm.get_or_insert(length);
                 *smallest = smallest.min(length);
