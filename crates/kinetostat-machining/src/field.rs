@@ -3,14 +3,14 @@
 use kinetostat::batch::AlongPath;
 use kinetostat::{Directions, Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{
-    Correction, CorrectionField, Course, FieldFailure, Move, Request, Structure,
+    Correction, CorrectionField, Course, FieldFailure, Move, Request, RotaryTurn, Structure,
 };
 use nalgebra::Vector3;
 
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::postures::neighbour::in_chunks;
+use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
@@ -24,6 +24,8 @@ pub struct ModelField<'a> {
     pub load: &'a LoadAlongPath<'a>,
     /// What of the pose is corrected.
     corrected: Directions,
+    /// The orientation is corrected by rotary axes: the path has their angles.
+    turned_by_axes: bool,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,
 }
@@ -46,6 +48,7 @@ impl<'a> ModelField<'a> {
             placement,
             load,
             corrected: Directions::POSITION,
+            turned_by_axes: false,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
         }
     }
@@ -55,6 +58,8 @@ impl<'a> ModelField<'a> {
     #[must_use]
     pub fn correcting(mut self, directions: Directions) -> Self {
         self.corrected = directions;
+        let mut moves = self.load.path().moves.iter();
+        self.turned_by_axes = directions == Directions::ALL && moves.any(|m| rotary(m).is_some());
         self
     }
 
@@ -76,6 +81,10 @@ impl<'a> ModelField<'a> {
 impl CorrectionField for ModelField<'_> {
     fn turns(&self) -> bool {
         true
+    }
+
+    fn turns_tool(&self) -> bool {
+        self.corrected == Directions::ALL
     }
 
     fn structure(&self, move_index: usize, _motion: &Move) -> Structure {
@@ -138,6 +147,12 @@ impl ModelField<'_> {
                     },
                 }
             };
+            if self.turned_by_axes {
+                let all = requests.iter().zip(&wrenches);
+                return all
+                    .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
+                    .collect();
+            }
             if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
                 let all = places.iter().zip(&poses).zip(&targets);
                 return all
@@ -152,6 +167,87 @@ impl ModelField<'_> {
                     .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
             .collect()
+        })
+    }
+}
+
+/// Steps of the iteration for the angles of rotary axes: each is exact to the share by which the deflection changes with them.
+const STEPS: usize = 8;
+
+/// Angles that change by less are found, rad.
+const SAME_RAD: f64 = 1e-10;
+
+fn rotary(motion: &Move) -> Option<&RotaryTurn> {
+    motion.tool_turn.as_ref()?.rotary.as_ref()
+}
+
+impl ModelField<'_> {
+    /// The correction on a machine whose rotary axes turn tool and part: the tip exactly, and the tool's axis as far as these axes
+    /// can turn it. Of a place without their angles the position alone.
+    fn by_axes(
+        &self,
+        memory: &mut Neighbour,
+        mechanism: &Mechanism,
+        (request, wrench): (&Request, &Wrench),
+    ) -> Result<Correction, FieldFailure> {
+        let failed = |error: Error| FieldFailure::new(cause_and_advice(&error));
+        let path = self.load.path();
+        let motion = &path.moves[request.move_index];
+        let placed = |angles: Option<&[f64]>| match (angles, rotary(motion)) {
+            (Some(angles), Some(rotary)) => {
+                let place = self.placement.turned(Some(&rotary.axes.part(angles)));
+                (place, place.orientation_of(Some(rotary.axes.tool(angles))))
+            }
+            _ => (
+                self.placement.on(motion, request.share),
+                self.placement.orientation_on(motion, request.share),
+            ),
+        };
+        let Some(rotary) = rotary(motion) else {
+            let (place, orientation) = placed(None);
+            let pose = place.pose(&request.position_mm, orientation);
+            let (target, _) = memory
+                .target_and_tool(mechanism, &pose, wrench)
+                .map_err(failed)?;
+            let shift = target.translation.vector - pose.translation.vector;
+            return Ok(Correction::from(place.to_program(&shift)));
+        };
+        let programmed = rotary.angles_deg(request.share);
+        let wanted = path.tool_direction(request.move_index, request.share);
+        let mut commanded = |angles: &[f64]| {
+            let (place, orientation) = placed(Some(angles));
+            let pose = place.pose(&request.position_mm, orientation);
+            let found = memory.target_and_tool(mechanism, &pose, wrench);
+            let (target, tool) = found.map_err(failed)?;
+            let shift = place.to_program(&(target.translation.vector - pose.translation.vector));
+            Ok((place, tool, shift))
+        };
+        let mut angles = programmed.clone();
+        for _ in 0..STEPS {
+            let (place, tool, _) = commanded(&angles)?;
+            let reached = place.to_part_axes(&(tool.rotation * path.tool_axis));
+            let across = reached.cross(&wanted).cross(&reached);
+            let (turns, _) = rotary.axes.turns_for(&angles, &path.tool_axis, &across);
+            for (angle, turn) in angles.iter_mut().zip(&turns) {
+                *angle += turn.to_degrees();
+            }
+            if turns.iter().all(|turn| turn.abs() < SAME_RAD) {
+                break;
+            }
+        }
+        let turns = angles.iter().zip(&programmed);
+        let turns: Vec<f64> = turns.map(|(angle, own)| angle - own).collect();
+        let turns = rotary
+            .axes
+            .gradual_turns(&programmed, &path.tool_axis, &turns);
+        for (angle, (own, turn)) in angles.iter_mut().zip(programmed.iter().zip(&turns)) {
+            *angle = own + turn;
+        }
+        let (_, _, shift_mm) = commanded(&angles)?;
+        let turn = rotary.axes.tool(&angles) * rotary.axes.tool(&programmed).inverse();
+        Ok(Correction {
+            shift_mm,
+            turn: turn.scaled_axis(),
         })
     }
 }

@@ -74,6 +74,10 @@ pub enum WarningCode {
     OddPlacement,
     /// The tool's axis that is stated, or usual, lies along the cut.
     OddToolAxis,
+    /// The tool lies along a rotary axis, whose angle is not corrected there.
+    AtPole,
+    /// The tip of the tool lies behind the flange, on the side of the holder.
+    TipBehindFlange,
     /// The program leaves the workspace that the model states.
     OutsideWorkspace,
     /// A place that the machine cannot take exactly: the nearest one is used.

@@ -130,7 +130,7 @@ pub enum WriteError {
         /// Why, and what to do.
         reason: String,
     },
-    /// A motion of a robot's program cannot be written with its correction.
+    /// A motion cannot be written with its correction.
     #[error("line {line}: {reason}; {remedy}")]
     Motion {
         /// Line of the input program, counted from 1.

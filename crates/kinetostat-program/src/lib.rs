@@ -79,6 +79,7 @@ pub use path::pause::{Pause, PauseKind};
 pub use path::rotary::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
+pub use path::tool_direction::Directed;
 pub use path::tool_turn::ToolTurn;
 pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;

@@ -58,7 +58,7 @@ impl ReadProgram<'_> {
     /// What of the tool's pose is corrected.
     pub(crate) fn corrected(&self) -> Directions {
         match self {
-            Self::Gcode(_) => Directions::POSITION,
+            Self::Gcode(read) => read.setting.correct.directions(),
             Self::Robot(read) => read.corrected(),
         }
     }
@@ -96,6 +96,12 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
         };
         setting.within(Failure::input(first.unwrap_or_default() + &message))
     })?;
+    let states_none = path.moves.iter().all(|motion| motion.tool_turn.is_none());
+    if setting.correct.directions() == Directions::ALL && states_none {
+        return Err(Failure::input(
+            "the program does not state how its tool stands (no rotary axis of the model turns with tool centre point control), so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+        ));
+    }
     Ok(ReadProgram::Gcode(Box::new(GcodeRead {
         program,
         path,

@@ -1,6 +1,7 @@
 //! Options for programs of robots.
 
 use clap::{Args, ValueEnum};
+use kinetostat::Directions;
 use serde::Deserialize;
 
 use crate::options::number;
@@ -43,7 +44,8 @@ pub(crate) enum AxisWord {
 /// Options for programs of robots.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct RobotArgs {
-    /// What of the tool's pose is corrected, in programs that state its orientation [default: position]
+    /// What of the tool's pose is corrected, in programs that state its orientation (of robots, and of
+    /// machines with rotary axes) [default: position]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Robot programs")]
     pub(crate) correct: Option<CorrectWord>,
     /// Linear motions at this speed or a higher one position the tool in air, mm/s: no load acts there
@@ -63,11 +65,20 @@ pub(crate) struct RobotArgs {
     pub(crate) joint_rows: Option<JointRowsWord>,
 }
 
+impl CorrectWord {
+    /// Directions of the tool's pose.
+    pub(crate) fn directions(self) -> Directions {
+        match self {
+            Self::Position => Directions::POSITION,
+            Self::Pose => Directions::ALL,
+        }
+    }
+}
+
 impl RobotArgs {
-    /// The first option that was given.
-    pub(crate) fn given(&self) -> Option<&'static str> {
+    /// The first option that was given and means nothing to a program in G-code.
+    pub(crate) fn of_robots_alone(&self) -> Option<&'static str> {
         let all = [
-            ("--correct", self.correct.is_some()),
             ("--rapid-from-mm-per-s", self.rapid_from_mm_per_s.is_some()),
             ("--tool-axis", self.tool_axis.is_some()),
             ("--joint-rows", self.joint_rows.is_some()),

@@ -48,6 +48,17 @@ pub(crate) struct TurnTable {
     pub part: Axis,
 }
 
+impl RobotTable {
+    /// Whether it says nothing but what is corrected, which programs in G-code have as well.
+    pub(crate) fn says_only_what_is_corrected(&self) -> bool {
+        let lists = self.frames.is_empty() && self.files.is_empty();
+        let axes = self.tool_axis.is_none() && self.external_axes.is_none();
+        let others = self.rapid_from_mm_per_s.is_none() && self.unknown_targets.is_none();
+        let text = self.cutter_compensation.is_none() && self.length_unit.is_none();
+        lists && axes && others && text
+    }
+}
+
 /// Paths that the controller moves aside by the tool's radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -23,6 +23,7 @@ use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
+use crate::job::robot_arguments::CorrectWord;
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
@@ -42,6 +43,8 @@ pub(crate) struct Setting {
     pub(crate) program_files: Vec<FileRead>,
     pub(crate) job_file: Option<FileRead>,
     pub(crate) reading: ReadOptions,
+    /// What of the tool's pose is corrected in a program in G-code.
+    pub(crate) correct: CorrectWord,
     pub(crate) writing: WriteOptions,
     pub(crate) max_blocks_per_second: Option<f64>,
     /// What refuses a program.
@@ -192,6 +195,7 @@ pub(crate) fn setting(
         (None, None) => (program, None),
     };
     let target = targets.flat.clone();
+    let in_job = job.and_then(|j| j.job.robot.as_ref()?.get_ref().correct);
     let mut setting = Setting {
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
         program_files,
@@ -202,6 +206,7 @@ pub(crate) fn setting(
         program_path: path,
         program_name,
         reading,
+        correct: flags.robot.correct.or(in_job).unwrap_or_default(),
         writing: write,
         max_blocks_per_second,
         limits,

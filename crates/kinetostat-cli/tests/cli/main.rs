@@ -28,6 +28,7 @@ mod engagement_of_program;
 mod expand;
 mod expanded;
 mod figures;
+mod five_axes;
 mod force;
 mod force_fit;
 mod identical;

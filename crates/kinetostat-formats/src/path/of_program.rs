@@ -379,6 +379,7 @@ impl Maker<'_> {
                     };
                     Some(Box::new(ToolTurn::rotary(RotaryTurn {
                         axes: sync::Arc::clone(axes),
+                        origin_deg: vec![0.0; angles[index].len()],
                         start_deg: angles[before].clone(),
                         end_deg: angles[index].clone(),
                     })))

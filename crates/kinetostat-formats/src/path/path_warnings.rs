@@ -37,12 +37,6 @@ pub(crate) fn warnings_of(
             ),
         });
     }
-    if let Some(first) = moves.iter().find(|motion| motion.turns_in_place()) {
-        warnings.push(Warning {
-            line: first.line,
-            text: "the tool turns at one place, here first: it is corrected where it has turned, not on the way".to_owned(),
-        });
-    }
     let slow = |motion: &&Motion| {
         motion.kind != MotionKind::Joint
             && motion.target.pose().is_some()

@@ -25,3 +25,4 @@ mod poses;
 mod rapid;
 mod real_files;
 mod siemens;
+mod turns_in_place;

@@ -24,7 +24,9 @@ pub(crate) fn no_motion(path: &Path) -> Option<NoMotion> {
 /// Where a move from an unknown place ends counts, of a rapid only where every axis is stated.
 fn counts(motion: &Move, stated: [bool; 3]) -> bool {
     match motion.known {
-        Knowledge::Whole => motion.has_length(),
+        Knowledge::Whole => {
+            motion.has_length() || motion.kind == MoveKind::Feed && motion.turns_in_place()
+        }
         Knowledge::End => motion.kind == MoveKind::Feed || stated == [true; 3],
         Knowledge::Nothing => false,
     }

@@ -1,7 +1,11 @@
-//! Whether the tool of a program that turns it lies across its cut.
+//! Whether the tool of a program that turns it lies across its cut, and points away from the machine.
 
-use kinetostat_program::MoveKind;
+use kinetostat::Directions;
+use kinetostat::number::short;
+use kinetostat_program::{Move, MoveKind};
+use nalgebra::Vector3;
 
+use crate::bounds::ToolGiven;
 use crate::checks::load::loads;
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
@@ -11,6 +15,9 @@ const ALONG: f64 = 0.94;
 
 /// Share of the feed path along the tool from which on it is no milling.
 const MOST: f64 = 0.5;
+
+/// Flanges that lie less behind the tip are beside it, mm.
+const LEAST_MM: f64 = 1e-3;
 
 /// A load that turns with the feed needs the tool's axis. Where most of the path lies along it, it is another axis of the
 /// tool's frame, or a program that drills.
@@ -42,6 +49,66 @@ pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
         format!(
             "the tool goes along its own axis on {:.0} % of the path at feed, first here, and the force of milling then has no direction across it: is the tool's axis ({x}, {y}, {z}) of its frame? State it as tool_axis under [robot], from the tip to the holder",
             100.0 * along / all
+        ),
+    ))
+}
+
+/// The axis of a tool points from its tip to its holder, and so lies the flange. Where the flange lies on the other side of the
+/// tip, the tool points into the ram: a sign of the tool's length, or of the flange's frame.
+pub(crate) fn tip_behind_flange(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
+    let path = task.path();
+    let turned = path
+        .moves
+        .iter()
+        .find(|motion| motion.tool_turn.is_some())?;
+    let flange = tool.pose.inverse().translation.vector * 1e3;
+    let along = flange.dot(&path.tool_axis);
+    if along >= -LEAST_MM {
+        return None;
+    }
+    let named = tool.number.map_or_else(String::new, |n| format!(" {n}"));
+    Some(Warning::at_line(
+        WarningCode::TipBehindFlange,
+        turned.line,
+        format!(
+            "the tip of the tool{named} lies {} mm behind the flange, along the axis that the program gives the tool: it would point into the spindle. Turn z of the platform's home out of the spindle in the model, change the sign of the tool's z, or state the tool's axis (tool_axis under [robot], from the tip to the holder)",
+            short(-along)
+        ),
+    ))
+}
+
+/// Whether angles of rotary axes that are to be corrected stay because the tool lies along one of them.
+pub(crate) fn at_pole(task: &Task<'_>) -> Option<Warning> {
+    if task.corrected != Directions::ALL {
+        return None;
+    }
+    let path = task.path();
+    let lies = |motion: &&Move| {
+        let rotary = motion
+            .tool_turn
+            .as_ref()
+            .and_then(|turn| turn.rotary.as_ref());
+        let Some(rotary) = rotary.filter(|_| motion.is_known_feed()) else {
+            return false;
+        };
+        let at_pole = |share: f64| {
+            let angles = rotary.angles_deg(share);
+            let none = Vector3::zeros();
+            rotary.axes.turns_for(&angles, &path.tool_axis, &none).1
+        };
+        [0.0, 0.5, 1.0].into_iter().any(at_pole)
+    };
+    let mut moves = path.moves.iter().filter(lies);
+    let line = moves.next()?.line;
+    let more = match moves.count() {
+        0 => String::new(),
+        n => format!(" and in {n} more"),
+    };
+    Some(Warning::at_line(
+        WarningCode::AtPole,
+        line,
+        format!(
+            "the tool lies within 2 degrees of a rotary axis in this block{more}: turns about that axis are corrected in part, or not at all (nearer than 1 degree), and a tilt of the tool stays (the figures count it)"
         ),
     ))
 }

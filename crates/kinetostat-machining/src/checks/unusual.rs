@@ -11,7 +11,7 @@ use crate::checks::own_weight::by_own_loads;
 use crate::checks::placement::{origin_in_metres, outside_workspace};
 use crate::checks::refused::{as_warning, of_task};
 use crate::checks::tool::odd_tool;
-use crate::checks::tool_axis::odd_tool_axis;
+use crate::checks::tool_axis::{at_pole, odd_tool_axis, tip_behind_flange};
 use crate::limits::Limits;
 use crate::result::point::{PointResult, most, size};
 use crate::result::summary::Summary;
@@ -72,6 +72,7 @@ pub fn unusual_question(task: &Task<'_>) -> Vec<Warning> {
     let mut list: Vec<Warning> = odd_loads(task).collect();
     list.extend(odd_tools(task));
     list.extend(odd_tool_axis(task));
+    list.extend(at_pole(task));
     list.extend(odd_tolerances(&task.writing));
     list
 }
@@ -83,7 +84,11 @@ fn odd_loads<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> 
 
 fn odd_tools<'t>(task: &'t Task<'_>) -> impl Iterator<Item = Warning> + use<'t> {
     let tools = task.bounds.tools.iter();
-    tools.filter_map(move |tool| odd_tool(task, tool))
+    tools.flat_map(move |tool| {
+        [odd_tool(task, tool), tip_behind_flange(task, tool)]
+            .into_iter()
+            .flatten()
+    })
 }
 
 /// Warnings about what is allowed and unusual, of the question first.
@@ -97,6 +102,7 @@ pub(crate) fn unusual(
     list.extend(never_acts(task, points));
     list.extend(odd_tools(task));
     list.extend(odd_tool_axis(task));
+    list.extend(at_pole(task));
     list.extend(origin_in_metres(
         task.mechanism,
         &task.placement,

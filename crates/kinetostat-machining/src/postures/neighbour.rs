@@ -79,6 +79,23 @@ impl Neighbour {
         Ok(answer.0)
     }
 
+    /// The pose to command so that the tool's tip is at that of `pose` under `wrench`, with its orientation; and the tool's pose
+    /// then.
+    pub fn target_and_tool(
+        &mut self,
+        mechanism: &Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) -> Result<(Pose, Pose), Error> {
+        let holding = (Orientation::default(), Directions::POSITION);
+        let target = *self.target(mechanism, pose, wrench, holding)?.target();
+        let tool = self
+            .last
+            .as_ref()
+            .map(|(_, state)| state.platforms[mechanism.tool()]);
+        Ok((target, tool.unwrap_or(target)))
+    }
+
     /// Where the tool goes when commanded to `pose` under `wrench`.
     pub fn rest(
         &mut self,

@@ -39,6 +39,10 @@ pub(crate) struct Refined<'a> {
 }
 
 impl CorrectionField for Refined<'_> {
+    fn turns_tool(&self) -> bool {
+        self.field.turns_tool()
+    }
+
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
         self.field.corrections(requests)
     }

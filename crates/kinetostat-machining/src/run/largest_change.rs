@@ -100,7 +100,9 @@ pub(crate) fn changes(
     };
     for (index, piece) in written.pieces.iter().enumerate() {
         let motion = &path.moves[piece.move_index];
-        if piece.corner_step || !piece.corrected || !motion.is_known_feed() {
+        // A turn in place is no length of path: what changes on it changes with the angle.
+        let turns = motion.turns_in_place();
+        if piece.corner_step || !piece.corrected || turns || !motion.is_known_feed() {
             close(&mut stretch);
             continue;
         }

@@ -33,7 +33,7 @@ pub(crate) fn errors_under(
                 let poses: Vec<Pose> = sites
                     .iter()
                     .map(|(site, _)| {
-                        let place = site.placement(task);
+                        let place = site.commanded_placement(task);
                         place.pose(
                             &site.commanded,
                             place.orientation_of(site.commanded_orientation),
@@ -54,7 +54,7 @@ pub(crate) fn errors_under(
                 };
                 (0..sites.len())
                     .map(|i| {
-                        let place = sites[i].0.placement(task);
+                        let place = sites[i].0.commanded_placement(task);
                         let wanted = place.tool_pose(&sites[i].0.desired);
                         let off = tool(i)?.translation.vector - wanted.translation.vector;
                         Some(place.to_program(&off).norm()).filter(|error| error.is_finite())

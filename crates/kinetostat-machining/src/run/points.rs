@@ -8,6 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::field::cause_and_advice;
 use crate::joints::figures::{JointFigures, in_display};
+use crate::placement::Placement;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
@@ -82,19 +83,23 @@ pub(crate) fn chunk(
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
     let mechanism = machine.mechanism();
-    let poses = |of: fn(&Site) -> Place<'_>| -> Vec<Pose> {
-        let pose = |s: &Site| {
-            let (position, orientation) = of(s);
-            let place = s.placement(task);
-            place.pose(position, place.orientation_of(orientation))
+    let poses =
+        |of: fn(&Site) -> Place<'_>, lies: fn(&Site, &Task<'_>) -> Placement| -> Vec<Pose> {
+            let pose = |s: &Site| {
+                let (position, orientation) = of(s);
+                let place = lies(s, task);
+                place.pose(position, place.orientation_of(orientation))
+            };
+            sites.iter().map(pose).collect()
         };
-        sites.iter().map(pose).collect()
-    };
-    let wanted = poses(|s| (&s.desired, s.orientation));
+    let wanted = poses(|s| (&s.desired, s.orientation), Site::placement);
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
     let before = written.then(|| machine.rest(&wanted, &wrenches));
     let commanded = match written {
-        true => poses(|s| (&s.commanded, s.commanded_orientation)),
+        true => poses(
+            |s| (&s.commanded, s.commanded_orientation),
+            Site::commanded_placement,
+        ),
         false => wanted.clone(),
     };
     let after = machine.with_stability(&commanded, &wrenches);
@@ -212,7 +217,12 @@ fn point(
         let shift = tool.translation.vector - wanted.translation.vector;
         place.to_program(&shift).into()
     };
-    let error_after_mm = off(&after.tool);
+    let lies = &site.commanded_placement(task);
+    let there = lies.pose(&site.desired, lies.orientation_of(site.orientation));
+    let error_after_mm: [f64; 3] = {
+        let shift = after.tool.translation.vector - there.translation.vector;
+        lies.to_program(&shift).into()
+    };
     let (error_before_mm, actuator_correction) = match before {
         Some((nominal, tool)) => {
             let both = after.commands.iter().zip(&nominal);
@@ -245,6 +255,12 @@ fn point(
         force_n: place.to_part_axes(&site.wrench.force()).into(),
         moment_n_m: place.to_part_axes(&site.wrench.moment()).into(),
         residual_rotation_deg: match site.orientation {
+            // The turn about the tool is free.
+            Some(_) if site.commanded_deg.is_some() => {
+                let axis = task.path().tool_axis;
+                let [tool, wanted] = [after.tool, there].map(|pose| pose.rotation * axis);
+                tool.cross(&wanted).norm().atan2(tool.dot(&wanted))
+            }
             Some(_) => after.tool.rotation.angle_to(&wanted.rotation),
             None => after.rotation,
         }

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_program::{
-    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, ToolTurn, Turn, irregular,
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, RotaryTurn, ToolTurn, Turn, irregular,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -35,6 +35,8 @@ pub(crate) struct Site {
     pub orientation: Option<UnitQuaternion<f64>>,
     /// What the written program commands; the same without compensation, or where only the position is corrected.
     pub commanded_orientation: Option<UnitQuaternion<f64>>,
+    /// Where the written program has the rotary axes, deg; none where it has them as the program.
+    pub commanded_deg: Option<Vec<f64>>,
     pub wrench: Wrench,
     /// On a corner step, the load by the reading that was not chosen.
     pub other_wrench: Option<Wrench>,
@@ -47,6 +49,15 @@ impl Site {
     pub(crate) fn placement(&self, task: &Task<'_>) -> Placement {
         let motion = &task.path().moves[self.move_index];
         task.placement.on(motion, self.share)
+    }
+
+    /// Where it lies as the written program turns it.
+    pub(crate) fn commanded_placement(&self, task: &Task<'_>) -> Placement {
+        let motion = &task.path().moves[self.move_index];
+        match (&self.commanded_deg, rotary(motion)) {
+            (Some(angles), Some(rotary)) => task.placement.turned(Some(&rotary.axes.part(angles))),
+            _ => self.placement(task),
+        }
     }
 }
 
@@ -65,6 +76,9 @@ pub(crate) fn starts(path: &Path) -> Vec<f64> {
 
 /// Blocks longer than this share of the path that is cut are looked at in more places.
 const PIECES: f64 = 500.0;
+
+/// A move that turns the tool is looked at after so much of its turn, deg.
+const TURN_DEG: f64 = 10.0;
 
 /// Arcs are looked at where chords leave them by at most this, mm.
 const ARC_MM: f64 = 0.01;
@@ -90,16 +104,28 @@ impl Programmed {
     /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
     fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
         let length = motion.length_mm();
-        let pieces = (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize;
+        // Of a program that only turns all lengths are zero.
+        let pieces = match length > 0.0 {
+            true => (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize,
+            false => 1,
+        };
+        let pieces = pieces.max(turns(motion, 1.0));
         let pieces = match &motion.curve {
             Curve::Line => pieces,
             Curve::Arc(arc) => pieces.max(arc.chords_within(ARC_MM)),
         };
-        let middles = pieces > 1 || length > self.short_mm;
+        let middles = pieces > 1 || length > self.short_mm || motion.turns_in_place();
         (1..=2 * pieces)
             .filter(move |half| middles || half % 2 == 0)
             .map(move |half| (half as f64 / (2 * pieces) as f64, half % 2 == 0))
     }
+}
+
+/// Into how many parts a share of a move is divided by the turn of the tool in the part.
+fn turns(motion: &Move, width: f64) -> usize {
+    (motion.turn_deg() * width / TURN_DEG)
+        .ceil()
+        .clamp(1.0, 1e6) as usize
 }
 
 /// A move from a place that the program does not tell has no length that counts.
@@ -109,6 +135,11 @@ fn known_length(motion: &Move) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A move from a known place that neither goes nor turns.
+fn stays(motion: &Move) -> bool {
+    motion.known == Knowledge::Whole && !motion.has_length() && !motion.turns_in_place()
 }
 
 /// The load at the start of a move is another one than that before it.
@@ -149,6 +180,7 @@ pub(crate) fn of_path<'a>(
                 commanded: desired,
                 orientation: motion.orientation(share),
                 commanded_orientation: motion.orientation(share),
+                commanded_deg: None,
                 wrench: load.wrench(placement, i, share),
                 other_wrench: None,
                 end,
@@ -157,8 +189,7 @@ pub(crate) fn of_path<'a>(
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => Vec::new(),
             (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
-            _ if motion.turns_in_place() => vec![site((1.0, true))],
-            (Knowledge::Whole, MoveKind::Feed) if !motion.has_length() => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) if stays(motion) => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let start = jumps(path, load, placement, i).then_some((0.0, false));
                 let shares = start.into_iter().chain(programmed.shares(motion));
@@ -193,9 +224,7 @@ pub(crate) fn of_written<'a>(
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
         let mut sites = Vec::new();
-        let turns = motion.turns_in_place();
-        let stays = motion.known == Knowledge::Whole && !motion.has_length() && !turns;
-        if !piece.corrected || motion.known == Knowledge::Nothing || stays {
+        if !piece.corrected || motion.known == Knowledge::Nothing || stays(motion) {
             return sites;
         }
         let width = piece.share_to - piece.share_from;
@@ -204,9 +233,14 @@ pub(crate) fn of_written<'a>(
             _ => piece.share_from + place * width,
         };
         let turn = commanded_turn(path, written, index);
+        let angles = commanded_angles(path, written, index);
         let mut push = |(place, share): (f64, f64),
                         (wrench, other_wrench): (Wrench, Option<Wrench>),
                         (end, programmed): (bool, bool)| {
+            let commanded_deg: Option<Vec<f64>> = angles.as_ref().map(|[from, to]| {
+                let both = from.iter().zip(to);
+                both.map(|(from, to)| from + (to - from) * place).collect()
+            });
             sites.push(Site {
                 line: motion.line,
                 move_index: piece.move_index,
@@ -224,11 +258,13 @@ pub(crate) fn of_written<'a>(
                 desired: motion.point(share),
                 commanded: piece.commanded(motion, place),
                 orientation: motion.orientation(share),
-                // In G-code the words of rotary axes say it, and they stay.
-                commanded_orientation: match &turn {
-                    Some(turn) => Some(turn.at(place)),
-                    None => motion.orientation(share),
+                // In G-code the words of rotary axes say it.
+                commanded_orientation: match (&turn, &commanded_deg, rotary(motion)) {
+                    (Some(turn), ..) => Some(turn.at(place)),
+                    (None, Some(angles), Some(rotary)) => Some(rotary.axes.tool(angles)),
+                    _ => motion.orientation(share),
                 },
+                commanded_deg,
                 wrench,
                 other_wrench,
                 end,
@@ -258,9 +294,10 @@ pub(crate) fn of_written<'a>(
         };
         // At the end of a move every program is looked at.
         let mut at_end = piece.share_to >= 1.0;
-        if motion.is_known_feed() && !turns {
+        if motion.is_known_feed() {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
+            let count = count.max(turns(motion, width).min(10_000));
             let count = match (&motion.curve, piece.is_fitted()) {
                 // In each chord that would have been written, were it straight, an arc is looked at.
                 (Curve::Arc(arc), true) => {
@@ -328,6 +365,22 @@ fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<Tool
         None => turn.at(0.0),
     };
     Some(turn.with_ends(start, end))
+}
+
+fn rotary(motion: &Move) -> Option<&RotaryTurn> {
+    motion.tool_turn.as_ref()?.rotary.as_ref()
+}
+
+/// Where the rotary axes stand at both ends of a piece as written, deg; none where they stand as in the program.
+fn commanded_angles(path: &Path, written: &Corrected, index: usize) -> Option<[Vec<f64>; 2]> {
+    let own = rotary(&path.moves[written.pieces[index].move_index])?;
+    let to = written.rotary_deg.get(index)?.clone();
+    let before = index
+        .checked_sub(1)
+        .map(|before| &written.rotary_deg[before]);
+    let before = before.filter(|before| before.len() == to.len());
+    let from = before.cloned().unwrap_or_else(|| own.angles_deg(0.0));
+    Some([from, to])
 }
 
 fn kind(motion: &Move) -> PointKind {

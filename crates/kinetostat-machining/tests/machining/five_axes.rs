@@ -28,18 +28,18 @@ const WAY: [[f64; 5]; 6] = [
     [9.0, 0.0, 0.0, 20.0, 170.0],
 ];
 
-const TOLERANCE_MM: f64 = 0.002;
+pub(crate) const TOLERANCE_MM: f64 = 0.002;
 
 /// A machine with rotary axes. Directions and points in the part's frame at zero, mm.
-struct Machine {
-    mechanism: Mechanism,
-    placement: Placement,
-    axes: [(char, Carries, Vector3<f64>, Vector3<f64>); 2],
+pub(crate) struct Machine {
+    pub(crate) mechanism: Mechanism,
+    pub(crate) placement: Placement,
+    pub(crate) axes: [(char, Carries, Vector3<f64>, Vector3<f64>); 2],
 }
 
 impl Machine {
     /// An arm in front of a table of two axes, neither of them along a coordinate axis.
-    fn arm_with_table() -> Self {
+    pub(crate) fn arm_with_table() -> Self {
         let model = Model::preset("heavy_6r").expect("preset");
         let mechanism = model.mechanism.with_tool(&straight_tool(0.2));
         let home = mechanism.platforms()[mechanism.tool()].home;
@@ -70,7 +70,7 @@ impl Machine {
     }
 
     /// A portal with a fork head.
-    fn portal_with_head() -> Self {
+    pub(crate) fn portal_with_head() -> Self {
         let text = include_str!("portal_with_head.toml");
         let model = Model::from_toml(text, "portal_with_head.toml").expect("a model");
         let mechanism = model.mechanism.with_tool(&straight_tool(0.1));
@@ -89,13 +89,13 @@ impl Machine {
     }
 
     /// A head that tilts the tool of an arm, and a table below it.
-    fn head_and_table() -> Self {
+    pub(crate) fn head_and_table() -> Self {
         let mut machine = Self::arm_with_table();
         machine.axes[0].1 = Carries::Tool;
         machine
     }
 
-    fn options(&self) -> ReadOptions {
+    pub(crate) fn options(&self) -> ReadOptions {
         let base_from_part = self.placement.base_from_part.rotation;
         let mut options = ReadOptions::default();
         let axes = self
@@ -134,7 +134,20 @@ impl Machine {
     }
 
     /// Where the tip is in the part (mm) when the controller has it at X, Y, Z, A, C, under a force in base axes.
-    fn tip(&self, at: &[f64; 5], force: &Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn tip(&self, at: &[f64; 5], force: &Vector3<f64>) -> Vector3<f64> {
+        self.tip_and_direction(at, force).0
+    }
+
+    /// The tool's axis in the part there: the direction that is z of the part where all axes stand at zero.
+    pub(crate) fn direction(&self, at: &[f64; 5], force: &Vector3<f64>) -> Vector3<f64> {
+        self.tip_and_direction(at, force).1
+    }
+
+    fn tip_and_direction(
+        &self,
+        at: &[f64; 5],
+        force: &Vector3<f64>,
+    ) -> (Vector3<f64>, Vector3<f64>) {
         let ([part, tool], origin) = self.turned(at[3], at[4]);
         let zero = &self.placement.base_from_part;
         let base_from_part = zero.rotation.to_rotation_matrix().into_inner();
@@ -154,14 +167,37 @@ impl Machine {
         let pose = Pose::from_parts(place(&vector![at[0], at[1], at[2]]).into(), rotation);
         let posture = self.mechanism.posture(&pose).expect("a posture");
         let wrench = Wrench::new(*force, Vector3::zeros());
-        let tool = posture.deflected_by(&wrench).expect("an equilibrium").tool;
+        // Without a force: the rigid machine.
+        let tool = match force.norm() > 0.0 {
+            true => posture.deflected_by(&wrench).expect("an equilibrium").tool,
+            false => pose,
+        };
         let in_base = (tool.translation.vector - zero.translation.vector) * 1e3;
-        part.transpose() * (base_from_part.transpose() * in_base - origin)
+        let tip = part.transpose() * (base_from_part.transpose() * in_base - origin);
+        let axis = self.placement.tool_orientation.inverse() * (base_from_part * Vector3::z());
+        let direction = tool.rotation * axis;
+        (
+            tip,
+            part.transpose() * (base_from_part.transpose() * direction),
+        )
     }
 
     fn run(&self, force: Vector3<f64>) -> (Run, String) {
+        let run = self.run_of(PROGRAM, force, |_| {});
+        let written = run.written.as_ref().expect("a program");
+        let text = String::from_utf8(written.bytes.clone()).expect("text");
+        (run, text)
+    }
+
+    /// A program compensated under a force in base axes.
+    pub(crate) fn run_of(
+        &self,
+        program: &str,
+        force: Vector3<f64>,
+        set: impl Fn(&mut Task<'_>),
+    ) -> Run {
         let options = self.options();
-        let program = Program::read(PROGRAM).expect("program");
+        let program = Program::read(program).expect("program");
         let path = interpret(&program, &options).unwrap_or_else(|e| panic!("{e}"));
         let gcode = Gcode {
             program: &program,
@@ -172,7 +208,7 @@ impl Machine {
         let mut writing = WriteOptions::default();
         writing.tolerance_mm = TOLERANCE_MM;
         writing.header = None;
-        let task = Task {
+        let mut task = Task {
             mechanism: &self.mechanism,
             program: &gcode,
             corrected: Directions::POSITION,
@@ -187,18 +223,24 @@ impl Machine {
             run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
         };
-        let run = compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"));
-        let written = run.written.as_ref().expect("a program");
-        let text = String::from_utf8(written.bytes.clone()).expect("text");
-        (run, text)
+        set(&mut task);
+        compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
     }
 }
 
 /// Places of the blocks at feed: X Y Z A C before and after each.
-fn blocks(text: &str) -> Vec<[[f64; 5]; 2]> {
+pub(crate) fn blocks(text: &str) -> Vec<[[f64; 5]; 2]> {
+    numbered_blocks(text)
+        .into_iter()
+        .map(|(_, block)| block)
+        .collect()
+}
+
+/// The same with their lines, from 1.
+pub(crate) fn numbered_blocks(text: &str) -> Vec<(usize, [[f64; 5]; 2])> {
     let (mut at, mut incremental, mut feed) = ([0.0; 5], false, false);
     let mut all = Vec::new();
-    for line in text.lines() {
+    for (index, line) in text.lines().enumerate() {
         let before = at;
         let mut moves = false;
         for word in line.split_whitespace() {
@@ -219,7 +261,7 @@ fn blocks(text: &str) -> Vec<[[f64; 5]; 2]> {
             }
         }
         if moves && feed {
-            all.push([before, at]);
+            all.push((index + 1, [before, at]));
         }
     }
     all

@@ -28,3 +28,5 @@ mod sampled_models;
 mod springs;
 mod thinning;
 mod tools;
+mod turned_axes;
+mod turns_in_place;

@@ -17,6 +17,12 @@ const SAME_PLACE_MM: f64 = 1e-6;
 /// Largest relative error of the speed along the part.
 const SPEED_TOLERANCE: f64 = 1e-3;
 
+/// Largest difference between an angle as written and as read again, in deg: arithmetic only.
+const SAME_ANGLE_DEG: f64 = 1e-7;
+
+/// Larger corrections of an angle are no deflections, in deg.
+const LARGEST_TURN_DEG: f64 = 10.0;
+
 /// Seed of the places that this check looks at.
 const SEED: u64 = 2;
 
@@ -35,7 +41,7 @@ impl Verifier<'_> {
             ));
         }
         let mut expected = (0, 0.0);
-        for (piece, read) in self.pieces.iter().zip(&output_path.moves) {
+        for (index, (piece, read)) in self.pieces.iter().zip(&output_path.moves).enumerate() {
             let Some(motion) = self.input_path.moves.get(piece.move_index) else {
                 return Err(fail(0, piece.output_line, "a piece of no move".to_owned()));
             };
@@ -73,7 +79,8 @@ impl Verifier<'_> {
             self.check_uncorrected(motion, piece, read)?;
             self.check_distance(motion, piece, read)?;
             self.check_speed(motion, piece, read)?;
-            check_extra_axes(motion, piece, read)?;
+            let turned = self.check_turned_axes(index, motion, read)?;
+            check_extra_axes(motion, piece, (read, turned))?;
         }
         if expected != (self.input_path.moves.len(), 0.0) {
             return Err(fail(
@@ -186,6 +193,9 @@ impl Verifier<'_> {
         let Some(feed) = motion.feed.filter(|_| motion.kind == MoveKind::Feed) else {
             return Ok(());
         };
+        if motion.turns_in_place() && motion.known == Knowledge::Whole {
+            return self.check_time_of_turn(motion, piece, read);
+        }
         let Some(written) = read.feed.filter(|written| written.mode == feed.mode) else {
             return Err(fail(
                 motion.line,
@@ -240,6 +250,42 @@ impl Verifier<'_> {
     }
 }
 
+impl Verifier<'_> {
+    /// A piece of a turn in place takes its share of the time.
+    fn check_time_of_turn(
+        &mut self,
+        motion: &Move,
+        piece: &Piece,
+        read: &Move,
+    ) -> Result<(), WriteError> {
+        let broken = |what: &str| Err(fail(motion.line, piece.output_line, what.to_owned()));
+        let (Some(feed), Some(written)) = (motion.feed, read.feed) else {
+            return broken("the feed is lost");
+        };
+        let width = piece.share_to - piece.share_from;
+        let stands = (piece.commanded_to - piece.commanded_from).norm() <= NO_LENGTH_MM;
+        let error = match (written.mode, motion.turn_seconds()) {
+            // Where only rotary axes move F is theirs.
+            (mode, Some(_)) if mode == feed.mode && mode != FeedMode::InverseTime => {
+                if !stands || width < 1.0 {
+                    return broken("X, Y and Z move beside a feed in degrees a minute");
+                }
+                (written.value / feed.value - 1.0).abs()
+            }
+            (FeedMode::InverseTime, Some(_)) if piece.corner_step => 0.0,
+            (FeedMode::InverseTime, Some(seconds)) => {
+                (60.0 / written.value / (seconds * width) - 1.0).abs()
+            }
+            _ => return broken("the feed of a turn in place counts otherwise"),
+        };
+        self.found.largest_speed_error = larger(self.found.largest_speed_error, error);
+        match error <= SPEED_TOLERANCE {
+            true => Ok(()),
+            false => broken("the time of a turn in place is off"),
+        }
+    }
+}
+
 /// An arc read again goes where one with these points does.
 fn is_same_arc(read: &Move, point: impl Fn(f64) -> Vector3<f64>) -> bool {
     read.curve != Curve::Line
@@ -248,8 +294,53 @@ fn is_same_arc(read: &Move, point: impl Fn(f64) -> Vector3<f64>) -> bool {
             .all(|share| (read.point(share) - point(share)).norm() <= SAME_PLACE_MM)
 }
 
-/// The other axes are where their share of the block wants them.
-fn check_extra_axes(motion: &Move, piece: &Piece, read: &Move) -> Result<(), WriteError> {
+impl Verifier<'_> {
+    /// Rotary axes whose angles are corrected stand where they were written, near those of the program. Which letters they have;
+    /// none where the words of the program stay.
+    fn check_turned_axes(
+        &self,
+        index: usize,
+        motion: &Move,
+        read: &Move,
+    ) -> Result<Vec<char>, WriteError> {
+        let rotary = |motion: &Move| motion.tool_turn.as_ref()?.rotary.clone();
+        let (Some(written), Some(own)) = (self.rotary_deg.get(index), rotary(motion)) else {
+            return Ok(Vec::new());
+        };
+        let Some(read_again) = rotary(read) else {
+            return Err(fail(
+                motion.line,
+                read.line,
+                "the angles of the rotary axes are lost".to_owned(),
+            ));
+        };
+        let piece = &self.pieces[index];
+        let programmed = own.angles_deg(piece.share_to);
+        let letters: Vec<char> = own.axes.axes.iter().map(|axis| axis.letter).collect();
+        for (axis, letter) in letters.iter().enumerate() {
+            let angle = |list: &[f64]| list.get(axis).copied().unwrap_or(f64::NAN);
+            let off = (angle(&read_again.end_deg) - angle(written)).abs();
+            let corrected = (angle(written) - angle(&programmed)).abs();
+            if !(off <= SAME_ANGLE_DEG && corrected <= LARGEST_TURN_DEG) {
+                return Err(fail(
+                    motion.line,
+                    piece.output_line,
+                    format!(
+                        "axis {letter} is read {off:.6} deg from where it was written, {corrected:.3} deg from the program"
+                    ),
+                ));
+            }
+        }
+        Ok(letters)
+    }
+}
+
+/// The other axes are where their share of the block wants them, but for those whose angles are corrected.
+fn check_extra_axes(
+    motion: &Move,
+    piece: &Piece,
+    (read, turned): (&Move, Vec<char>),
+) -> Result<(), WriteError> {
     let broken = |letter: char| {
         Err(fail(
             motion.line,
@@ -257,7 +348,8 @@ fn check_extra_axes(motion: &Move, piece: &Piece, read: &Move) -> Result<(), Wri
             format!("axis {letter} does not reach its place"),
         ))
     };
-    for extra in &motion.extra {
+    let extras = motion.extra.iter();
+    for extra in extras.filter(|extra| !turned.contains(&extra.letter)) {
         let word = read
             .extra
             .iter()
@@ -283,6 +375,7 @@ fn check_extra_axes(motion: &Move, piece: &Piece, read: &Move) -> Result<(), Wri
     match read
         .extra
         .iter()
+        .filter(|word| !turned.contains(&word.letter))
         .find(|word| !motion.extra.iter().any(|extra| extra.letter == word.letter))
     {
         Some(word) => broken(word.letter),

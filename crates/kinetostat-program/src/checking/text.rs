@@ -6,7 +6,7 @@ use crate::checking::verifier::{Verifier, fail};
 use crate::error::WriteError;
 use crate::number::decimals_of;
 use crate::path::curve::Curve;
-use crate::path::moves::Move;
+use crate::path::moves::{Feed, FeedMode, Move};
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::block_writer::{is_after_motion, motion_word};
@@ -38,6 +38,13 @@ impl Verifier<'_> {
                 motion = Some(found);
                 while let Some(piece) = pieces.next_if(|piece| piece.move_index == move_index) {
                     shapes.push(Shape::of(piece));
+                    group.extend(output.next());
+                }
+                let by_time = group
+                    .first()
+                    .is_some_and(|line| self.is_by_time(found, line.1));
+                if by_time && !self.ends_program(line) {
+                    // The feed as it was, behind the pieces.
                     group.extend(output.next());
                 }
             } else {
@@ -154,7 +161,11 @@ impl Verifier<'_> {
             }
             return Ok(());
         };
-        let split = !further.is_empty();
+        let by_time = self.is_by_time(motion, first);
+        let is_feed_mode =
+            |code: &(u8, i64)| by_time && code.0 == b'G' && [930, 940].contains(&code.1);
+        let split = shapes.len() > 1;
+        let turned = self.turned(motion);
         let kept_arc = shapes.contains(&Shape::Kept);
         let is_arc = motion.curve != Curve::Line && !kept_arc;
         let names_motion = motion_word(self.input.words(line)).is_some();
@@ -167,12 +178,17 @@ impl Verifier<'_> {
                     !(b"XYZF".contains(&word.letter)
                         || is_arc && (b"IJKRP".contains(&word.letter) || is_motion(word))
                         || kept_arc && !names_motion && is_motion(word)
+                        || turned && b"ABC".contains(&word.letter)
+                        || by_time && is_feed_mode(&code_of(word))
                         || split && (b"ABCEUVW".contains(&word.letter) || is_after_motion(word)))
                 },
             )
         };
         if kept(self.input, line) != kept(self.output, first) {
             return broken("something that is no coordinate has changed");
+        }
+        if let Some((index, line)) = group.get(shapes.len()) {
+            self.check_line_of_feed(number, *index, line)?;
         }
         let mut codes = self.codes(self.output, first);
         for ((index, line), shape) in further.iter().zip(&shapes[1..]) {
@@ -182,6 +198,8 @@ impl Verifier<'_> {
             codes.extend(further_codes.into_iter().filter(|code| !repeated(code)));
         }
         let mut wanted = self.codes(self.input, line);
+        codes.retain(|code| !is_feed_mode(code));
+        wanted.retain(|code| !is_feed_mode(code));
         if is_arc {
             wanted.retain(|code| !(code.0 == b'G' && [20, 30].contains(&code.1)));
             // G1 takes the place of G2 and G3, or is added where the mode needs it, as these are; what is read has its curve.
@@ -211,8 +229,49 @@ impl Verifier<'_> {
             .words(line)
             .iter()
             .filter(|word| matches!(word.letter, b'G' | b'M'))
-            .map(|word| (word.letter, (word.value * 10.0).round() as i64))
+            .map(code_of)
             .collect()
+    }
+
+    /// Whether the pieces of a turn in place have their time as feed, where the block had degrees a minute.
+    fn is_by_time(&self, motion: &Move, first: &Line) -> bool {
+        let per_minute = |feed: Feed| feed.mode == FeedMode::PerMinute;
+        motion.turns_in_place()
+            && motion.feed.is_some_and(per_minute)
+            && self.codes(self.output, first).contains(&(b'G', 930))
+    }
+
+    /// Whether the angles of the program are corrected, and these words with them: they are checked with the moves.
+    fn turned(&self, motion: &Move) -> bool {
+        let turn = motion.tool_turn.as_ref();
+        !self.rotary_deg.is_empty() && turn.is_some_and(|turn| turn.rotary.is_some())
+    }
+
+    fn ends_program(&self, line: &Line) -> bool {
+        let ends = |code: &(u8, i64)| [(b'M', 20), (b'M', 300)].contains(code);
+        self.codes(self.input, line).iter().any(ends)
+    }
+
+    /// The line behind pieces in inverse time: G94 and F. Which F is checked with the moves behind it.
+    fn check_line_of_feed(
+        &self,
+        number: usize,
+        index: usize,
+        line: &Line,
+    ) -> Result<(), WriteError> {
+        let words = self.output.words(line);
+        let content = self.output.content(line);
+        let rest = bytes_without(self.output, content, words, |_| false);
+        let letters: Vec<u8> = words.iter().map(|word| word.letter).collect();
+        let restores = self.codes(self.output, line) == [(b'G', 940)] && letters == *b"GF";
+        match restores && (rest.is_empty() || line.block_delete && rest == b"/") {
+            true => Ok(()),
+            false => Err(fail(
+                number,
+                index + 1,
+                "the feed is not put back behind pieces in inverse time".to_owned(),
+            )),
+        }
     }
 
     /// A further piece: nothing but coordinates, F, and on the last one what acts after the motion.
@@ -241,6 +300,7 @@ impl Verifier<'_> {
                 b'F' => true,
                 // Whether the input named the motion too is checked with the codes.
                 b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && is_own(word),
+                b'A' | b'B' | b'C' if self.turned(motion) => true,
                 letter => motion
                     .extra
                     .iter()
@@ -284,6 +344,11 @@ impl Shape {
             (false, None) => Self::Straight,
         }
     }
+}
+
+/// Letter and number of a code, in tenths.
+fn code_of(word: &Word) -> (u8, i64) {
+    (word.letter, (word.value * 10.0).round() as i64)
 }
 
 fn is_motion(word: &Word) -> bool {

@@ -33,6 +33,8 @@ pub(crate) struct Verifier<'a> {
     pub input_path: &'a Path,
     pub output: &'a Program,
     pub pieces: &'a [Piece],
+    /// See [`crate::Corrected::rotary_deg`].
+    pub rotary_deg: &'a [Vec<f64>],
     pub accounting: &'a Accounting,
     pub writing: &'a WriteOptions,
     pub found: Verification,

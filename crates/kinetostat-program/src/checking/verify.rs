@@ -48,6 +48,7 @@ pub fn verify_written(
         input_path,
         output: &output,
         pieces: &corrected.pieces,
+        rotary_deg: &corrected.rotary_deg,
         accounting: &corrected.accounting,
         writing,
         found: Verification {

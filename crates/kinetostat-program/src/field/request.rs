@@ -69,6 +69,11 @@ pub trait CorrectionField: Sync {
         false
     }
 
+    /// Whether the field corrects the orientation too ([`Correction::turn`]). Arcs of such a program are written with straight pieces.
+    fn turns_tool(&self) -> bool {
+        false
+    }
+
     /// What the field knows of its own course along a move that is to be divided.
     fn structure(&self, _move_index: usize, _motion: &Move) -> Structure {
         Structure::default()

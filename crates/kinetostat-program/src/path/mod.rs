@@ -14,4 +14,6 @@ pub(crate) mod rotary;
 pub(crate) mod rotary_angles;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
+pub(crate) mod tool_direction;
 pub(crate) mod tool_turn;
+pub(crate) mod turning;

@@ -105,6 +105,8 @@ pub struct RotaryTurn {
     pub start_deg: Vec<f64>,
     /// Where they stand at its end.
     pub end_deg: Vec<f64>,
+    /// Where the words of the program count from (`G10 L2`).
+    pub origin_deg: Vec<f64>,
 }
 
 impl RotaryTurn {
@@ -135,7 +137,12 @@ impl RotaryTurn {
     ///     point_mm: Vector3::zeros(),
     /// };
     /// let axes = RotaryAxes { axes: vec![head], tool_at_zero: UnitQuaternion::identity() };
-    /// let turn = RotaryTurn { axes: axes.into(), start_deg: vec![0.0], end_deg: vec![30.0] };
+    /// let turn = RotaryTurn {
+    ///     axes: axes.into(),
+    ///     start_deg: vec![0.0],
+    ///     end_deg: vec![30.0],
+    ///     origin_deg: vec![0.0],
+    /// };
     /// assert!(turn.part(0.5).is_none());
     /// assert_eq!(turn.angles_deg(0.5), [15.0]);
     /// assert!((turn.tool(1.0).angle().to_degrees() - 30.0).abs() < 1e-12);

@@ -104,10 +104,12 @@ pub(crate) fn refuse_other_axes(
     block: &Block<'_>,
     options: &ReadOptions,
 ) -> Result<(), ProgramError> {
-    if options.other_axes == OtherAxes::StandStill {
-        return Ok(());
-    }
-    for letter in *OTHER_AXES {
+    let refused = match options.other_axes {
+        OtherAxes::StandStill => return Ok(()),
+        OtherAxes::Carried => &OTHER_AXES[3..],
+        OtherAxes::Refused => OTHER_AXES,
+    };
+    for letter in refused.iter().copied() {
         let rotary = options.rotary.iter().flat_map(|rotary| &rotary.axes);
         if rotary
             .map(|axis| axis.letter)

@@ -13,7 +13,12 @@ pub(crate) struct ExtraAxes {
     extruder_relative: Option<bool>,
     /// What a firmware does that lets G90 and G91 set the extruder as well (Marlin).
     extruder_relative_by_last_word: bool,
+    /// Where A, B and C of the program count from, deg of the machine.
+    origin_deg: [f64; 3],
 }
+
+/// Origins of A, B and C in the work coordinate systems, deg of the machine.
+pub(crate) type RotaryOrigins = [[f64; 3]; 9];
 
 impl ExtraAxes {
     pub const LETTERS: &'static [u8; 7] = b"ABCEUVW";
@@ -38,6 +43,31 @@ impl ExtraAxes {
             .iter()
             .position(|own| char::from(*own) == letter)?;
         self.places[index]
+    }
+
+    /// Where a rotary axis of the machine stands, in its own degrees.
+    pub fn angle_deg(&self, letter: char) -> Option<f64> {
+        Some(self.place(letter)? + self.origin_deg(letter))
+    }
+
+    /// Where the words of a rotary axis count from, in its own degrees.
+    pub fn origin_deg(&self, letter: char) -> f64 {
+        Self::rotary_index(letter as u8).map_or(0.0, |index| self.origin_deg[index])
+    }
+
+    /// Of A, B and C.
+    pub fn rotary_index(letter: u8) -> Option<usize> {
+        Self::LETTERS[..3].iter().position(|own| *own == letter)
+    }
+
+    /// A, B and C of the program count from elsewhere: the axes stand where they are.
+    pub fn count_from(&mut self, origin_deg: [f64; 3]) {
+        for (index, origin) in origin_deg.into_iter().enumerate() {
+            if let Some(place) = &mut self.places[index] {
+                *place -= origin - self.origin_deg[index];
+            }
+        }
+        self.origin_deg = origin_deg;
     }
 
     /// Angles keep their numbers, lengths do not.

@@ -15,15 +15,15 @@ use crate::reading::beside::{
     refuse_parameters_of_calls,
 };
 use crate::reading::block::Block;
-use crate::reading::extra::ExtraAxes;
+use crate::reading::extra::{ExtraAxes, RotaryOrigins};
 use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
-use crate::reading::options::{BlockDelete, ReadOptions, ToolCentrePoint, Units};
+use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 use crate::reading::pause::pause;
 use crate::reading::places::{Cause, Places};
 use crate::reading::repeated::Repeated;
 use crate::reading::rotary::RotaryWords;
-use crate::reading::settings::{Setting, has_other_axes, setting};
+use crate::reading::settings::{Setting, other_axes, setting};
 use crate::reading::shifts::Shifts;
 use crate::reading::spindle::SpindleWords;
 use crate::reading::tools::ToolWords;
@@ -63,6 +63,7 @@ pub(crate) struct Interpreter<'o> {
     pub(super) shifts: Shifts,
     /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
     pub(super) origins_mm: [Option<Vector3<f64>>; 9],
+    rotary_origins: RotaryOrigins,
     pub(super) places: Places,
     pub(super) ended: Option<usize>,
     no_feed_warned: bool,
@@ -93,6 +94,7 @@ impl<'o> Interpreter<'o> {
             offset: PositionOffset::default(),
             shifts: Shifts::default(),
             origins_mm: options.work_offsets_mm,
+            rotary_origins: RotaryOrigins::default(),
             places: Places::new(options.start_position_mm),
             ended: None,
             no_feed_warned: false,
@@ -115,6 +117,7 @@ impl<'o> Interpreter<'o> {
             offset: self.offset,
             shifts: self.shifts,
             origins_mm: self.origins_mm,
+            rotary_origins: self.rotary_origins,
             places: self.places.clone(),
             ended: self.ended,
             first_system: self.first_system,
@@ -148,7 +151,10 @@ impl<'o> Interpreter<'o> {
         let origin = |system: usize| offsets[system].unwrap_or_default();
         if offsets[now].is_none() && offsets.iter().any(Option::is_some) {
             self.repeated.note(line, "the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
-        } else if now != first && origin(now) == origin(first) {
+        } else if now != first
+            && origin(now) == origin(first)
+            && self.rotary_origins[now] == self.rotary_origins[first]
+        {
             self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
         }
     }
@@ -201,6 +207,9 @@ impl<'o> Interpreter<'o> {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
         self.modes.set(block)?;
+        self.modes
+            .extra
+            .count_from(self.rotary_origins[self.modes.work_offset]);
         self.rotary.set_tool_centre_point(block, &mut self.modes)?;
         self.change_tool_length(block)?;
         self.tools.note(block)?;
@@ -274,13 +283,25 @@ impl<'o> Interpreter<'o> {
                 for axis in 0..3 {
                     origin[axis] = origin_mm[axis].unwrap_or(origin[axis]);
                 }
-                if has_other_axes(block) {
-                    self.modes.extra.forget(block, true);
-                }
+                self.set_rotary_origins(block, system);
             }
         }
         self.note_no_motion(block);
         Ok(())
+    }
+
+    /// G10 L2 with words of other axes: those of the rotary axes of the machine count from there; where others stand is not known.
+    fn set_rotary_origins(&mut self, block: &Block<'_>, system: usize) {
+        for word in other_axes(block) {
+            match ExtraAxes::rotary_index(word.letter) {
+                Some(index) if self.rotary.is_counted(word.letter) => {
+                    self.rotary_origins[system][index] = word.value;
+                }
+                _ => self.modes.extra.forget(block, true),
+            }
+        }
+        let now = self.modes.work_offset;
+        self.modes.extra.count_from(self.rotary_origins[now]);
     }
 
     fn set_position_offset(
@@ -479,7 +500,7 @@ impl<'o> Interpreter<'o> {
         };
         self.knowledge
             .push((known_before, self.places.known, lost.is_some()));
-        self.moves.push(Move {
+        let motion = Move {
             line: block.line_number,
             kind,
             curve,
@@ -496,7 +517,9 @@ impl<'o> Interpreter<'o> {
                 work_offset_mm: self.work_offset_mm(),
                 to_machine: [false; 3],
             },
-        });
+        };
+        self.rotary.refuse_turn_per_revolution(block, &motion)?;
+        self.moves.push(motion);
         Ok(())
     }
 
@@ -632,6 +655,9 @@ impl<'o> Interpreter<'o> {
 
     /// The user said that these axes stand still; the program may say otherwise.
     fn warn_of_moved_axes(&mut self) {
+        if self.options.other_axes == OtherAxes::Carried {
+            return;
+        }
         let rotary = self.options.rotary.as_deref();
         let is_rotary = |letter: &char| {
             rotary.is_some_and(|rotary| rotary.axes.iter().any(|axis| axis.letter == *letter))
@@ -704,10 +730,6 @@ impl<'o> Interpreter<'o> {
             self.warn(first, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
         }
         self.warn_of_moved_axes();
-        let in_place = |motion: &&Move| motion.kind == MoveKind::Feed && motion.turns_in_place();
-        if let Some(line) = self.moves.iter().find(in_place).map(|motion| motion.line) {
-            self.warn(line, "the tool turns at one place, here first: it is corrected where it has turned, not on the way");
-        }
         self.warnings.extend(self.repeated.finish());
         let mut path = Path {
             // Where all rotary axes stand at zero the spindle is along z of the part.

@@ -51,6 +51,9 @@ pub enum OtherAxes {
     /// where the tool stands in the part. Their words are carried, and shared out over the pieces of a
     /// divided block; a warning names the first block that moves one of them.
     StandStill,
+    /// Words of A, B and C are carried, whatever they turn: for a program that is written flat ([`crate::expand`]) and read again
+    /// with the axes of its machine. Those of U, V and W are refused.
+    Carried,
 }
 
 /// Whose places X, Y and Z are while rotary axes stand at an angle.

@@ -1,12 +1,12 @@
 //! Words of rotary axes that the machine's model knows: how they turn tool and part, and whether places are those of the tool's tip.
 
 use crate::error::{ProgramError, ProgramErrorKind};
-use crate::path::moves::MoveKind;
+use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
 use crate::path::rotary::RotaryTurn;
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
-use crate::reading::options::{ReadOptions, ToolCentrePoint};
+use crate::reading::options::{OtherAxes, ReadOptions, ToolCentrePoint};
 use crate::reading::places::{Cause, Places};
 
 /// Angles below this are zero, deg.
@@ -26,7 +26,15 @@ impl<'o> RotaryWords<'o> {
     /// Where the rotary axes stand, deg, as far as the program says it.
     pub fn angles(self, modes: &Modes) -> Vec<Option<f64>> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
-        axes.map(|axis| modes.extra.place(axis.letter)).collect()
+        axes.map(|axis| modes.extra.angle_deg(axis.letter))
+            .collect()
+    }
+
+    /// Whether a word is that of a rotary axis of the machine, or may be.
+    pub fn is_counted(self, letter: u8) -> bool {
+        let mut axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        self.options.other_axes == OtherAxes::Carried
+            || axes.any(|axis| axis.letter == char::from(letter))
     }
 
     /// G43.4 and G49.
@@ -36,7 +44,7 @@ impl<'o> RotaryWords<'o> {
         modes: &mut Modes,
     ) -> Result<(), ProgramError> {
         if block.codes.tool_centre_point {
-            if self.options.rotary.is_none() {
+            if self.options.rotary.is_none() && self.options.other_axes != OtherAxes::Carried {
                 return Err(block.refuse(
                     ProgramErrorKind::UnknownCode,
                     None,
@@ -97,12 +105,38 @@ impl<'o> RotaryWords<'o> {
         }
         let end_deg: Vec<f64> = after.iter().flatten().copied().collect();
         let start = before.iter().zip(&end_deg);
+        let origin_deg = axes
+            .axes
+            .iter()
+            .map(|axis| modes.extra.origin_deg(axis.letter));
         let turn = RotaryTurn {
-            axes,
+            origin_deg: origin_deg.collect(),
+            axes: axes.clone(),
             start_deg: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
             end_deg,
         };
         Ok(Some(Box::new(ToolTurn::rotary(turn))))
+    }
+
+    /// A turn in place has a feed in degrees or in time.
+    pub fn refuse_turn_per_revolution(
+        self,
+        block: &Block<'_>,
+        motion: &Move,
+    ) -> Result<(), ProgramError> {
+        let per_revolution = |feed: Feed| feed.mode == FeedMode::PerRevolution;
+        if motion.kind == MoveKind::Feed
+            && motion.feed.is_some_and(per_revolution)
+            && motion.turns_in_place()
+        {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                "rotary axes turn alone with a feed per revolution of the spindle (G95): how fast is not known",
+                "write G94 and F in degrees a minute, or G93 and F in blocks a minute, before it",
+            ));
+        }
+        Ok(())
     }
 
     /// The first axis that stands at an angle.

@@ -106,8 +106,8 @@ pub(crate) fn setting(
     })
 }
 
-/// Whether a block states origins of other axes.
-pub(crate) fn has_other_axes(block: &Block<'_>) -> bool {
-    let mut words = block.words.iter();
-    words.any(|word| ExtraAxes::LETTERS.contains(&word.letter))
+/// Words of a block that state origins of other axes.
+pub(crate) fn other_axes<'b>(block: &Block<'b>) -> impl Iterator<Item = &'b Word> + use<'b> {
+    let words = block.words.iter();
+    words.filter(|word| ExtraAxes::LETTERS.contains(&word.letter))
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::path::moves::{FeedMode, Motion};
 use crate::path::spindle::{Spindle, SpindleRotation};
 use crate::reading::interpret::Interpreter;
-use crate::reading::options::Units;
+use crate::reading::options::{OtherAxes, Units};
 
 /// First of the numbered parameters that say where the tool is, in program coordinates and units: X, Y, Z.
 const PLACE: u32 = 5420;
@@ -17,6 +17,22 @@ impl Interpreter<'_> {
     /// The end of the program was read.
     pub(crate) fn has_ended(&self) -> bool {
         self.ended.is_some()
+    }
+
+    /// How rotary axes, whose words are only carried, may have turned the tool; none where they have not.
+    pub(crate) fn carried_turn(&self) -> Option<String> {
+        if self.options.other_axes != OtherAxes::Carried {
+            return None;
+        }
+        if self.modes.tool_centre_point {
+            return Some("tool centre point control (G43.4) is on".to_owned());
+        }
+        let mut angles = ['A', 'B', 'C'].into_iter().filter_map(|letter| {
+            let angle = self.modes.extra.place(letter)?;
+            Some((letter, angle))
+        });
+        let (letter, angle) = angles.find(|(_, angle)| *angle != 0.0)?;
+        Some(format!("axis {letter} stands at {angle} deg"))
     }
 
     /// Axes of the plane, and the one across it.

@@ -141,9 +141,12 @@ impl Rate {
     }
 }
 
-/// Duration of a stretch of a move at its programmed feed, in seconds.
+/// Duration of a stretch of a move at its programmed feed, in seconds; of a turn in place that of the whole.
 pub(crate) fn duration(motion: &Move, length_mm: f64) -> Option<f64> {
     let feed = motion.feed?;
+    if motion.turns_in_place() {
+        return motion.turn_seconds();
+    }
     match feed.mode {
         FeedMode::PerMinute => Some(60.0 * length_mm / feed.value),
         FeedMode::InverseTime => {

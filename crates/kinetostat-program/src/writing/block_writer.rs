@@ -15,12 +15,10 @@ use crate::writing::arc_words::{ArcWord, ToPrint};
 use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::options::WriteOptions;
 use crate::writing::output_state::{OutputMove, OutputState, motion_of};
+use crate::writing::rotary_words::{EXTRA_DECIMALS, TurnedAxes};
 
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
-
-/// Digits after the point of shared-out words of other axes, at least.
-const EXTRA_DECIMALS: usize = 5;
 
 const AXES: [u8; 3] = *b"XYZ";
 
@@ -31,6 +29,8 @@ pub(crate) const UNCHANGED_MM: f64 = 1e-9;
 pub(crate) struct ProgramStyle {
     /// Axes that may be written.
     pub stated: [bool; 3],
+    /// See [`Path::tool_axis`].
+    pub tool_axis: Vector3<f64>,
     /// Every motion of the program has its own motion word, so its pieces must too: it may be meant for
     /// a firmware without modal motion (most printers').
     pub repeats_motion: bool,
@@ -46,6 +46,7 @@ impl ProgramStyle {
         };
         Self {
             stated: path.stated,
+            tool_axis: path.tool_axis,
             repeats_motion: path.moves.iter().all(names_motion),
         }
     }
@@ -75,6 +76,12 @@ pub(crate) struct BlockWriter<'a> {
     separator: &'static str,
     lower_case: bool,
     max_feed_factor: f64,
+    turn_lever_mm: f64,
+    /// A turn in place by G94 whose pieces are written with their time (G93): beside X, Y and Z a controller takes F for the way of
+    /// the tip, and not for the angle.
+    pub by_time: bool,
+    /// Rotary axes whose angles are corrected.
+    pub turned: TurnedAxes<'a>,
 }
 
 /// The line of the block itself, or one of those behind it.
@@ -110,6 +117,13 @@ impl<'a> BlockWriter<'a> {
             repeats_motion: whole.repeats_motion,
             decimals: options.decimals_for(motion.words.mm_per_unit),
             max_feed_factor: options.max_feed_factor,
+            turn_lever_mm: options.turn_lever_mm,
+            by_time: false,
+            turned: TurnedAxes {
+                motion,
+                tool_axis: whole.tool_axis,
+                were_turned: false,
+            },
             separator: if spaced { " " } else { "" },
             lower_case: words
                 .iter()
@@ -129,6 +143,9 @@ impl<'a> BlockWriter<'a> {
         let mut added = String::new();
 
         let own = self.motion_of(step);
+        if self.by_time {
+            self.edit_feed_mode(&mut edits);
+        }
         self.edit_motion_words(state, own, &mut edits);
         for (axis, letter) in AXES.into_iter().enumerate() {
             let word = self.word(letter);
@@ -143,6 +160,14 @@ impl<'a> BlockWriter<'a> {
             }
         }
         for (letter, text) in self.arc_words(state, step, from, Place::OwnLine)? {
+            match (text, self.word(letter)) {
+                (Some(text), Some(word)) => edits.push((number_span(word), text)),
+                (Some(text), None) => self.add(&mut added, letter, &text),
+                (None, _) => {}
+            }
+        }
+        let standing = |letter| self.word(letter).map(|word| word.value);
+        for (letter, text) in self.turned.words_of_piece(state, (steps, 0), standing) {
             match (text, self.word(letter)) {
                 (Some(text), Some(word)) => edits.push((number_span(word), text)),
                 (Some(text), None) => self.add(&mut added, letter, &text),
@@ -218,6 +243,12 @@ impl<'a> BlockWriter<'a> {
             }
         }
         for (letter, number) in self.arc_words(state, step, from, Place::FurtherLine)? {
+            if let Some(number) = number {
+                self.add(&mut text, letter, &number);
+            }
+        }
+        let turned = self.turned.words_of_piece(state, (steps, index), |_| None);
+        for (letter, number) in turned {
             if let Some(number) = number {
                 self.add(&mut text, letter, &number);
             }
@@ -483,6 +514,9 @@ impl<'a> BlockWriter<'a> {
             return Ok(());
         }
         for (extra, number) in self.motion.extra.iter().zip(self.extra_numbers(steps, 0)?) {
+            if self.turned.has_word(extra.letter, steps) {
+                continue;
+            }
             if let Some(word) = self.word(extra.letter as u8) {
                 edits.push((number_span(word), number));
             }
@@ -500,13 +534,11 @@ impl<'a> BlockWriter<'a> {
             return Ok(Vec::new());
         }
         let numbers = self.extra_numbers(steps, index)?;
-        Ok(self
-            .motion
-            .extra
-            .iter()
-            .map(|extra| extra.letter)
+        let letters = self.motion.extra.iter().map(|extra| extra.letter);
+        let own = letters
             .zip(numbers)
-            .collect())
+            .filter(|(letter, _)| !self.turned.has_word(*letter, steps));
+        Ok(own.collect())
     }
 
     /// The share of each extra axis' word in a piece.
@@ -562,6 +594,9 @@ impl<'a> BlockWriter<'a> {
         if motion_of(self.motion) == Motion::Rapid || self.motion.known != Knowledge::Whole {
             return None;
         }
+        if self.motion.turns_in_place() {
+            return self.feed_of_turn(state, step, pieces, written_mm);
+        }
         let part_mm = self
             .motion
             .length_between_mm(step.share_from, step.share_to);
@@ -591,6 +626,12 @@ impl<'a> BlockWriter<'a> {
             _ if step.corner_step || !moves => feed.value,
             _ => held * feed.value * written_mm / part_mm,
         };
+        self.feed_word(state, Feed { value, ..feed })
+    }
+
+    /// The F word for a feed, if that in force will not do.
+    fn feed_word(&self, state: &mut OutputState, feed: Feed) -> Option<String> {
+        let value = feed.value;
         let mm_per_unit = match feed.mode {
             FeedMode::InverseTime => 1.0,
             _ => self.motion.words.mm_per_unit,
@@ -608,6 +649,82 @@ impl<'a> BlockWriter<'a> {
             value: parse(&text) * mm_per_unit,
         });
         Some(text)
+    }
+
+    /// The F word of a piece of a turn in place: its share of the time of the whole.
+    fn feed_of_turn(
+        &self,
+        state: &mut OutputState,
+        step: &OutputMove,
+        pieces: usize,
+        written_mm: f64,
+    ) -> Option<String> {
+        let feed = self.motion.feed?;
+        let in_time = self.by_time || feed.mode == FeedMode::InverseTime;
+        let seconds = self.motion.turn_seconds().filter(|_| in_time);
+        let Some(seconds) = seconds else {
+            return self.feed_word(state, feed);
+        };
+        if pieces == 1 && !self.by_time {
+            return None;
+        }
+        let width = step.share_to - step.share_from;
+        let seconds = match step.corner_step {
+            false => seconds * width,
+            // As fast as a point of the tool goes that is so far from the tip.
+            true => {
+                let way_mm = self.motion.turn_deg().to_radians() * self.turn_lever_mm;
+                seconds * (written_mm / way_mm).clamp(1e-6, 1.0)
+            }
+        };
+        let feed = Feed {
+            mode: FeedMode::InverseTime,
+            value: 60.0 / seconds,
+        };
+        self.feed_word(state, feed)
+    }
+
+    /// Whether the block is a turn in place by G94.
+    pub fn may_be_by_time(&self) -> bool {
+        let motion = self.motion;
+        let per_minute = |feed: Feed| feed.mode == FeedMode::PerMinute;
+        motion.is_known_feed()
+            && motion.turns_in_place()
+            && motion.feed.is_some_and(per_minute)
+            && motion.turn_seconds().is_some()
+    }
+
+    /// Whether the block ends the program.
+    pub fn ends_program(&self) -> bool {
+        let ends = |word: &Word| word.letter == b'M' && [2.0, 30.0].contains(&word.value);
+        self.words.iter().any(ends)
+    }
+
+    /// The line behind pieces in inverse time: the feed as it was.
+    pub fn line_of_feed(&self, state: &mut OutputState) -> Vec<u8> {
+        let mut text = String::new();
+        self.add(&mut text, b'G', "94");
+        if let Some(feed) = self.motion.feed {
+            state.feed = None;
+            if let Some(number) = self.feed_word(state, feed) {
+                self.add(&mut text, b'F', &number);
+            }
+        }
+        let deletes = if self.line.block_delete { "/" } else { "" };
+        format!("{deletes}{}", text.trim_start()).into_bytes()
+    }
+
+    /// The block is one of inverse time.
+    fn edit_feed_mode(&self, edits: &mut Edits) {
+        let mode = |word: &&Word| word.letter == b'G' && word.value == 94.0;
+        if let Some(word) = self.words.iter().find(mode) {
+            edits.push((number_span(word), "93".to_owned()));
+            return;
+        }
+        let first = self.words.iter().find(|word| !b"NO".contains(&word.letter));
+        let at = first.map_or(0, |word| word.start as usize);
+        let letter = if self.lower_case { 'g' } else { 'G' };
+        edits.push((at..at, format!("{letter}93{}", self.separator)));
     }
 
     fn words_after_motion(&self) -> impl Iterator<Item = &'a Word> {

@@ -120,7 +120,9 @@ impl Stretch {
         };
         let motion = &path.moves[self.move_index];
         let [from, to] = self.share;
-        let length = motion.length_between_mm(from, to);
+        // Of a move that turns the tool, the way of a point of the tool where that is longer.
+        let turned = motion.way_with_turn_mm(options.turn_lever_mm) * (to - from);
+        let length = larger(motion.length_between_mm(from, to), turned);
         let tolerance = options.tolerance_mm;
         let all_requested = self.quarters.is_some();
         let off = departure(&values, [self.begins, self.ends[1]]);
@@ -139,10 +141,13 @@ impl Stretch {
                     Curve::Line => radius_mm,
                     Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),
                 };
+                // A turn of the tool is a way as well.
+                let turn = motion.turn_ratio(radius) * (to - from);
+                let way = larger(motion.length_between_mm(from, to), turn * radius);
                 let points = if all_requested { 5 } else { 3 };
                 let change = (self.ends[1] - self.ends[0]).norm();
                 (
-                    remainder(points, size, length, radius),
+                    remainder(points, size, way, radius),
                     off > 0.25 * tolerance || change > tolerance,
                 )
             }

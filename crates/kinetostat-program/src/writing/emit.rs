@@ -34,6 +34,10 @@ pub(crate) struct Emitter<'a> {
     /// The position offset that the input has, and where the input is.
     input_offset: PositionOffset,
     input_position: Vector3<f64>,
+    /// See [`Corrected::rotary_deg`].
+    rotary_deg: Vec<Vec<f64>>,
+    /// Some of them stand otherwise than the program has them.
+    rotary_corrected: bool,
 }
 
 impl<'a> Emitter<'a> {
@@ -73,7 +77,23 @@ impl<'a> Emitter<'a> {
             steps: Steps::new(path, options, division),
             input_offset: PositionOffset::default(),
             input_position: start,
+            rotary_deg: Vec::new(),
+            rotary_corrected: false,
         }
+    }
+
+    /// Where the rotary axes stand at the end of a piece that was just written.
+    fn note_rotary(&mut self, motion: &Move, share_to: f64) {
+        let rotary = motion
+            .tool_turn
+            .as_ref()
+            .and_then(|turn| turn.rotary.as_ref());
+        let programmed = rotary.map_or_else(Vec::new, |rotary| rotary.angles_deg(share_to));
+        let turned = &self.state.turned_deg;
+        self.rotary_corrected |= turned.iter().any(|turned| *turned != 0.0);
+        let written = programmed.iter().enumerate();
+        let written = written.map(|(axis, angle)| angle + turned.get(axis).copied().unwrap_or(0.0));
+        self.rotary_deg.push(written.collect());
     }
 
     pub fn emit(mut self) -> Result<Corrected, WriteError> {
@@ -119,6 +139,10 @@ impl<'a> Emitter<'a> {
             pieces,
             beside: Vec::new(),
             orientations: Vec::new(),
+            rotary_deg: match self.rotary_corrected {
+                true => self.rotary_deg,
+                false => Vec::new(),
+            },
             accounting,
         }
     }
@@ -212,6 +236,7 @@ impl<'a> Emitter<'a> {
         motion: &Move,
     ) -> Result<(), WriteError> {
         self.input_position = motion.end;
+        self.refuse_lost_turn(motion)?;
         if motion.known == Knowledge::Nothing {
             return self.write_uncorrected(line, move_index, motion);
         }
@@ -220,12 +245,14 @@ impl<'a> Emitter<'a> {
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
         let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+        block.turned.were_turned = self.state.turned_deg.iter().any(|turned| *turned != 0.0);
         let (mut steps, nodes) = self
             .steps
             .of(move_index, self.state.target, block.arc_form())?;
         let nodes = &self.steps.nodes[nodes];
         let kept_arc = motion.curve != Curve::Line
             && self.is_uncorrected(motion, nodes, self.steps.course(move_index))
+            && self.state.turned_deg.iter().all(|turned| *turned == 0.0)
             && block.words_still_hold(&self.state);
         if kept_arc {
             steps = vec![OutputMove {
@@ -240,8 +267,10 @@ impl<'a> Emitter<'a> {
                 corrected: true,
             }];
         }
+        block.by_time = self.is_by_time(&mut block, &steps)?;
+        let restores = block.by_time && !block.ends_program();
         for (index, step) in steps.iter().enumerate() {
-            let last = index + 1 == steps.len();
+            let last = index + 1 == steps.len() && !restores;
             let from = self.state.position;
             let output_line = self.output_line;
             let content = if kept_arc {
@@ -263,9 +292,50 @@ impl<'a> Emitter<'a> {
                 feed_limited: self.state.feed_limited,
             };
             self.account.piece(move_index, step, &written);
+            self.note_rotary(motion, step.share_to);
+        }
+        if restores {
+            let content = block.line_of_feed(&mut self.state);
+            self.push_line(motion.line, content, own)?;
+            self.account.accounting.blocks_out += 1;
         }
         self.note_block(line, motion, steps.len(), before);
         Ok(())
+    }
+
+    /// Whether pieces of a turn in place are written with their time: F counts degrees a minute only where X, Y and Z stand still.
+    fn is_by_time(
+        &self,
+        block: &mut BlockWriter<'_>,
+        steps: &[OutputMove],
+    ) -> Result<bool, WriteError> {
+        if !block.may_be_by_time() {
+            return Ok(false);
+        }
+        if steps.len() > 1 {
+            return Ok(true);
+        }
+        let mut trial = self.state.clone();
+        block.first_line(&mut trial, steps)?;
+        Ok((trial.position - self.state.position).norm() > UNCHANGED_MM)
+    }
+
+    /// Behind a cut whose angles are corrected a rapid brings the axes back to those of the program, before anything that does not
+    /// count with them.
+    fn refuse_lost_turn(&self, motion: &Move) -> Result<(), WriteError> {
+        let rotary = motion
+            .tool_turn
+            .as_ref()
+            .and_then(|turn| turn.rotary.as_ref());
+        let is_turned = self.state.turned_deg.iter().any(|turned| *turned != 0.0);
+        match is_turned && (rotary.is_none() || motion.known == Knowledge::Nothing) {
+            true => Err(WriteError::Motion {
+                line: motion.line,
+                reason: "the angles of the rotary axes are corrected up to here, and tool centre point control ends, or the place is not known, right behind the cut".to_owned(),
+                remedy: "let a rapid (G0) that retracts the tool stand between, or correct the position alone".to_owned(),
+            }),
+            false => Ok(()),
+        }
     }
 
     /// A move that has no correction: to a place of the machine it is carried byte for byte, and else its
@@ -312,6 +382,7 @@ impl<'a> Emitter<'a> {
             feed_limited: false,
         };
         self.account.uncorrected(move_index, &written);
+        self.note_rotary(motion, 1.0);
         self.note_block(line, motion, 1, before);
         Ok(())
     }

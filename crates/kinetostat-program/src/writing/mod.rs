@@ -21,6 +21,7 @@ pub(crate) mod output_state;
 pub(crate) mod piece_account;
 pub(crate) mod plan;
 pub(crate) mod queries;
+pub(crate) mod rotary_words;
 pub(crate) mod short_blocks;
 pub(crate) mod steps;
 pub(crate) mod write;

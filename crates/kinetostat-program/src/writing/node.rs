@@ -36,14 +36,14 @@ impl Node {
     }
 }
 
-/// Whether a move is divided at all: feed moves with a length and a known start.
+/// Whether a move is divided at all: feed moves from a known start with a length, or with a turn of the tool.
 pub(crate) fn is_divided(motion: &Move) -> bool {
-    motion.is_known_feed() && motion.has_length()
+    motion.is_known_feed() && (motion.has_length() || motion.turns_in_place())
 }
 
 /// Whether only the end of a move is corrected: rapids, and moves from an unknown place.
 pub(crate) fn is_corrected_at_end(motion: &Move) -> bool {
-    let at_once = motion.kind == MoveKind::Rapid || motion.turns_in_place();
+    let at_once = motion.kind == MoveKind::Rapid;
     motion.known == Knowledge::End || motion.known == Knowledge::Whole && at_once
 }
 

@@ -21,6 +21,8 @@ pub(crate) struct OutputState {
     pub feed_limited: bool,
     /// The piece written last, where it is an arc that was fitted.
     pub arc: Option<WrittenArc>,
+    /// By how much the rotary axes stand otherwise than the program has them, deg, in their order; empty where none ever did.
+    pub turned_deg: Vec<f64>,
 }
 
 /// An arc that was fitted to a corrected curve, before rounding.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::number::at_most;
 use crate::number::{larger, smaller};
-use crate::path::moves::{Feed, Knowledge, Move, MoveKind, Path, Warning};
+use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning};
 use crate::writing::accounting::{Accounting, Rate, duration, duration_at};
 use crate::writing::node::is_divided;
 use crate::writing::options::WriteOptions;
@@ -163,8 +163,13 @@ impl<'a> PieceAccount<'a> {
             accounting.feed_length_out_mm += written_mm;
             // A block that stays one keeps its inverse time; the pieces of others have their own.
             let feed = written.feed.filter(|_| motion.feed.is_some());
-            let seconds = feed.and_then(|feed| duration_at(feed, written_mm));
             let whole = step.share_from == 0.0 && step.share_to == 1.0;
+            let seconds = match feed.map(|feed| feed.mode) {
+                Some(mode) if motion.turns_in_place() && mode != FeedMode::InverseTime => motion
+                    .turn_seconds()
+                    .map(|seconds| seconds * (step.share_to - step.share_from)),
+                _ => feed.and_then(|feed| duration_at(feed, written_mm)),
+            };
             let whose = match whole && !step.corner_step {
                 true => Whose::Input,
                 false => Whose::Piece,
@@ -260,7 +265,8 @@ impl<'a> PieceAccount<'a> {
         if pieces > 1 {
             accounting.blocks_split += 1;
             let new = &self.pieces[self.pieces.len() - pieces..];
-            for piece in new.iter().filter(|piece| !piece.corner_step) {
+            let has_length = |piece: &&Piece| !piece.corner_step && !motion.turns_in_place();
+            for piece in new.iter().filter(has_length) {
                 let length = motion.length_between_mm(piece.share_from, piece.share_to);
                 let smallest = accounting.smallest_piece_mm.get_or_insert(length);
                 *smallest = smallest.min(length);

@@ -252,6 +252,7 @@ impl<'a> Plan<'a> {
             beside: Vec::new(),
             pieces,
             orientations,
+            rotary_deg: Vec::new(),
             accounting,
         }
     }

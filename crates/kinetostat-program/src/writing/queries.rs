@@ -5,7 +5,7 @@ use nalgebra::{Vector3, Vector6};
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request};
 use crate::number::larger;
-use crate::path::moves::{Knowledge, Path};
+use crate::path::moves::{Knowledge, Move, MoveKind, Path};
 
 /// Asks the field and checks its answers.
 pub(crate) struct FieldQueries<'a> {
@@ -74,6 +74,10 @@ impl FieldQueries<'_> {
                     Some(Err(reason)) => return Err(failure(reason.message)),
                     None => return Err(failure("the field gave too few answers".to_owned())),
                 };
+                if is_last_with_rotary_axes(self.path, request.move_index) {
+                    // Behind it the angles count as those of the program.
+                    value.fixed_rows_mut::<3>(3).fill(0.0);
+                }
                 for axis in 0..3 {
                     if !self.path.stated[axis] {
                         self.left_out_mm = larger(self.left_out_mm, value[axis].abs());
@@ -88,6 +92,17 @@ impl FieldQueries<'_> {
         }
         Ok(values)
     }
+}
+
+/// A rapid that turns by rotary axes, before moves that do not say how these stand.
+fn is_last_with_rotary_axes(path: &Path, move_index: usize) -> bool {
+    let states = |motion: &Move| {
+        let turn = motion.tool_turn.as_ref();
+        turn.is_some_and(|turn| turn.rotary.is_some()) && motion.known != Knowledge::Nothing
+    };
+    let motion = &path.moves[move_index];
+    let goes_on = path.moves.get(move_index + 1).is_some_and(states);
+    motion.kind == MoveKind::Rapid && states(motion) && !goes_on
 }
 
 /// Points queried in one call of the field.

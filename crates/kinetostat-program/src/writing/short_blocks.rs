@@ -118,9 +118,11 @@ impl ShortBlocks {
         (length_mm, seconds): (f64, Option<f64>),
         options: &WriteOptions,
     ) {
-        let short = options
-            .min_block_mm
-            .is_some_and(|least| length_mm < least * (1.0 - ARITHMETIC));
+        // A turn in place has no length; its time counts.
+        let short = !motion.turns_in_place()
+            && options
+                .min_block_mm
+                .is_some_and(|least| length_mm < least * (1.0 - ARITHMETIC));
         let fast = options
             .max_blocks_per_s
             .zip(seconds)

@@ -172,7 +172,9 @@ impl<'a> Steps<'a> {
         let length = |step: &OutputMove| motion.length_between_mm(step.share_from, step.share_to);
         let short = |step: &OutputMove| !step.corner_step && length(step) < shortest_mm;
         let steps = self.divided(motion, range.clone(), reached, Ends::All);
-        if !steps.iter().any(short) {
+        let turned = steps.iter().any(|step| step.tilt != Vector3::zeros());
+        if turned || !steps.iter().any(short) {
+            // A curve of places says nothing of the orientation between them.
             return steps;
         }
         let spans = self.divided(motion, range, reached, Ends::OfJumps);

@@ -53,8 +53,8 @@ pub fn write_corrected(
         last = motion.line;
     }
     let fitted = |_| match options.arcs {
-        Arcs::Fit => Fitted::Arcs,
-        Arcs::Lines => Fitted::Nothing,
+        Arcs::Fit if !field.turns_tool() => Fitted::Arcs,
+        Arcs::Fit | Arcs::Lines => Fitted::Nothing,
     };
     let division = divide(path, field, (options, &fitted), monitor)?;
     Emitter::new(program, path, options, division).emit()

@@ -94,6 +94,9 @@ pub struct Corrected {
     /// Orientation of the tool at the end of every piece as written, part axes from tool axes; empty where the program does not
     /// state it.
     pub orientations: Vec<UnitQuaternion<f64>>,
+    /// Where the rotary axes stand at the end of every piece as written, in deg and their order; empty where the words of the
+    /// program stay, and for pieces of moves that do not state them.
+    pub rotary_deg: Vec<Vec<f64>>,
     /// What was done.
     pub accounting: Accounting,
 }

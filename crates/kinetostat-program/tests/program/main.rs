@@ -32,5 +32,6 @@ mod spindle;
 mod support;
 mod tool_turns;
 mod tools;
+mod turns_in_place;
 mod unknown_places;
 mod writing;

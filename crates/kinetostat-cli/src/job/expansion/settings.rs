@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use kinetostat_program::{Dialect, ExpandOptions, OriginComments, ReadOptions};
+use kinetostat_program::{Dialect, ExpandOptions, OriginComments, OtherAxes, ReadOptions};
 
 use crate::job::dialect_word::DialectWord;
 use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
@@ -55,6 +55,10 @@ pub(crate) fn settings(
     options.reading = reading.clone();
     // Which tools are there is asked of the flat program, as of any other.
     options.reading.tools = None;
+    // What rotary axes turn, the machine's model says when the flat program is read.
+    if options.reading.other_axes == OtherAxes::Refused {
+        options.reading.other_axes = OtherAxes::Carried;
+    }
     let table = job.and_then(|j| Some((j, j.job.expand.as_ref()?.get_ref())));
     let mut comments = !args.no_comments;
     let in_job = table.and_then(|(_, table)| table.dialect);

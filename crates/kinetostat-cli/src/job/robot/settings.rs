@@ -116,10 +116,7 @@ pub(crate) fn settings(
             in_part: direction_of(j, turn, &turn.get_ref().part)?,
         };
     }
-    let corrected = match flags.correct.unwrap_or(correct) {
-        CorrectWord::Position => Directions::POSITION,
-        CorrectWord::Pose => Directions::ALL,
-    };
+    let corrected = flags.correct.unwrap_or(correct).directions();
     Ok(RobotSettings {
         reading,
         making,

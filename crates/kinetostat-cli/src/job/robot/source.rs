@@ -53,7 +53,8 @@ pub(crate) fn robot_source(
         if let Some(odd) = odd_program(name, bytes) {
             return Err(Failure::input(format!("'{name}': {odd}")));
         }
-        return match (flags.given(), table) {
+        let table = table.filter(|(_, table)| !table.get_ref().says_only_what_is_corrected());
+        return match (flags.of_robots_alone(), table) {
             (Some(option), _) => Err(Failure::input(format!(
                 "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
                 known_endings()

@@ -132,6 +132,14 @@ impl<'o> Radius<'o> {
                 "write G40 and a move before it is put on again",
             )));
         }
+        if let Some(what) = self.interpreter(flat).carried_turn() {
+            return Err(Trouble::Line((
+                format!(
+                    "cutter radius compensation while {what}: in which plane it acts depends on the controller"
+                ),
+                "let the CAM system write the way of the tool's centre",
+            )));
+        }
         let begins_beside = matches!(self.state, State::Beside);
         let diameters = &self.diameters_mm;
         let begun = begin(switch, self.spindle, diameters, self.interpreter(flat))?;

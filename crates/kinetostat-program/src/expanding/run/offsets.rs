@@ -80,12 +80,13 @@ impl Runner<'_> {
         if !matches!(list, Some(2.0 | 20.0)) {
             return Ok(None);
         }
-        if !words.only(10.0, b"LPRXYZ") {
+        if !words.only(10.0, b"LPRXYZABC") {
             return Err(self.refuse(
                 "G10 and other words are in one block",
-                "write them in two blocks; only the origins of X, Y and Z are followed",
+                "write them in two blocks; only the origins of X, Y, Z, A, B and C are followed",
             ));
         }
+        self.refuse_rotary_place(words, list)?;
         let state = self.state();
         let active = 1 + state.work_system();
         let system = match words.value(b'P') {
@@ -122,6 +123,11 @@ impl Runner<'_> {
             };
             made.push_str(&format!(" {}{}", char::from(letter), number(value)));
         }
+        for letter in *b"ABC" {
+            if let Some(word) = words.value(letter) {
+                made.push_str(&format!(" {}{}", char::from(letter), number(word)));
+            }
+        }
         if let Some(turned) = words.value(b'R') {
             made.push_str(&format!(" R{}", number(turned)));
         }
@@ -129,6 +135,23 @@ impl Runner<'_> {
             true => vec!["G90".to_owned(), made, "G91".to_owned()],
             false => vec![made],
         }))
+    }
+
+    /// L20 makes the place of an axis the reference.
+    fn refuse_rotary_place(&self, words: &Words, list: Option<f64>) -> Result<(), ProgramError> {
+        let mut rotary = b"ABC"
+            .iter()
+            .filter(|letter| words.value(**letter).is_some());
+        match (list, rotary.next()) {
+            (Some(20.0), Some(letter)) => Err(self.refuse(
+                &format!(
+                    "G10 L20 with {}: where the machine's zero of a rotary axis is, is not known here",
+                    char::from(*letter)
+                ),
+                "write G10 L2 with the angle of the machine",
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// The origin, in machine coordinates and program units, that gives the tool's place a coordinate.

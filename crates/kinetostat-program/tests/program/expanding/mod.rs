@@ -11,6 +11,7 @@ mod modes;
 mod offsets;
 mod polar;
 pub mod random;
+mod rotary;
 mod splines;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};

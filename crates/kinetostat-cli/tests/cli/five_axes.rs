@@ -1,0 +1,93 @@
+//! Machines of five axes on the command line: the model and the program of the book's page.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use std::path::Path;
+
+use crate::common::run;
+
+const PAGE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../book/src/tutorials/five-axes.md"
+);
+
+/// A file that the page shows.
+fn shown(name: &str) -> String {
+    let page = std::fs::read_to_string(PAGE).unwrap();
+    let mark = format!("<!-- file: {name} -->");
+    let behind = page.split_once(&mark).unwrap().1;
+    let text = behind.split_once('\n').unwrap().1;
+    let text = text.split_once('\n').unwrap().1;
+    text.split_once("```").unwrap().0.to_owned()
+}
+
+fn place() -> tempfile::TempDir {
+    let here = tempfile::tempdir().unwrap();
+    for name in ["portal.toml", "cone.nc"] {
+        std::fs::write(here.path().join(name), shown(name)).unwrap();
+    }
+    here
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+fn read(here: &Path, name: &str) -> String {
+    std::fs::read_to_string(here.join(name)).unwrap()
+}
+
+const MACHINE: &str =
+    "--tool-length-mm 120 --milling 400 -150 -80 --part-origin-mm 0 0 100 --model portal.toml";
+
+#[test]
+fn loops_with_rotary_words_are_run_and_compensated() {
+    let here = place();
+    let here = here.path();
+    let looped = "G21 G90 G94\nG0 A0 C0\nG0 X60 Y0 Z50\nG43.4 H1 Z50\nG0 A20\nG1 Z0 F600\n#1 = 1\nO1 while [#1 LE 3]\nG1 X[60 * cos[30 * #1]] Y[60 * sin[30 * #1]] C[30 * #1]\n#1 = [#1 + 1]\nO1 endwhile\nC200 F720\nG0 Z50\nG49\nM30\n";
+    std::fs::write(here.join("loop.nc"), looped).unwrap();
+    run(here, &words("expand loop.nc --out flat.nc")).answered();
+    let flat = read(here, "flat.nc");
+    assert!(flat.contains("C90") && !flat.contains('#'), "{flat}");
+    let line = format!("compensate --program flat.nc {MACHINE} --out two.nc --no-header");
+    run(here, &words(&line)).answered();
+    let line = format!("compensate --program loop.nc --expand {MACHINE} --out one.nc --no-header");
+    run(here, &words(&line)).answered();
+    let one = read(here, "one.nc");
+    assert_eq!(one, read(here, "two.nc"));
+    // The turn in place has its time: 110 degrees at 720 degrees a minute.
+    let mut seconds = 0.0;
+    let turn = one.split_once("G93").unwrap().1;
+    let turn = turn.split_once("\nG94 F720").unwrap().0;
+    for word in turn.split_whitespace() {
+        if let Some(feed) = word.strip_prefix('F') {
+            seconds += 60.0 / feed.parse::<f64>().unwrap();
+        }
+    }
+    assert!((seconds - 60.0 * 110.0 / 720.0).abs() < 0.02, "{seconds}");
+}
+
+#[test]
+fn the_tool_s_axis_is_corrected_on_request() {
+    let here = place();
+    let here = here.path();
+    for (more, out) in [("", "position.nc"), ("--correct pose", "pose.nc")] {
+        let line =
+            format!("compensate --program cone.nc {MACHINE} {more} --out {out} --json {out}.json");
+        run(here, &words(&line)).answered();
+    }
+    let tilt = |name: &str| {
+        let json: serde_json::Value = serde_json::from_str(&read(here, name)).unwrap();
+        json["summary"]["max_residual_rotation_deg"]
+            .as_f64()
+            .unwrap()
+    };
+    let (position, pose) = (tilt("position.nc.json"), tilt("pose.nc.json"));
+    assert!(position > 10.0 * pose && pose < 3e-3, "{position} {pose}");
+    // A program of three axes has no angles to correct.
+    std::fs::write(here.join("flat.nc"), "G21 G90\nG0 X0 Y0 Z1\nG1 X9 F100\n").unwrap();
+    let line = format!("compensate --program flat.nc {MACHINE} --correct pose");
+    let said = run(here, &words(&line));
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("--correct pose"), "{said:?}");
+}

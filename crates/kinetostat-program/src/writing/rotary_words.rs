@@ -1,0 +1,121 @@
+//! Words of rotary axes whose angles are corrected.
+//!
+//! A correction turns the tool; the axes turn so that it lies where it is wanted, and the turn about the tool is free
+//! ([`crate::path::tool_direction`]). Each word is chosen against where the axis really stands as written.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::number;
+use crate::path::moves::{ExtraMode, Move};
+use crate::path::rotary::RotaryTurn;
+use crate::writing::output_state::{OutputMove, OutputState};
+
+/// Digits after the point of words of other axes, at least.
+pub(crate) const EXTRA_DECIMALS: usize = 5;
+
+/// A word of an axis: its letter, and its number where the one that stands there (or none) will not do.
+type RotaryWord = (u8, Option<String>);
+
+/// The rotary axes of one block.
+pub(crate) struct TurnedAxes<'a> {
+    pub motion: &'a Move,
+    /// See [`crate::Path::tool_axis`].
+    pub tool_axis: Vector3<f64>,
+    /// They stand otherwise than the program has them when the block begins.
+    pub were_turned: bool,
+}
+
+impl TurnedAxes<'_> {
+    fn rotary(&self) -> Option<&RotaryTurn> {
+        let turn = self.motion.tool_turn.as_ref()?;
+        turn.rotary.as_ref()
+    }
+
+    /// Whether a word is that of one of them, in a block whose angles are corrected.
+    pub fn has_word(&self, letter: char, steps: &[OutputMove]) -> bool {
+        let mut axes = self
+            .rotary()
+            .into_iter()
+            .flat_map(|rotary| &rotary.axes.axes);
+        self.are_turned(steps) && axes.any(|axis| axis.letter == letter)
+    }
+
+    /// Whether angles of the block are others than those of the program, or were in the one before it.
+    fn are_turned(&self, steps: &[OutputMove]) -> bool {
+        let corrected = steps.iter().any(|step| step.tilt != Vector3::zeros());
+        self.rotary().is_some() && (corrected || self.were_turned)
+    }
+
+    /// By how much the axes stand otherwise at the end of a piece than the program has them, deg.
+    fn wanted_deg(&self, rotary: &RotaryTurn, step: &OutputMove) -> Vec<f64> {
+        let near = rotary.angles_deg(step.share_to);
+        if step.tilt == Vector3::zeros() {
+            return vec![0.0; near.len()];
+        }
+        let tilted = UnitQuaternion::from_scaled_axis(step.tilt);
+        let direction = tilted * rotary.axes.tool_direction_at(&near, &self.tool_axis);
+        let found = rotary
+            .axes
+            .angles_near(&direction, &self.tool_axis, &near);
+        let both = found.angles_deg.iter().zip(&near);
+        both.map(|(found, near)| found - near).collect()
+    }
+
+    /// The words of all rotary axes in a piece; none in a block whose angles are those of the program.
+    /// `own` says which number the block has for a letter.
+    pub fn words_of_piece(
+        &self,
+        state: &mut OutputState,
+        (steps, index): (&[OutputMove], usize),
+        own: impl Fn(u8) -> Option<f64>,
+    ) -> Vec<RotaryWord> {
+        let Some(rotary) = self.rotary().filter(|_| self.are_turned(steps)) else {
+            return Vec::new();
+        };
+        let step = &steps[index];
+        let wanted = self.wanted_deg(rotary, step);
+        let (from, to) = (
+            rotary.angles_deg(step.share_from),
+            rotary.angles_deg(step.share_to),
+        );
+        state.turned_deg.resize(wanted.len(), 0.0);
+        let mut words = Vec::with_capacity(wanted.len());
+        for (axis, wanted) in wanted.into_iter().enumerate() {
+            let letter = rotary.axes.axes[axis].letter;
+            let turned = &mut state.turned_deg[axis];
+            let stands = from[axis] + *turned;
+            let target = to[axis] + wanted;
+            let extra = self
+                .motion
+                .extra
+                .iter()
+                .find(|extra| extra.letter == letter);
+            let incremental = match extra.map(|extra| extra.mode) {
+                Some(mode) => mode == ExtraMode::Incremental,
+                None => self.motion.words.incremental,
+            };
+            let reference = match incremental {
+                true => stands,
+                false => rotary.origin_deg[axis],
+            };
+            let own = match index {
+                0 => own(letter as u8),
+                _ => None,
+            };
+            let half = 0.5 * 0.1_f64.powi(EXTRA_DECIMALS as i32) * (1.0 + 1e-6);
+            let (reached, text) = match own {
+                Some(own) if (reference + own - target).abs() <= half => (reference + own, None),
+                None if (target - stands).abs() <= half => (stands, None),
+                _ => {
+                    let text = number::fixed(target - reference, EXTRA_DECIMALS);
+                    (reference + text.parse().unwrap_or(0.0), Some(text))
+                }
+            };
+            // What the arithmetic leaves of the program's own angle is none.
+            let left = reached - to[axis];
+            *turned = if left.abs() < 1e-9 { 0.0 } else { left };
+            words.push((letter as u8, text));
+        }
+        words
+    }
+}
