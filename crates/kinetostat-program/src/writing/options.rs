@@ -43,7 +43,7 @@ pub struct WriteOptions {
     /// of the tool varies, a point so far from the tip is within `tolerance_mm`. Default 50.
     pub turn_lever_mm: f64,
     /// How far the chords of an arc may leave it, in mm; an arc that is fitted may leave the corrected curve by this and
-    /// `tolerance_mm` together, as chords do. Default 0.0004.
+    /// `tolerance_mm` together, as chords do, also where one arc of a block ends and the next begins. Default 0.0004.
     pub chord_tolerance_mm: f64,
     /// A stretch this short (in mm) over which the correction still varies by more than the
     /// tolerance is taken for a jump: the tool steps there. Default 0.001.
