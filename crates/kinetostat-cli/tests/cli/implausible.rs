@@ -269,7 +269,7 @@ fn what_is_wrong_without_the_model_is_not_put_down_to_it() {
             "(kinetostat: compensated program)\nG21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 F600\nM2\n",
             "marked as compensated already",
         ),
-        ("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 Q3 F600\nM2\n", "line 3"),
+        ("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X9 X8 F600\nM2\n", "line 3"),
     ] {
         std::fs::write(here.path().join("part.ngc"), program).unwrap();
         let line = "compensate --model model.toml --program part.ngc --force 0 0 -100 --part-origin-mm 1050 0 1000 --tool-length-mm 180 --out new.ngc";

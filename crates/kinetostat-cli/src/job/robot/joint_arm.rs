@@ -25,7 +25,7 @@ struct ArmOfTable {
 
 impl ArmOfTable {
     /// The model's joint values, rad.
-    fn of_model(&self, shown_deg: &[f64]) -> [f64; 6] {
+    fn model_joints(&self, shown_deg: &[f64]) -> [f64; 6] {
         let joints: Vec<f64> = shown_deg.iter().map(|value| value.to_radians()).collect();
         let joints = match &self.controller {
             None => joints,
@@ -58,13 +58,13 @@ impl JointArm for ArmOfTable {
     }
 
     fn tool_pose(&self, joints: &[f64]) -> Isometry3<f64> {
-        let tool = self.arm.tool_at(&self.of_model(joints));
+        let tool = self.arm.tool_at(&self.model_joints(joints));
         Isometry3::from_parts((1e3 * tool.translation.vector).into(), tool.rotation)
     }
 
     fn joints_near(&self, tool: &Isometry3<f64>, near: &[f64]) -> Option<Vec<f64>> {
         let tool = Pose::from_parts((1e-3 * tool.translation.vector).into(), tool.rotation);
-        self.shown_deg(&self.arm.next_to(&tool, &self.of_model(near))?)
+        self.shown_deg(&self.arm.next_to(&tool, &self.model_joints(near))?)
     }
 }
 
