@@ -144,9 +144,10 @@ impl Tree {
                 return Err((start, reason, remedy));
             }
             let at = tree.nodes.len();
-            let end = match holds {
-                true => start,
-                false => end.max(start),
+            let (start, end) = match (holds, kind == Kind::Scalar && end <= start) {
+                (true, _) => (start, start),
+                (false, true) => tree.without_value(start, bytes),
+                (false, false) => (start, end.max(start)),
             };
             tree.nodes.push(Flat {
                 kind,
@@ -181,15 +182,27 @@ impl Tree {
         if closes && opens && at >= node.end as usize {
             node.end = small(at + 1);
         }
-        node.end = node.end.max(node.start);
+        node.end = node.start.max(node.end);
         node.end as usize
+    }
+
+    /// Where a value is that is not written: behind the colon of its key, which belongs to the map, or at a place.
+    fn without_value(&self, place: usize, bytes: &[u8]) -> (usize, usize) {
+        let key = self.nodes.last().map_or(place, |key| key.end as usize);
+        let rest = bytes.get(key..).unwrap_or_default();
+        let blanks = rest.iter().take_while(|byte| **byte == b' ').count();
+        let at = match rest.get(blanks) {
+            Some(b':') => key + blanks + 1,
+            _ => place,
+        };
+        (at, at)
     }
 
     /// What a list or map holds reaches to a place.
     fn reach(&mut self, open: Option<&usize>, end: usize) {
         if let Some(own) = open {
             let own = &mut self.nodes[*own];
-            own.end = own.end.max(small(end));
+            own.end = small(end).max(own.end);
         }
     }
 }

@@ -132,3 +132,21 @@ fn orientations_keep_their_convention_and_sign() {
         "{error}"
     );
 }
+
+#[test]
+fn a_key_without_a_value_is_copied_with_its_colon() {
+    for end in ["  note:\n", "  note :\n  # behind\n", "  note:"] {
+        let first = format!("- position: {{x_mm: 0, y_mm: 0, z_mm: 5}}\n{end}\n");
+        let text = format!("{first}- position: {{x_mm: 8, y_mm: 0, z_mm: 5}}\n{end}");
+        let poses = program("a.yaml", &text);
+        let pieces = [
+            Piece::to(1, Vector3::new(4.0, 1.0, 5.0)),
+            Piece::to(1, Vector3::new(8.0, 0.0, 5.0)),
+        ];
+        let output = written(&poses, &pieces);
+        let again = program("a.yaml", &output);
+        assert_eq!(again.motions.len(), 3, "{output}");
+        assert_eq!(place(&again, 1), [4.0, 1.0, 5.0]);
+        assert_eq!(output.matches("note").count(), 3, "{output}");
+    }
+}
