@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
+use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::in_chunks;
 use crate::postures::orientation::Orientation;
 
@@ -26,6 +27,8 @@ pub struct ModelField<'a> {
     corrected: Directions,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,
+    /// The way of an arm that is not the one from home.
+    course: Option<&'a ArmCourse>,
 }
 
 /// Share of the machine's natural length within which its deflection under a load that does not change
@@ -47,6 +50,7 @@ impl<'a> ModelField<'a> {
             load,
             corrected: Directions::POSITION,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
+            course: None,
         }
     }
 
@@ -55,6 +59,12 @@ impl<'a> ModelField<'a> {
     #[must_use]
     pub fn correcting(mut self, directions: Directions) -> Self {
         self.corrected = directions;
+        self
+    }
+
+    /// The same along the way of an arm, where it is not the one from home.
+    pub(crate) fn on_course(mut self, course: Option<&'a ArmCourse>) -> Self {
+        self.course = course;
         self
     }
 
@@ -138,14 +148,25 @@ impl ModelField<'_> {
                     },
                 }
             };
-            if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
+            let together = || machine.targets(&poses, &wrenches, self.corrected);
+            let targets = match self.course {
+                Some(_) => None,
+                None => together(),
+            };
+            if let Some(targets) = targets {
                 let all = places.iter().zip(&poses).zip(&targets);
                 return all
                     .map(|((place, pose), target)| Ok(correction(place, pose, target)))
                     .collect();
             }
-            let all = places.iter().zip(&poses).zip(&wrenches);
-            all.map(|((place, pose), wrench)| {
+            let all = requests.iter().zip(&places).zip(&poses).zip(&wrenches);
+            all.map(|(((request, place), pose), wrench)| {
+                let course = self.course;
+                let on_the_way =
+                    course.and_then(|c| c.standing_at(request.move_index, request.share));
+                if let Some(posture) = on_the_way {
+                    memory[0].stand_at(posture);
+                }
                 memory[0]
                     .target(mechanism, pose, wrench, (orientation, self.corrected))
                     .map(|posture| correction(place, pose, posture.target()))

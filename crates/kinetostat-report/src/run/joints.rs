@@ -52,7 +52,8 @@ fn panel(
     let ends: Vec<f64> = ends.copied().filter_map(number::drawable).collect();
     let limits = ends.iter().map(|value| Limit {
         value: *value,
-        label: format!("limit {}", number::setting(*value)),
+        // Models in radians have limits with many digits.
+        label: format!("limit {}", number::setting((10.0 * value).round() / 10.0)),
     });
     let with_limits = ends.iter().fold(span, |span, end| span.including(*end));
     Some(Panel {
