@@ -48,6 +48,9 @@ pub(crate) struct RobotArgs {
         help_heading = "Robot programs"
     )]
     pub(crate) tool_axis: Option<AxisWord>,
+    /// The program is converted into the language of a robot before it is run.
+    #[arg(skip)]
+    pub(crate) converted: bool,
 }
 
 impl RobotArgs {

@@ -7,6 +7,8 @@ use serde::Deserialize;
 use serde_spanned::Spanned;
 
 use crate::job::robot_arguments::CorrectWord;
+use crate::job::target_word::TargetWord;
+use crate::job::turn_arguments::FreeTurnWord;
 
 /// What a program of a robot does not say itself.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -30,8 +32,32 @@ pub(crate) struct RobotTable {
     pub unknown_targets: Option<UnknownTargetsWord>,
     /// What becomes of paths that the controller moves aside by the tool's radius.
     pub cutter_compensation: Option<CutterCompensationWord>,
+    /// The turn of a round tool about its own axis.
+    #[serde(default)]
+    pub free_turn: FreeTurnWord,
+    /// The language of the compensated program, where it is another one.
+    pub to: Option<Spanned<TargetWord>>,
+    /// Template of the cell for that.
+    pub template: Option<Spanned<String>>,
     /// What lengths are in a list of poses that does not state it.
     pub length_unit: Option<Spanned<LengthUnitWord>>,
+}
+
+impl RobotTable {
+    /// It says nothing of a program that is a robot's already: all is about turning the tool, and writing for a robot.
+    pub(crate) fn is_of_any_program(&self) -> bool {
+        let is_asked = self.free_turn == FreeTurnWord::Choose || self.to.is_some();
+        let of_robots = !self.frames.is_empty()
+            || !self.files.is_empty()
+            || self.correct.is_some() && self.to.is_none()
+            || self.rapid_from_mm_per_s.is_some()
+            || self.tool_axis.is_some()
+            || self.external_axes.is_some()
+            || self.unknown_targets.is_some()
+            || self.cutter_compensation.is_some()
+            || self.length_unit.is_some();
+        is_asked && !of_robots
+    }
 }
 
 /// Paths that the controller moves aside by the tool's radius.

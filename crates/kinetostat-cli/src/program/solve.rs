@@ -10,10 +10,12 @@ use kinetostat_machining::{
 use kinetostat_program::{MachineProgram, Path as ToolPath};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
+use crate::job::free_turn::{FreeTurn, chosen};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
 use crate::job::setting::Setting;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
 use crate::ui::failure::{Answer, Failure};
@@ -158,6 +160,15 @@ pub(crate) fn with_task<R>(
     Ok(read.with(made))
 }
 
+/// The turn of a round tool along the program, where it is to be chosen.
+pub(crate) fn turn(machine: &MachineSetup, setting: &Setting) -> Answer<Option<FreeTurn>> {
+    if setting.free_turn == FreeTurnWord::AsStated {
+        return Ok(None);
+    }
+    let read = read_program(setting)?;
+    chosen(setting, &machine.mechanism, read.path(), machine.placement).map(Some)
+}
+
 /// Solves the machine along the program.
 pub(crate) fn solve(
     aim: Aim,
@@ -165,7 +176,25 @@ pub(crate) fn solve(
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
-    let read = read_program(setting)?;
+    turned(aim, machine, (setting, None), threads)
+}
+
+/// Solves the machine along the program, with the turn of its tool that was chosen.
+pub(crate) fn turned(
+    aim: Aim,
+    machine: &MachineSetup,
+    (setting, turn): (&Setting, Option<&FreeTurn>),
+    threads: Option<usize>,
+) -> Answer<Run> {
+    let mut read = read_program(setting)?;
+    if let Some(turn) = turn {
+        if machine.measured.is_some() || machine.cut.is_some() {
+            return Err(Failure::input(
+                "forces that are computed from the cut or measured are for programs whose tool keeps its orientation: leave --free-turn out, or state the force under [load]",
+            ));
+        }
+        read.go_along(turn.path.clone());
+    }
     let path = read.path();
     let progress = Progress::new();
     let forces = forces_of(machine, setting, path, &progress)?;

@@ -130,7 +130,7 @@ fn warning(
         WarningCode::JointTurnsOn,
         point.line,
         format!(
-            "at {} '{name}' meets its limit of {limit:.0} deg: in feed motions since line {} it has turned on and on without a rapid in which it could turn back; {out}",
+            "{} '{name}' meets its limit of {limit:.0} deg: in feed motions since line {} it has turned on and on without a rapid in which it could turn back; {out}",
             place(point),
             turned.first_line
         ),

@@ -45,15 +45,14 @@ fn panel(
     let title = format!(
         "{}: {} to {}",
         text::shorten(&actuator.name, 24),
-        number::setting(low),
-        number::with_unit(&number::setting(high), &unit)
+        tenths(low),
+        number::with_unit(&tenths(high), &unit)
     );
     let ends = actuator.limits.iter().flatten();
     let ends: Vec<f64> = ends.copied().filter_map(number::drawable).collect();
     let limits = ends.iter().map(|value| Limit {
         value: *value,
-        // Models in radians have limits with many digits.
-        label: format!("limit {}", number::setting((10.0 * value).round() / 10.0)),
+        label: format!("limit {}", tenths(*value)),
     });
     let with_limits = ends.iter().fold(span, |span, end| span.including(*end));
     Some(Panel {
@@ -69,6 +68,11 @@ fn panel(
         limits: limits.collect(),
         marks: nearest(result, along, index).into_iter().collect(),
     })
+}
+
+/// A joint value beside a plot, to a tenth: models in radians have limits with many digits.
+fn tenths(value: f64) -> String {
+    number::setting((10.0 * value).round() / 10.0 + 0.0)
 }
 
 /// Where the joint is nearest to its limit, if it is the joint that comes nearest of all and cuts there.

@@ -37,15 +37,15 @@ pub(crate) fn robot_source(
             return Err(Failure::input(format!("'{name}': {odd}")));
         }
         return match (flags.given(), table) {
-            (Some(option), _) => Err(Failure::input(format!(
+            (Some(option), _) if !flags.converted => Err(Failure::input(format!(
                 "{option} is for programs of robots, and '{name}' is none that is known (RAPID: .mod, .modx, .prg; KRL: .src; FANUC: .ls; APT: .apt, .cls; lists of poses: .csv, .yaml): it is read as G-code; leave {option} out"
             ))),
-            (None, Some((j, table))) => Err(j.error(
+            (_, Some((j, table))) if !table.get_ref().is_of_any_program() => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
                 "leave it out, or give the program the ending of its language (.mod, .src, .ls, .apt, .csv, .yaml)",
             )),
-            (None, None) => Ok(None),
+            _ => Ok(None),
         };
     };
     refuse_unfit(job, program)?;
