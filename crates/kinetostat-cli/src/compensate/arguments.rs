@@ -77,7 +77,6 @@ const COMPENSATE_HELP: &str = r#"Examples:
   kinetostat compensate --map measured.csv --program part.ngc \
       --out corrected.ngc
   kinetostat compensate --no-compensation --program part.ngc --out copy.ngc
-  kinetostat compensate job.toml --to krl --template cell.toml --free-turn
 
 A job file:
   schema = 1
