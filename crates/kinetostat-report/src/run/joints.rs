@@ -45,8 +45,8 @@ fn panel(
     let title = format!(
         "{}: {} to {}",
         text::shorten(&actuator.name, 24),
-        tenths(low),
-        number::with_unit(&tenths(high), &unit)
+        number::setting(low),
+        number::with_unit(&number::setting(high), &unit)
     );
     let ends = actuator.limits.iter().flatten();
     let ends: Vec<f64> = ends.copied().filter_map(number::drawable).collect();
@@ -70,7 +70,7 @@ fn panel(
     })
 }
 
-/// A joint value beside a plot, to a tenth: models in radians have limits with many digits.
+/// A limit beside a plot, to a tenth: models in radians have limits with many digits.
 fn tenths(value: f64) -> String {
     number::setting((10.0 * value).round() / 10.0 + 0.0)
 }
