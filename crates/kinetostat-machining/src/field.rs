@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
+use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 
@@ -28,6 +29,8 @@ pub struct ModelField<'a> {
     turned_by_axes: bool,
     /// How far the correction can be continued to every side, program mm.
     radius_mm: f64,
+    /// The way of an arm that is not the one from home.
+    course: Option<&'a ArmCourse>,
 }
 
 /// Share of the machine's natural length within which its deflection under a load that does not change
@@ -50,6 +53,7 @@ impl<'a> ModelField<'a> {
             corrected: Directions::POSITION,
             turned_by_axes: false,
             radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
+            course: None,
         }
     }
 
@@ -60,6 +64,12 @@ impl<'a> ModelField<'a> {
         self.corrected = directions;
         let mut moves = self.load.path().moves.iter();
         self.turned_by_axes = directions == Directions::ALL && moves.any(|m| rotary(m).is_some());
+        self
+    }
+
+    /// The same along the way of an arm, where it is not the one from home.
+    pub(crate) fn on_course(mut self, course: Option<&'a ArmCourse>) -> Self {
+        self.course = course;
         self
     }
 
@@ -153,14 +163,25 @@ impl ModelField<'_> {
                     .map(|(r, wrench)| self.by_axes(&mut memory[0], mechanism, (r, wrench)))
                     .collect();
             }
-            if let Some(targets) = machine.targets(&poses, &wrenches, self.corrected) {
+            let together = || machine.targets(&poses, &wrenches, self.corrected);
+            let targets = match self.course {
+                Some(_) => None,
+                None => together(),
+            };
+            if let Some(targets) = targets {
                 let all = places.iter().zip(&poses).zip(&targets);
                 return all
                     .map(|((place, pose), target)| Ok(correction(place, pose, target)))
                     .collect();
             }
-            let all = places.iter().zip(&poses).zip(&wrenches);
-            all.map(|((place, pose), wrench)| {
+            let all = requests.iter().zip(&places).zip(&poses).zip(&wrenches);
+            all.map(|(((request, place), pose), wrench)| {
+                let course = self.course;
+                let on_the_way =
+                    course.and_then(|c| c.standing_at(request.move_index, request.share));
+                if let Some(posture) = on_the_way {
+                    memory[0].stand_at(posture);
+                }
                 memory[0]
                     .target(mechanism, pose, wrench, (orientation, self.corrected))
                     .map(|posture| correction(place, pose, posture.target()))

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::number::counted;
+
 /// A program with subprograms, variables and cycles that was run once and written flat. A run goes along the flat program;
 /// all its lines are lines of that.
 ///
@@ -29,8 +31,11 @@ pub struct FlatProgram {
     /// File name of the flat program; none where it was not written.
     #[serde(default)]
     pub name: Option<String>,
-    /// Number of its blocks.
+    /// Number of its blocks; of a program that was converted, of its motions.
     pub blocks: usize,
+    /// The language into which the program was converted before it was run; none where it keeps its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub language: Option<String>,
     /// Names of the files that were run, the program first.
     pub files: Vec<String>,
     /// Folders, diameters and parameters that were stated, one sentence each.
@@ -50,6 +55,7 @@ impl FlatProgram {
         Self {
             name: None,
             blocks,
+            language: None,
             files,
             settings: Vec::new(),
             sources: sources.into(),
@@ -82,15 +88,18 @@ impl FlatProgram {
             "" => String::new(),
             called => format!(" with {called}"),
         };
-        let blocks = match self.blocks {
-            1 => "1 block".to_owned(),
-            n => format!("{n} blocks"),
+        let unit = match self.language {
+            None => "block",
+            Some(_) => "motion",
+        };
+        let blocks = counted(self.blocks, unit);
+        let done = match &self.language {
+            None => "run once and written flat".to_owned(),
+            Some(language) => format!("written flat in {language}"),
         };
         let named = self.name.as_ref();
         let named = named.map_or_else(String::new, |name| format!(", {name}"));
-        format!(
-            "{program}{with} was run once and written flat, {blocks}; lines are those of the flat program{named}"
-        )
+        format!("{program}{with} was {done}, {blocks}; lines are those of the flat program{named}")
     }
 
     /// A message about lines of the flat program that names the lines that they came from, too. Text of the program itself,

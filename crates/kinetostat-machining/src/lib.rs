@@ -50,10 +50,14 @@ pub use cut::question::CutQuestion;
 pub use cut::station::CutStation;
 pub use field::ModelField;
 pub use flat_program::FlatProgram;
-pub use free_turn::choice::{ConstantTurn, TurnCell, TurnChoice, TurnMap, TurnStation};
+pub use free_turn::choice::{
+    ConstantTurn, TurnCell, TurnChoice, TurnFigures, TurnMap, TurnStation,
+};
 pub use free_turn::choose::choose_turns;
 pub use free_turn::error::{NoWay, TurnBarrier, TurnError, TurnPart};
-pub use free_turn::task::{TipCompliance, TurnBand, TurnBounds, TurnCriterion, TurnRate, TurnTask};
+pub use free_turn::task::{
+    TipCompliance, TurnBand, TurnBounds, TurnCriterion, TurnCurve, TurnRate, TurnTask,
+};
 pub use free_turn::turned_path::{TurnedPath, with_turns};
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};

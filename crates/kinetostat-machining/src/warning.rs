@@ -30,6 +30,8 @@ pub enum WarningCode {
     NearSingular,
     /// A feed motion in which an arm changes its configuration, or passes beside a singular posture.
     PostureChanges,
+    /// A joint that turns on and on in a cut, and meets a limit so.
+    JointTurnsOn,
     /// The program states another configuration of the arm than that in which the model reaches the place.
     OtherConfiguration,
     /// More blocks per second than the controller takes.

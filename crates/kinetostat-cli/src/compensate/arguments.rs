@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::job::arguments::RunArgs;
 use crate::job::format::ArcsWord;
+use crate::job::target_word::TargetWord;
 use crate::options::{EXIT_CODES, number, small};
 
 /// Write a program that cuts where it should
@@ -22,6 +23,13 @@ pub(crate) struct CompensateArgs {
     /// The compensated program; without it, PROGRAM-compensated beside the job or the program
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
+    /// Convert the program for a robot first, and compensate that: krl, rapid or ls
+    #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Other language", conflicts_with_all = ["map", "no_compensation"])]
+    pub(crate) to: Option<TargetWord>,
+    /// Template of the cell for that (`kinetostat help convert`): numbers, speeds, zones, and tool and part where the job
+    /// has none
+    #[arg(long, value_name = "FILE", help_heading = "Other language")]
+    pub(crate) template: Option<PathBuf>,
     /// Corrections from a table instead of a model: CSV with the columns
     /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "load_at_corners", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "points"])]
@@ -123,6 +131,9 @@ A job file:
   # subprograms = ["macros"], comments = true
   # tool_diameters_mm = { 1 = 6.5 }, parameters = { 100 = 2.5 }
 
+  # [robot]                        # written for a robot; a round tool turned
+  # to = "krl", template = "cell.toml", free_turn = "choose"
+
   [tolerances]
   path_um = 0.5
   chord_um = 0.4
@@ -135,7 +146,8 @@ A job file:
   report = "report.html"
   json = "result.json"
   points = "points.csv"
-  # flat_program = "flat.ngc"      # of an expanded program
+  # flat_program = "flat.ngc"      # of an expanded or converted program
+  # turn_plot = "turn.svg"         # the turn that free_turn chose
   # header = true
 
   [limits]                         # a program that leaves them is refused

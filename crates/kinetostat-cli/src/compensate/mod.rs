@@ -11,17 +11,25 @@ mod correction_table;
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::number::counted;
+use kinetostat_model::Model;
 use kinetostat_program::{Program, interpret};
 
 use crate::compensate::arguments::CompensateArgs;
+use crate::convert::for_run::{Converted, for_run};
+use crate::convert::made::{beside_as, refuse_other_ending};
+use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
+use crate::files::origin;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::all_faults::{RunQuery, with_all_others};
-use crate::job::arguments::WritingFlags;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine_setup;
+use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
+use crate::job::target_word::TargetWord;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
@@ -34,6 +42,8 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);
     let files = InputFiles::default();
     compensate(&files, &args).map_err(|failure| {
+        let mut program = args.run.program.clone();
+        program.robot.converted = args.to.is_some();
         let query = RunQuery {
             // A table and a copy need no machine: not all of the job is read for them.
             job: args
@@ -42,8 +52,8 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
                 .as_deref()
                 .filter(|_| args.map.is_none() && !args.no_compensation),
             model: args.run.model.as_deref(),
-            program: &args.run.program,
-            writing: flags(&args),
+            program: &program,
+            writing: writing(&args),
         };
         with_all_others(&files, &query, failure)
     })
@@ -56,8 +66,13 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         .as_deref()
         .map(|path| JobFile::read(files, path))
         .transpose()?;
-    let mut setting = setting(files, job.as_ref(), &args.run.program, &flags(args))?;
-    let existing = Existing::forced(args.run.program.force_overwrite);
+    let job = job.as_ref();
+    let to = target(job, args);
+    let mut flags = args.run.program.clone();
+    flags.robot.converted = to.is_some();
+    let flags = &flags;
+    let mut setting = setting(files, job, flags, &writing(args))?;
+    let existing = Existing::forced(flags.force_overwrite);
     if args.no_compensation {
         return copy(&setting, existing);
     }
@@ -67,40 +82,49 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
-    give_arm(
-        setting.robot.as_mut(),
-        files,
-        (job.as_ref(), args.run.model.as_deref()),
-        &args.run.program,
-    )?;
+    let model_named = args.run.model.as_deref();
+    give_arm(setting.robot.as_mut(), files, (job, model_named), flags)?;
     let frames = setting.robot_frames()?;
-    let (machine, model) = machine_setup(
-        files,
-        job.as_ref(),
-        args.run.model.as_deref(),
-        &args.run.program,
-        (frames.as_ref(), &mut setting.inputs),
-    )?;
+    let with = (frames.as_ref(), &mut setting.inputs);
+    let (mut machine, model) = machine_setup(files, job, model_named, flags, with)?;
     setting.turned_by(machine.rotary.clone());
     // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
+    let (mut turn, mut findings) = (None, Vec::new());
+    match to {
+        Some(word) => {
+            let found =
+                in_other_language(files, job, (args, flags, word), setting, (&model, &machine))?;
+            setting = found.setting;
+            (turn, findings) = (found.turn, found.findings);
+            let mut frames = setting.robot_frames()?;
+            if let Some(frames) = &mut frames {
+                frames.converted = true;
+            }
+            let with = (frames.as_ref(), &mut setting.inputs);
+            machine = machine_setup(files, job, model_named, flags, with)?.0;
+        }
+        None => refuse_turn_without_words(&setting)?,
+    }
     let mut outputs =
         RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
-    let mut run = solve::solve(
-        Aim::Compensate,
-        (&machine, &model),
-        &setting,
-        args.run.program.threads,
-    )?;
+    let mut run = solve::solve(Aim::Compensate, (&machine, &model), &setting, flags.threads)
+        .map_err(|failure| with_turn_hint(failure, (&setting, to)))?;
+    run.result.warnings.extend(findings);
     run.result
         .warnings
-        .extend(run_warnings::of_run(&model, job.as_ref()));
-    outputs.list(args.run.program.all_points, &model);
+        .extend(run_warnings::of_run(&model, job));
+    outputs.list(flags.all_points, &model);
+    if let Some(turn) = &turn {
+        turn.put_into(&mut run.result.run_inputs);
+    }
     outputs.fill(&run, &setting)?;
+    outputs.fill_turn(turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
+    let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);
     let text = format!(
-        "{}{}{note}",
+        "{}{said}{}{note}",
         summary::of_run(&run.result),
         outputs::written(&paths)
     );
@@ -108,7 +132,78 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     report::refuse_missed_tolerance(&run.result.tolerance, &setting)
 }
 
-fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
+/// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.
+fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<TargetWord>)) -> Failure {
+    let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
+    if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
+        failure.plain.push_str(
+            ". --free-turn (free_turn = \"choose\" under [robot]) chooses the turn of a round tool along the path",
+        );
+        failure.styled = None;
+    }
+    failure
+}
+
+/// The language in which the program is written, where it is another one.
+fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<TargetWord> {
+    let table = job.and_then(|j| j.job.robot.as_ref());
+    let in_job = table.and_then(|table| table.get_ref().to.as_ref());
+    let runs = args.map.is_none() && !args.no_compensation;
+    args.to
+        .or(in_job.filter(|_| runs).map(|word| *word.get_ref()))
+}
+
+/// The run over the program converted for a robot.
+fn in_other_language(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    (args, flags, word): (&CompensateArgs, &ProgramArgs, TargetWord),
+    mut setting: Setting,
+    source: (&Model, &MachineSetup),
+) -> Answer<Converted> {
+    let language = word.language();
+    let is_named = args.out.is_some() || job.is_some_and(|j| j.job.output.program.is_some());
+    let out = setting.targets.program.take().unwrap_or_default();
+    // Names of programs have no hyphen.
+    let out = match is_named {
+        true => out,
+        false => beside_as(&out, &setting.program_path, language.ending()),
+    };
+    refuse_other_ending(language, &out)?;
+    setting.targets.program = Some(out.clone());
+    let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref().template.as_ref()?)));
+    let in_job = table.map(|(j, written)| j.base().join(written.get_ref()));
+    let file = args.template.clone().or(in_job);
+    let template = TemplateFile::read(
+        files,
+        &TemplateAsked {
+            file: file.as_deref(),
+            out: &out,
+            tool_orientation: None,
+            tolerance_mm: None,
+        },
+    )?;
+    if let Some(path) = &file {
+        let bytes = files.bytes("template", path)?;
+        setting
+            .program_files
+            .push(origin::file("template", path, &bytes));
+        setting.inputs.push(path.clone());
+    }
+    for_run(job, flags, (setting, template, language), source)
+}
+
+/// G-code and APT say where the tool goes, not how it is turned.
+fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
+    match setting.free_turn {
+        FreeTurnWord::AsStated => Ok(()),
+        FreeTurnWord::Choose => Err(setting.within(Failure::input(
+            "this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
+        ))),
+    }
+}
+
+fn writing(args: &CompensateArgs) -> WritingFlags<'_> {
     WritingFlags {
         tolerance_um: args.tolerance_um,
         arcs: args.arcs,

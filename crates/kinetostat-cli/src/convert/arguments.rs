@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::convert::target_word::TargetWord;
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::robot_arguments::AxisWord;
+use crate::job::target_word::TargetWord;
 use crate::options::number;
 
 /// A program of one language in another: G-code for a robot, KRL as RAPID

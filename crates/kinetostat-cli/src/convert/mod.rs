@@ -5,28 +5,27 @@
 
 pub(crate) mod arguments;
 mod file_names;
+pub(crate) mod for_run;
 mod free_turn;
-mod target_word;
-mod template_file;
+pub(crate) mod made;
+pub(crate) mod template_file;
 mod template_format;
 mod text;
 
-use kinetostat_formats::{
-    Made, MakeError, MakeLanguage, SourceEvent, events_of_gcode, make, make_of_robot,
-};
+use std::path::Path;
 
 use crate::convert::arguments::ConvertArgs;
-use crate::convert::free_turn::{FreeTurn, free_turn};
-use crate::convert::template_file::TemplateFile;
+use crate::convert::free_turn::free_turn;
+use crate::convert::made::{made, refuse_other_ending};
+use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
-use crate::job::program::{ReadProgram, read_program};
+use crate::job::program::read_program;
 use crate::job::robot_arguments::RobotArgs;
-use crate::job::setting::{Setting, setting};
-use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::fault_list_text;
+use crate::job::setting::setting;
+use crate::ui::failure::Answer;
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
 
@@ -35,7 +34,16 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
     let language = args.to.language();
-    let template = TemplateFile::read(&files, args)?;
+    refuse_other_ending(language, &args.out)?;
+    let template = TemplateFile::read(
+        &files,
+        &TemplateAsked {
+            file: args.template.as_deref(),
+            out: &args.out,
+            tool_orientation: args.tool_orientation.as_deref(),
+            tolerance_mm: args.tolerance_mm,
+        },
+    )?;
     let mut setting = setting(&files, job.as_ref(), &flags(args), &writing(args))?;
     setting.inputs.extend(args.template.iter().cloned());
     let mut claimed = Outputs::new(
@@ -51,12 +59,11 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let plot = plot.transpose()?;
     let read = read_program(&setting)?;
     let turned = match &args.free_turn {
-        Some(model) => Some(free_turn(
-            &files,
-            model,
-            read.path(),
-            (&setting, &template),
-        )?),
+        Some(named) => {
+            let (model, _) = files.model(named, Path::new(""))?;
+            let turned = free_turn(&setting, &template.template, &model, read.path())?;
+            Some(turned)
+        }
         None => None,
     };
     let made = made((&setting, &template), &read, turned.as_ref(), language)?;
@@ -83,57 +90,6 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     screen::print(Stream::Out, &text)
 }
 
-/// The program in the other language.
-fn made(
-    (setting, template): (&Setting, &TemplateFile),
-    read: &ReadProgram<'_>,
-    turned: Option<&FreeTurn>,
-    language: MakeLanguage,
-) -> Answer<Made> {
-    let refused = |all: Vec<MakeError>| refused(setting, template, &all);
-    if let Some(robot) = read.robot() {
-        let done = make_of_robot(robot.program, robot.path, &template.template, language);
-        return done.map_err(refused);
-    }
-    if language == MakeLanguage::Gcode {
-        return Err(Failure::input(
-            "the program is in G-code already: `kinetostat expand` writes it flat, `kinetostat compensate --no-compensation` as it was read",
-        ));
-    }
-    let mut events = read
-        .gcode()
-        .map_or_else(Vec::new, |(program, path)| events_of_gcode(program, path));
-    for event in &mut events {
-        place(setting, event);
-    }
-    let path = turned.map_or(read.path(), |turned| &turned.path);
-    make(path, &events, &template.template, language).map_err(refused)
-}
-
-/// A line of an expanded program is that of the file that it came from.
-fn place(setting: &Setting, event: &mut SourceEvent) {
-    let found = setting
-        .flat
-        .as_ref()
-        .and_then(|flat| flat.source_of(event.line));
-    if let Some((file, line)) = found {
-        event.place = format!("{file}, line {line}");
-    }
-}
-
-fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {
-    let Some(first) = all.first() else {
-        return Failure::input("the program is refused");
-    };
-    let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
-    let failure = Failure::input(text);
-    match (first.line, &template.name) {
-        (None, Some(name)) => failure.within(name),
-        (None, None) => failure,
-        (Some(_), _) => setting.within(failure),
-    }
-}
-
 /// What of a run is asked for here.
 fn flags(args: &ConvertArgs) -> ProgramArgs {
     let mut expansion = args.expansion.clone();
@@ -147,6 +103,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             tool_axis: args.tool_axis,
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
             joint_rows: None,
+            converted: false,
         },
         expansion,
         ..ProgramArgs::default()

@@ -7,7 +7,6 @@ use kinetostat_model::schema::Placement as PoseTable;
 use nalgebra::{Isometry3, Vector3};
 use serde_spanned::Spanned;
 
-use crate::convert::arguments::ConvertArgs;
 use crate::convert::file_names::stem;
 use crate::convert::template_format::{
     FrameTable, NumberedToolTable, PlacesWord, RapidsWord, TemplateTable, ToolTable,
@@ -27,10 +26,18 @@ pub(crate) struct TemplateFile {
 /// What is said of a mistake that is not of the usual kinds.
 const HELP: &str = "correct this value; `kinetostat help convert` shows a whole template";
 
+/// What options say of a template.
+pub(crate) struct TemplateAsked<'a> {
+    pub(crate) file: Option<&'a Path>,
+    pub(crate) out: &'a Path,
+    pub(crate) tool_orientation: Option<&'a str>,
+    pub(crate) tolerance_mm: Option<f64>,
+}
+
 impl TemplateFile {
     /// Of the options and the file that they name.
-    pub(crate) fn read(files: &InputFiles, args: &ConvertArgs) -> Answer<Self> {
-        let mut file = match &args.template {
+    pub(crate) fn read(files: &InputFiles, args: &TemplateAsked<'_>) -> Answer<Self> {
+        let mut file = match args.file {
             Some(path) => Self::of_file(files, path)?,
             None => Self {
                 template: Template::default(),
@@ -39,9 +46,9 @@ impl TemplateFile {
         };
         let template = &mut file.template;
         if file.name.is_none() || template.program_name.is_empty() {
-            template.program_name = stem(&args.out);
+            template.program_name = stem(args.out);
         }
-        if let Some(text) = &args.tool_orientation {
+        if let Some(text) = args.tool_orientation {
             template.tool_orientation = Some(orientation::option("--tool-orientation", text)?);
         }
         template.tolerance_mm = args.tolerance_mm.unwrap_or(template.tolerance_mm);

@@ -7,6 +7,7 @@ use clap::{ArgAction, Args};
 use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{ArcsWord, Axes, BlockDeleteWord, CornerWord};
 use crate::job::robot_arguments::RobotArgs;
+use crate::job::turn_arguments::TurnFlags;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
 
@@ -27,7 +28,7 @@ pub(crate) struct RunArgs {
 }
 
 /// Options of a run along a program, shared by `compensate` and `deflect`.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ProgramArgs {
     /// Program: G-code, or of a robot (`kinetostat dialect list`)
     #[arg(long, short, value_name = "FILE")]
@@ -72,6 +73,8 @@ pub(crate) struct ProgramArgs {
     pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
+    #[command(flatten)]
+    pub(crate) turn: TurnFlags,
     #[command(flatten)]
     pub(crate) expansion: ExpandFlags,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a

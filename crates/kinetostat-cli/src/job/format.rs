@@ -244,6 +244,8 @@ pub(crate) struct OutputTable {
     pub points: Option<Spanned<String>>,
     /// The flat program, where the program is expanded.
     pub flat_program: Option<Spanned<String>>,
+    /// Picture of the turn of the tool, where it is chosen.
+    pub turn_plot: Option<Spanned<String>>,
     pub header: Option<bool>,
 }
 

@@ -13,6 +13,9 @@ use crate::ui::failure::Answer;
 /// What the flat program is called among outputs.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
+/// What the picture of the turn is called among outputs.
+pub(crate) const TURN_PLOT: &str = "picture of the turn";
+
 /// What further files of a program are called among outputs.
 pub(crate) const BESIDE: &str = "file of the compensated program";
 
@@ -47,6 +50,8 @@ pub(crate) struct OutputPaths {
     pub(crate) points: Option<PathBuf>,
     /// Of a program that is written flat.
     pub(crate) flat: Option<PathBuf>,
+    /// Picture of the turn of the tool, where it is chosen.
+    pub(crate) turn_plot: Option<PathBuf>,
     /// Further files of a program of a robot, in their order.
     pub(crate) beside: Vec<PathBuf>,
 }
@@ -60,6 +65,7 @@ impl OutputPaths {
             ("result", &self.json),
             ("table of points", &self.points),
             (FLAT_PROGRAM, &self.flat),
+            (TURN_PLOT, &self.turn_plot),
         ]
         .into_iter()
         .filter_map(|(what, path)| Some((what, path.as_deref()?)))
@@ -108,6 +114,9 @@ pub(crate) fn output_paths(
             j.output.json.as_ref()
         })?,
         points: from_job(flags.points.as_deref(), |j| j.output.points.as_ref())?,
+        turn_plot: from_job(flags.turn.turn_plot.as_deref(), |j| {
+            j.output.turn_plot.as_ref()
+        })?,
         flat: from_job(flags.expansion.flat_program.as_deref(), |j| {
             j.output.flat_program.as_ref()
         })?,

@@ -31,6 +31,14 @@ impl ReadProgram<'_> {
         }
     }
 
+    /// The tool goes along another path, with a turn that the program does not say.
+    pub(crate) fn go_along(&mut self, path: ToolPath) {
+        match self {
+            Self::Gcode(read) => read.path = path,
+            Self::Robot(read) => read.path.to_mut().path = path,
+        }
+    }
+
     /// The program in G-code, if it is one.
     pub(crate) fn gcode(&self) -> Option<(&Program, &ToolPath)> {
         match self {

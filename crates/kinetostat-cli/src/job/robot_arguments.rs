@@ -63,6 +63,9 @@ pub(crate) struct RobotArgs {
     /// How the controller moves between the rows of a table of joint values
     #[arg(long, value_enum, value_name = "WAY", help_heading = "Robot programs")]
     pub(crate) joint_rows: Option<JointRowsWord>,
+    /// The program is converted into the language of a robot before it is run.
+    #[arg(skip)]
+    pub(crate) converted: bool,
 }
 
 impl CorrectWord {

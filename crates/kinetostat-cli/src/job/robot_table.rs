@@ -7,6 +7,8 @@ use serde::Deserialize;
 use serde_spanned::Spanned;
 
 use crate::job::robot_arguments::{CorrectWord, JointRowsWord};
+use crate::job::target_word::TargetWord;
+use crate::job::turn_arguments::FreeTurnWord;
 
 /// What a program of a robot does not say itself.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -32,6 +34,13 @@ pub(crate) struct RobotTable {
     pub unknown_targets: Option<UnknownTargetsWord>,
     /// What becomes of paths that the controller moves aside by the tool's radius.
     pub cutter_compensation: Option<CutterCompensationWord>,
+    /// The turn of a round tool about its own axis.
+    #[serde(default)]
+    pub free_turn: FreeTurnWord,
+    /// The language of the compensated program, where it is another one.
+    pub to: Option<Spanned<TargetWord>>,
+    /// Template of the cell for that.
+    pub template: Option<Spanned<String>>,
     /// What lengths are in a list of poses that does not state it.
     pub length_unit: Option<Spanned<LengthUnitWord>>,
     /// How the controller moves between the rows of a table of joint values.
@@ -49,13 +58,15 @@ pub(crate) struct TurnTable {
 }
 
 impl RobotTable {
-    /// Whether it says nothing but what is corrected, which programs in G-code have as well.
-    pub(crate) fn says_only_what_is_corrected(&self) -> bool {
+    /// Whether it says nothing that only programs of robots have: what is corrected, the turn about the tool, and another language
+    /// to write are for programs in G-code as well.
+    pub(crate) fn is_of_any_program(&self) -> bool {
         let lists = self.frames.is_empty() && self.files.is_empty();
         let axes = self.tool_axis.is_none() && self.external_axes.is_none();
+        let turns = self.turn_about_axis.is_none() && self.joint_rows.is_none();
         let others = self.rapid_from_mm_per_s.is_none() && self.unknown_targets.is_none();
         let text = self.cutter_compensation.is_none() && self.length_unit.is_none();
-        lists && axes && others && text
+        lists && axes && turns && others && text
     }
 }
 

@@ -24,6 +24,7 @@ use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
 use crate::job::robot_arguments::CorrectWord;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
@@ -52,6 +53,8 @@ pub(crate) struct Setting {
     /// Whether the tolerances of path and chords were stated.
     pub(crate) stated: [bool; 2],
     pub(crate) targets: OutputPaths,
+    /// What becomes of the turn of a round tool.
+    pub(crate) free_turn: FreeTurnWord,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
@@ -196,6 +199,10 @@ pub(crate) fn setting(
     };
     let target = targets.flat.clone();
     let in_job = job.and_then(|j| j.job.robot.as_ref()?.get_ref().correct);
+    let free_turn = free_turn(job, flags)?;
+    if free_turn == FreeTurnWord::AsStated {
+        targets.turn_plot = None;
+    }
     let mut setting = Setting {
         job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
         program_files,
@@ -212,10 +219,27 @@ pub(crate) fn setting(
         limits,
         stated,
         targets,
+        free_turn,
         inputs,
     };
     setting.write_flat_to(target);
     Ok(setting)
+}
+
+/// What becomes of the turn of a round tool about its own axis.
+fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord> {
+    let table = job.and_then(|j| j.job.robot.as_ref());
+    let in_job = table.map_or(FreeTurnWord::AsStated, |table| table.get_ref().free_turn);
+    let chosen = match flags.turn.free_turn {
+        true => FreeTurnWord::Choose,
+        false => in_job,
+    };
+    match (chosen, &flags.turn.turn_plot) {
+        (FreeTurnWord::AsStated, Some(_)) => Err(Failure::input(
+            "--turn-plot draws the turn of the tool that is chosen along the path: give --free-turn, too (free_turn = \"choose\" under [robot])",
+        )),
+        _ => Ok(chosen),
+    }
 }
 
 /// The program's file, of the command line or of the job.

@@ -6,7 +6,8 @@ use kinetostat_machining::Run;
 use kinetostat_model::Model;
 
 use crate::files::outputs::{Existing, Outputs};
-use crate::job::output_paths::{BESIDE, FLAT_PROGRAM, OutputPaths};
+use crate::job::free_turn::FreeTurn;
+use crate::job::output_paths::{BESIDE, FLAT_PROGRAM, OutputPaths, TURN_PLOT};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
@@ -23,6 +24,7 @@ pub(crate) struct RunOutputs {
     pub(crate) json: Option<usize>,
     pub(crate) points: Option<usize>,
     pub(crate) flat: Option<usize>,
+    pub(crate) turn_plot: Option<usize>,
     /// Further files of the program.
     pub(crate) beside: Vec<usize>,
     pub(crate) listing: Listing,
@@ -53,6 +55,7 @@ impl RunOutputs {
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             flat: claim(FLAT_PROGRAM, &targets.flat)?,
+            turn_plot: claim(TURN_PLOT, &targets.turn_plot)?,
             beside: match aim {
                 Aim::Compensate => {
                     let all = targets.beside.iter();
@@ -81,6 +84,14 @@ impl RunOutputs {
             .map_or_else(String::new, |note| {
                 format!("\n{}", layout::wrapped(&note, 2))
             })
+    }
+
+    /// Writes the picture of the turn that was chosen.
+    pub(crate) fn fill_turn(&mut self, turn: Option<&FreeTurn>) -> Answer<()> {
+        match (self.turn_plot, turn) {
+            (Some(index), Some(turn)) => self.files.fill(index, turn.picture.as_bytes()),
+            _ => Ok(()),
+        }
     }
 
     /// Writes a run beside its targets; nothing is in place yet.

@@ -11,10 +11,12 @@ use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
+use crate::job::free_turn::{FreeTurn, chosen};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
 use crate::job::setting::Setting;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
@@ -160,6 +162,15 @@ pub(crate) fn with_task<R>(
     Ok(read.with(made))
 }
 
+/// The turn of a round tool along the program, where it is to be chosen.
+pub(crate) fn turn(machine: &MachineSetup, setting: &Setting) -> Answer<Option<FreeTurn>> {
+    if setting.free_turn == FreeTurnWord::AsStated {
+        return Ok(None);
+    }
+    let read = read_program(setting)?;
+    chosen(setting, &machine.mechanism, read.path(), machine.placement).map(Some)
+}
+
 /// Solves the machine, with the model that it is made from, along the program.
 pub(crate) fn solve(
     aim: Aim,
@@ -167,7 +178,25 @@ pub(crate) fn solve(
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
-    let read = read_program(setting)?;
+    turned(aim, (machine, model), (setting, None), threads)
+}
+
+/// Solves the machine along the program, with the turn of its tool that was chosen.
+pub(crate) fn turned(
+    aim: Aim,
+    (machine, model): (&MachineSetup, &Model),
+    (setting, turn): (&Setting, Option<&FreeTurn>),
+    threads: Option<usize>,
+) -> Answer<Run> {
+    let mut read = read_program(setting)?;
+    if let Some(turn) = turn {
+        if machine.measured.is_some() || machine.cut.is_some() {
+            return Err(Failure::input(
+                "forces that are computed from the cut or measured are for programs whose tool keeps its orientation: leave --free-turn out, or state the force under [load]",
+            ));
+        }
+        read.go_along(turn.path.clone());
+    }
     let path = read.path();
     let progress = Progress::new();
     let forces = forces_of(machine, setting, path, &progress)?;
@@ -197,7 +226,7 @@ pub(crate) fn solve(
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {
-        let other = other_configuration(read.program, read.path, &run.points);
+        let other = other_configuration(read.program, &read.path, &run.points);
         run.result.warnings.extend(other);
     }
     if let Some(limit) = setting.max_blocks_per_second

@@ -191,11 +191,13 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
             CELL,
             "the program is in G-code already",
         ),
+        ("--to gcode --out new.src", CELL, "name it 'new.ngc', say"),
         (
             "--to krl --out part.ngc --force-overwrite",
             CELL,
-            "part.ngc",
+            "programs in KRL end in .src, by which controllers and kinetostat know them: name it 'part.src'",
         ),
+        ("--to ls --out new.txt", CELL, "end in .ls"),
         (
             "--to krl --out new.src",
             "schema = 2\n",

@@ -14,6 +14,8 @@ use crate::text::source::SourceFile;
 
 /// A motion as it was read again.
 pub(crate) struct ReadMotion {
+    /// Line of the made program, in its file.
+    pub line: usize,
     pub place: Vector3<f64>,
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Direction of the tool, where that alone is stated.
@@ -85,6 +87,7 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
         };
         let by_axis = language == Language::Apt;
         motions.push(ReadMotion {
+            line: motion.line,
             place: pose.position_mm,
             orientation: (!by_axis).then_some(pose.orientation),
             axis: by_axis.then(|| pose.orientation * Vector3::z()),
@@ -106,6 +109,7 @@ fn of_gcode(files: &[(String, Vec<u8>)]) -> Result<Vec<ReadMotion>, MakeError> {
     let path =
         interpret(&program, &GcodeReading::default()).map_err(|fault| broken(fault.to_string()))?;
     let motion = |m: &kinetostat_program::Move| ReadMotion {
+        line: m.line,
         place: m.end,
         orientation: None,
         axis: Some(Vector3::z()),
@@ -121,8 +125,9 @@ fn of_table(files: &[(String, Vec<u8>)]) -> Result<Vec<ReadMotion>, MakeError> {
         .first()
         .map(|(_, bytes)| String::from_utf8_lossy(bytes))
         .unwrap_or_default();
-    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    rows.map(|row| {
+    let rows = text.lines().enumerate();
+    let rows = rows.filter(|(_, line)| !line.starts_with('#')).skip(1);
+    rows.map(|(index, row)| {
         let values: Option<Vec<f64>> = row.split(',').map(|part| part.parse().ok()).collect();
         let (place, turn, speed) = match values.as_deref() {
             Some(&[x, y, z, speed, _]) => (Vector3::new(x, y, z), None, speed),
@@ -134,6 +139,7 @@ fn of_table(files: &[(String, Vec<u8>)]) -> Result<Vec<ReadMotion>, MakeError> {
             _ => return Err(broken(format!("the row {row}"))),
         };
         Ok(ReadMotion {
+            line: index + 1,
             place,
             orientation: turn.map(UnitQuaternion::new_normalize),
             axis: None,

@@ -119,6 +119,55 @@ impl MakeLanguage {
         }
     }
 
+    /// Whether a file of that name is taken for one of this language; without an ending of its own only G-code is.
+    ///
+    /// ```
+    /// use kinetostat_formats::MakeLanguage;
+    ///
+    /// assert!(MakeLanguage::Rapid.fits("part.MODX") && !MakeLanguage::Krl.fits("part.txt"));
+    /// assert!(MakeLanguage::Gcode.fits("part.nc") && !MakeLanguage::Gcode.fits("part.src"));
+    /// ```
+    #[must_use]
+    pub fn fits(self, file_name: &str) -> bool {
+        let ending = file_name.rsplit_once('.');
+        let ending = ending.map_or_else(String::new, |(_, ending)| ending.to_ascii_lowercase());
+        let own: &[&str] = match self {
+            Self::Krl => &["src"],
+            Self::Rapid => &["mod", "modx", "prg"],
+            Self::FanucLs => &["ls"],
+            Self::Apt => &["apt", "aptsource", "apt_source", "cls", "cl", "cldata"],
+            Self::Csv => &["csv"],
+            Self::Gcode => {
+                let others = [
+                    "src",
+                    "dat",
+                    "sub",
+                    "mod",
+                    "modx",
+                    "sys",
+                    "sysx",
+                    "ls",
+                    "apt",
+                    "aptsource",
+                    "apt_source",
+                    "cls",
+                    "cl",
+                    "cldata",
+                    "csv",
+                    "tsv",
+                    "yaml",
+                    "yml",
+                    "parquet",
+                    "mpf",
+                    "spf",
+                    "h",
+                ];
+                return !others.contains(&ending.as_str());
+            }
+        };
+        own.contains(&ending.as_str())
+    }
+
     /// Its name in sentences.
     ///
     /// ```

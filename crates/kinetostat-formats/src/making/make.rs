@@ -23,6 +23,9 @@ pub struct Made {
     pub findings: Vec<MakeFinding>,
     /// How far it is from the path, measured on what its own reader reads.
     pub kept: Kept,
+    /// Of every motion its line in the first of the files, and the line of the source that it came from; empty where the motions stand in
+    /// several files.
+    pub lines: Vec<[usize; 2]>,
 }
 
 /// What stands at the head of made programs.
@@ -90,6 +93,12 @@ pub fn make(
     };
     let again = read_again(&files, language).map_err(|fault| vec![fault])?;
     let kept = compare(path, steps, &again, template, language).map_err(|fault| vec![fault])?;
+    let lines = match files.len() {
+        1 => (again.iter().zip(steps.iter().filter_map(Step::motion)))
+            .map(|(read, motion)| [read.line, motion.line])
+            .collect(),
+        _ => Vec::new(),
+    };
     let mut findings = planned.findings;
     taken_for_granted(steps, template, language, &kept, &mut findings);
     findings.sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
@@ -97,6 +106,7 @@ pub fn make(
         files,
         findings,
         kept,
+        lines,
     })
 }
 

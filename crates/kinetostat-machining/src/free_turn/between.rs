@@ -3,7 +3,7 @@
 use crate::free_turn::nodes::{Node, Postures, Refused};
 use crate::free_turn::serial::Joints;
 use crate::free_turn::shortest::joint_turns;
-use crate::free_turn::stations::{Station, Turns};
+use crate::free_turn::stations::Station;
 use crate::free_turn::way::Way;
 
 /// A place at which the way was looked at.
@@ -17,10 +17,18 @@ pub(crate) struct Looked {
     pub singular_value: f64,
 }
 
+/// A posture at a station, with the turn of the tool.
+#[derive(Clone, Copy)]
+pub(crate) struct Stand<'s> {
+    pub station: &'s Station,
+    /// deg, without jumps of 360 from one station to the next.
+    pub turn_deg: f64,
+    pub node: &'s Node,
+}
+
 /// How and with what the way between stations is looked at.
 pub(crate) struct Between<'t, 'a> {
     pub way: &'t Way<'a>,
-    pub turns: &'t Turns,
     pub postures: &'t Postures<'a>,
     pub free: [bool; 6],
     pub joint_step: f64,
@@ -48,16 +56,14 @@ impl Between<'_, '_> {
     }
 
     /// Follows the arm from a posture at one station to a posture at the next; what was seen, or where and why it may not go on.
-    pub fn look(
-        &self,
-        (from, a): (&Station, &Node),
-        (to, b): (&Station, &Node),
-    ) -> Result<Vec<Looked>, (usize, Refused)> {
+    pub fn look(&self, start: Stand<'_>, end: Stand<'_>) -> Result<Vec<Looked>, (usize, Refused)> {
+        let (from, to) = (start.station, end.station);
+        let (a, b) = (start.node, end.node);
         let length = to.at - from.at;
         if length <= 0.0 || to.gap.is_none_or(|gap| !gap.known) {
             return Ok(Vec::new());
         }
-        let turn_deg = self.turns.steps(a.turn, b.turn) as f64 * self.turns.step_deg;
+        let turn_deg = end.turn_deg - start.turn_deg;
         let whole = joint_turns(&self.free, &a.joints, &b.joints);
         let mut seen = Vec::new();
         for (at, section) in self.places(from, to) {
@@ -65,16 +71,16 @@ impl Between<'_, '_> {
             let place = self.way.place(section, at);
             let pose = self
                 .way
-                .turned(&place.pose, self.turns.deg(a.turn) + share * turn_deg);
-            let mut start = a.joints;
-            for (joint, turn) in start.iter_mut().zip(whole) {
+                .turned(&place.pose, start.turn_deg + share * turn_deg);
+            let mut even = a.joints;
+            for (joint, turn) in even.iter_mut().zip(whole) {
                 *joint += share * turn;
             }
             let refused = |why| (place.line, why);
-            let found = self.postures.arm.serial.near(&pose, &start);
+            let found = self.postures.arm.serial.near(&pose, &even);
             let joints = found.ok_or(refused(Refused::Singular))?;
             // Elsewhere than between its neighbours: the arm would have to leave the way.
-            let strays = (0..6).any(|joint| (joints[joint] - start[joint]).abs() > self.joint_step);
+            let strays = (0..6).any(|joint| (joints[joint] - even[joint]).abs() > self.joint_step);
             if strays || self.postures.configuration_of(&joints) != Some(a.configuration) {
                 return Err(refused(Refused::Singular));
             }

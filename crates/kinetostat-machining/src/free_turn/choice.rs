@@ -28,6 +28,18 @@ pub struct TurnStation {
     pub after_break: bool,
 }
 
+/// What turns along a path cost, and how evenly they go.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TurnFigures {
+    /// The criteria by their weights, in the mean over the length.
+    pub cost: f64,
+    /// The fastest turn between two stations, deg/mm.
+    pub largest_rate_deg_per_mm: f64,
+    /// By how much that rate changes most from one station to the next, deg/mm.
+    pub largest_rate_change_deg_per_mm: f64,
+}
+
 /// A turn that stays the same along the whole path, for comparison; looked at at the stations alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -97,6 +109,11 @@ pub struct TurnChoice {
     pub cost: f64,
     /// The fastest turn between two stations, deg/mm.
     pub largest_rate_deg_per_mm: f64,
+    /// By how much that rate changes most from one station to the next, deg/mm.
+    pub largest_rate_change_deg_per_mm: f64,
+    /// The same of the steps of the band that it was made smooth from; none of a task that asks for those
+    /// ([`TurnCurve::Steps`](crate::TurnCurve::Steps)).
+    pub in_steps: Option<TurnFigures>,
     /// By what velocities are divided in singular values, m: the mean of upper arm and forearm (to the centre of the wrist).
     pub length_m: f64,
     /// Smallest singular value at stations and between them.
@@ -147,6 +164,23 @@ impl TurnChoice {
         }
     }
 
+    /// How much more evenly it goes than in the steps of the band.
+    fn smoothing(&self) -> String {
+        let Some(steps) = self.in_steps else {
+            return String::new();
+        };
+        let [own, steps] = [
+            self.largest_rate_change_deg_per_mm,
+            steps.largest_rate_change_deg_per_mm,
+        ];
+        if own >= steps {
+            return String::new();
+        }
+        format!(
+            ". From one station to the next its rate changes by at most {own:.3} deg/mm ({steps:.3} in the steps of the band)"
+        )
+    }
+
     /// What was chosen and what it is worth, in sentences.
     #[must_use]
     pub fn description(&self) -> String {
@@ -187,6 +221,10 @@ impl TurnChoice {
             ),
             None => String::new(),
         };
-        chosen + &constant
+        let smoothing = match high - low < 1e-9 {
+            true => String::new(),
+            false => self.smoothing(),
+        };
+        chosen + &smoothing + &constant
     }
 }

@@ -1,14 +1,16 @@
 //! The turns of a task.
 
 use crate::free_turn::checked::checked;
-use crate::free_turn::choice::{TurnCell, TurnChoice, TurnMap, TurnStation};
+use crate::free_turn::choice::{TurnCell, TurnChoice, TurnFigures, TurnMap, TurnStation};
 use crate::free_turn::constant::constant_turns;
+use crate::free_turn::curve::Curve;
 use crate::free_turn::error::TurnError;
+use crate::free_turn::fewer_knots::fewer_knots;
 use crate::free_turn::no_way::no_way;
-use crate::free_turn::search::{Failed, Found, Problem};
+use crate::free_turn::search::{Failed, Problem};
 use crate::free_turn::serial::Joints;
-use crate::free_turn::task::TurnTask;
-use crate::number::larger;
+use crate::free_turn::smooth::smooth;
+use crate::free_turn::task::{TurnCurve, TurnTask};
 
 /// Chooses the free turn of a round tool about its own axis along a whole path: at stations along it the turns of a band, in any of the
 /// configurations of the arm, that cost least together and keep what is asked. Of all that is looked at it is the cheapest.
@@ -46,7 +48,11 @@ pub fn choose_turns(task: &TurnTask<'_>) -> Result<TurnChoice, TurnError> {
     checked(task)?;
     let mut problem = Problem::of(task)?;
     match problem.search() {
-        Ok(found) => Ok(choice(&problem, &found)),
+        Ok(found) => {
+            let steps = Curve::of(&problem, found);
+            let (curve, in_steps) = made_smooth(&problem, steps);
+            Ok(choice(&problem, &curve, in_steps))
+        }
         Err(Failed::Error(error)) => Err(error),
         Err(Failed::At(station, progress)) => Err(TurnError::NoWay(Box::new(no_way(
             &problem, station, &progress,
@@ -54,20 +60,29 @@ pub fn choose_turns(task: &TurnTask<'_>) -> Result<TurnChoice, TurnError> {
     }
 }
 
-fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
-    let turns = problem.turns_deg(&found.chosen);
+/// The curve that the task asks for, with the figures of the steps that it was made from.
+fn made_smooth(problem: &Problem<'_, '_>, steps: Curve) -> (Curve, Option<TurnFigures>) {
+    if problem.task.curve == TurnCurve::Steps {
+        return (steps, None);
+    }
+    let in_steps = steps.figures(problem);
+    let smooth = smooth(problem, steps);
+    let fewer = fewer_knots(problem, smooth.clone());
+    let curve = match fewer.figures(problem).cost <= in_steps.cost {
+        true => fewer,
+        false => smooth,
+    };
+    (curve, Some(in_steps))
+}
+
+fn choice(problem: &Problem<'_, '_>, curve: &Curve, in_steps: Option<TurnFigures>) -> TurnChoice {
     let listed: Vec<TurnStation> = (0..problem.stations.len())
-        .map(|index| station(problem, index, found.chosen[index], turns[index]))
+        .map(|index| station(problem, curve, index))
         .collect();
-    let rate = listed.windows(2).map(|pair| match pair[1].after_break {
-        true => 0.0,
-        false => (pair[1].turn_deg - pair[0].turn_deg).abs() / (pair[1].way_mm - pair[0].way_mm),
-    });
     // At stations and between them.
-    let seen = found.seen.iter().flatten();
+    let seen = curve.seen.iter().flatten();
     let between = seen.map(|seen| (seen.line, &seen.joints, seen.singular_value));
-    let at = found.chosen.iter().enumerate().map(|(index, number)| {
-        let node = problem.node(index, *number);
+    let at = curve.nodes.iter().enumerate().map(|(index, node)| {
         let line = problem.stations[index].place.line;
         (line, &node.joints, node.singular_value)
     });
@@ -83,12 +98,15 @@ fn choice(problem: &Problem<'_, '_>, found: &Found) -> TurnChoice {
             limit = Some((joint, far, line));
         }
     }
-    let configuration = problem.node(0, found.chosen[0]).configuration;
+    let configuration = curve.nodes.first().map_or(0, |node| node.configuration);
+    let figures = curve.figures(problem);
     let [as_programmed, best_constant] = constant_turns(problem);
     TurnChoice {
         configuration,
-        cost: found.cost,
-        largest_rate_deg_per_mm: rate.fold(0.0, larger),
+        cost: figures.cost,
+        largest_rate_deg_per_mm: figures.largest_rate_deg_per_mm,
+        largest_rate_change_deg_per_mm: figures.largest_rate_change_deg_per_mm,
+        in_steps,
         length_m: problem.postures.arm.serial.length,
         smallest_singular_value: least.0,
         smallest_singular_value_line: least.1,
@@ -110,14 +128,14 @@ fn nearest_limit(problem: &Problem<'_, '_>, joints: &Joints) -> Option<(usize, f
     Some((joint, far.to_degrees()))
 }
 
-fn station(problem: &Problem<'_, '_>, index: usize, number: u32, turn_deg: f64) -> TurnStation {
+fn station(problem: &Problem<'_, '_>, curve: &Curve, index: usize) -> TurnStation {
     let station = &problem.stations[index];
-    let node = problem.node(index, number);
+    let node = &curve.nodes[index];
     TurnStation {
         line: station.place.line,
         position_mm: station.place.position_mm.into(),
         way_mm: station.at,
-        turn_deg,
+        turn_deg: curve.turns[index],
         joints_deg: node.joints.map(f64::to_degrees),
         nearest_limit: nearest_limit(problem, &node.joints),
         smallest_singular_value: node.singular_value,

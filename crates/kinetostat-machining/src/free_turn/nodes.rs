@@ -16,7 +16,7 @@ use crate::free_turn::way::Way;
 /// One posture at one station.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
-    /// Number of the turn in the band.
+    /// Number of the turn in the band; of a posture at a turn between those of the band, of the one that it was found from.
     pub turn: u32,
     /// Number of the configuration.
     pub configuration: u8,
@@ -80,6 +80,8 @@ pub(crate) struct Postures<'a> {
     configuration: Option<u8>,
     /// Direction of a compliance, base axes.
     along: Vector3<f64>,
+    /// The least compliance of all postures that are tried, m/N.
+    least_compliance: f64,
 }
 
 impl<'a> Postures<'a> {
@@ -105,6 +107,7 @@ impl<'a> Postures<'a> {
             ranges,
             configuration: task.bounds.configuration,
             along,
+            least_compliance: 0.0,
         })
     }
 
@@ -230,19 +233,42 @@ impl<'a> Postures<'a> {
     }
 
     /// Puts what every posture costs beside it; compliances are compared with the least one of all.
-    pub fn put_costs(&self, nodes: &mut [Vec<Node>]) {
-        let weights = &self.weights;
+    pub fn put_costs(&mut self, nodes: &mut [Vec<Node>]) {
         let all = || nodes.iter().flatten().map(|node| node.compliance);
-        let least = all().fold(f64::INFINITY, kinetostat::number::smaller);
+        self.least_compliance = all().fold(f64::INFINITY, kinetostat::number::smaller);
         for node in nodes.iter_mut().flatten() {
-            let singular = self.least_singular_value / node.singular_value;
-            let soft = match weights.of.is_some() && least > 0.0 {
-                true => node.compliance / least,
-                false => 0.0,
-            };
-            node.cost = weights.limits * node.share_of_range.powi(2)
-                + weights.singularity * singular * singular
-                + weights.compliance * soft;
+            node.cost = self.cost(node);
         }
+    }
+
+    /// What a posture costs by share of the way.
+    fn cost(&self, node: &Node) -> f64 {
+        let weights = &self.weights;
+        let singular = self.least_singular_value / node.singular_value;
+        let soft = match weights.of.is_some() && self.least_compliance > 0.0 {
+            true => node.compliance / self.least_compliance,
+            false => 0.0,
+        };
+        weights.limits * node.share_of_range.powi(2)
+            + weights.singularity * singular * singular
+            + weights.compliance * soft
+    }
+
+    /// The posture at a pose next to another one, in its configuration and on the turns of its joints; none where it is not allowed.
+    pub fn next_to(&self, other: &Node, pose: &Pose) -> Option<Node> {
+        let joints = self.arm.serial.near(pose, &other.joints)?;
+        let singular_value = self.allowed(&joints).ok()?;
+        if self.configuration_of(&joints) != Some(other.configuration) {
+            return None;
+        }
+        let mut node = Node {
+            joints,
+            share_of_range: self.ranges.share_of_range(&joints),
+            singular_value,
+            compliance: self.compliance(pose, &joints).ok()?,
+            ..*other
+        };
+        node.cost = self.cost(&node);
+        Some(node)
     }
 }

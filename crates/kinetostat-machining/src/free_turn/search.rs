@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::free_turn::between::{Between, Looked};
+use crate::free_turn::between::{Between, Looked, Stand};
 use crate::free_turn::error::TurnError;
 use crate::free_turn::nodes::{Node, Postures};
 use crate::free_turn::shortest::{Link, Links, Progress};
@@ -33,7 +33,6 @@ pub(crate) struct Problem<'t, 'a> {
 
 /// A sequence that holds.
 pub(crate) struct Found {
-    pub cost: f64,
     /// The number of the posture at every station.
     pub chosen: Vec<u32>,
     /// Seen between every station and the one before.
@@ -50,7 +49,7 @@ pub(crate) enum Failed {
 impl<'t, 'a> Problem<'t, 'a> {
     /// Of a task whose numbers have been looked at.
     pub fn of(task: &'t TurnTask<'a>) -> Result<Self, TurnError> {
-        let postures = Postures::of(task)?;
+        let mut postures = Postures::of(task)?;
         let way = Way::of(task)?;
         let turns = Turns::of(&task.band);
         let stations = stations(task, &way)?;
@@ -129,13 +128,13 @@ impl<'t, 'a> Problem<'t, 'a> {
             if let Err(station) = progress.go_on(&self.links, &self.stations, &self.nodes, 0) {
                 return Err(Failed::At(station, progress));
             }
-            let Some((cost, chosen)) = progress.best() else {
+            let Some((_, chosen)) = progress.best() else {
                 return Err(Failed::At(0, progress));
             };
             let broken = self.look_between(&chosen, &mut seen);
             let Some(first) = broken.iter().map(|link| link.0).min() else {
                 let seen = seen.into_iter().map(|(_, looked)| looked).collect();
-                return Ok(Found { cost, chosen, seen });
+                return Ok(Found { chosen, seen });
             };
             self.links.broken.extend(broken);
             progress.forget_from(first);
@@ -153,24 +152,38 @@ impl<'t, 'a> Problem<'t, 'a> {
         }))
     }
 
-    /// Looks at the links of a sequence that were not looked at before; those that do not hold.
-    fn look_between(&self, chosen: &[u32], seen: &mut [(Link, Vec<Looked>)]) -> Vec<Link> {
-        let between = Between {
+    /// How the way between stations is looked at.
+    pub fn between(&self) -> Between<'_, 'a> {
+        Between {
             way: &self.way,
-            turns: &self.turns,
             postures: &self.postures,
             free: self.links.free,
             joint_step: self.links.joint_step,
             checks: self.task.bounds.checks_between,
-        };
+        }
+    }
+
+    /// Looks at the links of a sequence that were not looked at before; those that do not hold.
+    fn look_between(&self, chosen: &[u32], seen: &mut [(Link, Vec<Looked>)]) -> Vec<Link> {
+        let between = self.between();
         let found = seen.par_iter_mut().enumerate().skip(1).map(|(to, known)| {
             let link = (to, chosen[to - 1], chosen[to]);
             if known.0 == link {
                 return None;
             }
-            let a = (&self.stations[to - 1], self.node(to - 1, link.1));
-            let b = (&self.stations[to], self.node(to, link.2));
-            match between.look(a, b) {
+            let (a, b) = (self.node(to - 1, link.1), self.node(to, link.2));
+            let start = Stand {
+                station: &self.stations[to - 1],
+                turn_deg: self.turns.deg(a.turn),
+                node: a,
+            };
+            let steps = self.turns.steps(a.turn, b.turn) as f64;
+            let end = Stand {
+                station: &self.stations[to],
+                turn_deg: start.turn_deg + steps * self.turns.step_deg,
+                node: b,
+            };
+            match between.look(start, end) {
                 Ok(looked) => {
                     *known = (link, looked);
                     None

@@ -75,18 +75,32 @@ impl Links {
             return Ok(0.0);
         }
         let turn = self.turns.steps(a.turn, b.turn) as f64 * self.turns.step_deg;
+        self.held(gap, turn, [&a.joints, &b.joints])?;
+        Ok(self.evenness(gap, turn))
+    }
+
+    /// That a turn (deg) and the joints go no faster than allowed.
+    pub fn held(&self, gap: &Gap, turn: f64, [a, b]: [&[f64; 6]; 2]) -> Result<(), Barrier> {
+        if !gap.known {
+            return Ok(());
+        }
         if turn.abs() > gap.turn_deg * (1.0 + 1e-9) {
             return Err(Barrier::Rate);
         }
-        let turns = joint_turns(&self.free, &a.joints, &b.joints);
-        if let Some(joint) = turns.iter().position(|turn| turn.abs() > self.joint_step) {
-            return Err(Barrier::JointStep(joint));
+        let turns = joint_turns(&self.free, a, b);
+        match turns.iter().position(|turn| turn.abs() > self.joint_step) {
+            Some(joint) => Err(Barrier::JointStep(joint)),
+            None => Ok(()),
         }
-        let rate = match turn == 0.0 {
+    }
+
+    /// What a turn costs, deg.
+    pub fn evenness(&self, gap: &Gap, turn: f64) -> f64 {
+        let rate = match turn == 0.0 || !gap.known {
             true => 0.0,
             false => turn / gap.turn_deg,
         };
-        Ok(self.weight * rate * rate * gap.length / self.length)
+        self.weight * rate * rate * gap.length / self.length
     }
 
     /// Postures of the station before that a posture may come from by configuration and rate; ascending.

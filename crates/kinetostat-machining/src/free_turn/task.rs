@@ -123,6 +123,16 @@ impl Default for TurnBounds {
     }
 }
 
+/// What is made of the turns of the band that were found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TurnCurve {
+    /// A smooth curve near them, in the same configuration and inside the same bounds: it costs no more.
+    #[default]
+    Smooth,
+    /// They stay: a staircase with the steps of the band.
+    Steps,
+}
+
 /// A path along which the free turn of a round tool is to be chosen.
 #[derive(Clone, Debug)]
 pub struct TurnTask<'a> {
@@ -140,6 +150,8 @@ pub struct TurnTask<'a> {
     pub criteria: Vec<TurnCriterion>,
     /// What is kept everywhere.
     pub bounds: TurnBounds,
+    /// What becomes of the steps of the band.
+    pub curve: TurnCurve,
 }
 
 impl<'a> TurnTask<'a> {
@@ -178,6 +190,7 @@ impl<'a> TurnTask<'a> {
                 TurnCriterion::Turning { weight },
             ],
             bounds: TurnBounds::default(),
+            curve: TurnCurve::default(),
         }
     }
 }

@@ -24,6 +24,11 @@ pub(crate) struct Neighbour {
 pub(crate) const NEAR: f64 = AlongPath::NEAR;
 
 impl Neighbour {
+    /// The next one is solved next to a posture.
+    pub fn stand_at(&mut self, posture: &Posture) {
+        self.last = Some((posture.clone(), posture.rest_state()));
+    }
+
     fn near(&self, pose: &Pose) -> Option<&(Posture, MechanismState)> {
         self.last.as_ref().filter(|(posture, _)| {
             let length = posture.mechanism().size();

@@ -11,6 +11,7 @@ use crate::load::along_path::LoadAlongPath;
 use crate::load::law::CornerLoad;
 use crate::load::ramp_findings::TooFast;
 use crate::load::ramps::Ramped;
+use crate::postures::arm_course::ArmCourse;
 use crate::result::point::{PointResult, most, size};
 use crate::result::run_result::bound_mm;
 use crate::result::tolerance::keeps_as_it_is;
@@ -63,7 +64,8 @@ fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         ..
     } = load.ramped(looked.stiffness());
     let sites = || of_path(task.path(), &load, &task.placement, spacing_mm(task));
-    let (mut points, _) = solve(task, sites, false, watch)?;
+    let course = ArmCourse::of(task);
+    let (mut points, _) = solve(task, sites, (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
         ramps,
@@ -91,8 +93,10 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         acting: load,
         findings: ramps,
     } = load.ramped(looked.stiffness());
-    let field =
-        ModelField::new(task.mechanism, task.placement, &followed).correcting(task.corrected);
+    let course = ArmCourse::of(task);
+    let field = ModelField::new(task.mechanism, task.placement, &followed)
+        .correcting(task.corrected)
+        .on_course(course.as_ref());
     let mut again = Again::default();
     let arcs = feed_arcs(task);
     let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
@@ -100,7 +104,7 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         let (points, worse) = solve(
             task,
             || sites_of_written(task, &load, &written),
-            true,
+            (true, course.as_ref()),
             watch,
         )?;
         let stable = points.iter().all(|p| p.stable);
@@ -133,7 +137,7 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         (points, worse) = solve(
             task,
             || sites_of_written(task, &load, &written),
-            true,
+            (true, course.as_ref()),
             watch,
         )?;
     }

@@ -23,6 +23,7 @@ use crate::run::joints::{joints_result, posture_warning};
 use crate::run::nearest_singular::nearest_singular;
 use crate::run::summary::summarise;
 use crate::run::tolerance::tolerance;
+use crate::run::whole_turns::whole_turns;
 use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
@@ -70,6 +71,7 @@ pub(crate) fn conclude(
     let near_singularity = nearest_singular(task, &points);
     let joints = joints_result(task, &points);
     let mut warnings = warnings(task, load, &points, &summary, written.as_ref(), checked);
+    warnings.splice(0..0, whole_turns(task, &points));
     warnings.splice(0..0, posture_warning(task, &points, &joints));
     // Said first: near a singular posture every other figure is larger than elsewhere.
     if let Some(near) = &near_singularity {

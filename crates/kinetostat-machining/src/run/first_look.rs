@@ -9,7 +9,7 @@ use crate::limits::Beyond;
 use crate::load::along_path::LoadAlongPath;
 use crate::result::point::PointResult;
 use crate::run::machines::Machines;
-use crate::run::points::chunk;
+use crate::run::points::{Solving, chunk};
 use crate::run::sites::{of_path, spacing_mm};
 use crate::task::{RunError, Task};
 use crate::watch::Watch;
@@ -57,7 +57,12 @@ impl FirstLook {
             let (machine, orientation) = machines.at(&site);
             let one = std::slice::from_ref(&site);
             let memory = &mut Default::default();
-            for found in chunk(task, machine, memory, one, (orientation, false)) {
+            let how = Solving {
+                orientation,
+                written: false,
+                course: None,
+            };
+            for found in chunk(task, machine, memory, one, how) {
                 match found {
                     Ok(point) => look.points.push(point),
                     Err(error) => {

@@ -19,6 +19,9 @@ const TURN_DEG: f64 = 90.0;
 /// ... and farther than the tool by this factor, is beside a singular posture.
 const TIMES_TOOL: f64 = 3.0;
 
+/// So it is where the joint does it on a way so short, mm.
+const SHORT_MM: f64 = 10.0;
+
 /// Limits, ratings and configuration along a program.
 pub(crate) fn joints_result(task: &Task<'_>, points: &[PointResult]) -> JointsResult {
     let figures = JointFigures::new(task.mechanism, &task.bounds.ratings);
@@ -38,11 +41,31 @@ pub(crate) fn joints_result(task: &Task<'_>, points: &[PointResult]) -> JointsRe
     }
     let of_joints: Vec<MotionKind> = figures.kinds().collect();
     let mut worst = Vec::new();
-    for pair in points.windows(2) {
-        let [before, after] = [&pair[0], &pair[1]];
-        let Some(change) = change(task, &of_joints, before, after) else {
+    // The first point from which a joint may have turned far on the way to the point that is looked at.
+    let mut first = 0;
+    for index in 1..points.len() {
+        let after = &points[index];
+        if after.kind == PointKind::Rapid {
+            first = index;
+            continue;
+        }
+        while after.path_mm - points[first].path_mm > SHORT_MM && first + 1 < index {
+            first += 1;
+        }
+        let at_once = change(task, &of_joints, &points[index - 1], after);
+        let before = match at_once {
+            Some(_) => index - 1,
+            None => first,
+        };
+        let before = &points[before];
+        let on_a_short_way = || {
+            let found = change(task, &of_joints, before, after);
+            found.filter(|_| figures.arm().is_some())
+        };
+        let Some(change) = at_once.or_else(on_a_short_way) else {
             continue;
         };
+        first = index;
         result.change_count += 1;
         if result.changes.len() < JointsResult::MAX_CHANGES {
             result.changes.push(change);

@@ -23,3 +23,4 @@ pub(crate) mod sites;
 pub(crate) mod summary;
 pub(crate) mod tolerance;
 pub(crate) mod way_out;
+pub(crate) mod whole_turns;

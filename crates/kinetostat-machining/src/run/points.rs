@@ -9,6 +9,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::field::cause_and_advice;
 use crate::joints::figures::{JointFigures, in_display};
 use crate::placement::Placement;
+use crate::postures::arm_course::ArmCourse;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
@@ -27,7 +28,7 @@ pub(crate) const BATCH: usize = 4096;
 pub(crate) fn solve<S: Iterator<Item = Site>>(
     task: &Task<'_>,
     sites: impl Fn() -> S,
-    written: bool,
+    (written, course): (bool, Option<&ArmCourse>),
     watch: &dyn Watch,
 ) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
     let total = sites().count();
@@ -57,7 +58,12 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
         let solved = of_one_tool.flat_map(|run| {
             let (machine, orientation) = machines.at(&run[0]);
             in_chunks(run, |memory, sites| {
-                chunk(task, machine, memory, sites, (orientation, written))
+                let how = Solving {
+                    orientation,
+                    written,
+                    course,
+                };
+                chunk(task, machine, memory, sites, how)
             })
         });
         for (site, point) in batch.iter().zip(solved) {
@@ -73,6 +79,16 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
 /// A position in mm and the orientation there, if the program states it.
 type Place<'s> = (&'s Vector3<f64>, Option<UnitQuaternion<f64>>);
 
+/// How points are solved.
+#[derive(Clone, Copy)]
+pub(crate) struct Solving<'c> {
+    pub orientation: Orientation,
+    /// They are those of a written program.
+    pub written: bool,
+    /// The way of an arm that is not the one from home.
+    pub course: Option<&'c ArmCourse>,
+}
+
 /// Points of a chunk, by vector kernels where there are some, else one after the other; up to the first that has no
 /// answer.
 pub(crate) fn chunk(
@@ -80,8 +96,13 @@ pub(crate) fn chunk(
     machine: &AlongPath,
     memory: &mut [Neighbour; 2],
     sites: &[Site],
-    (orientation, written): (Orientation, bool),
+    how: Solving<'_>,
 ) -> Vec<Result<PointResult, RunError>> {
+    let Solving {
+        orientation,
+        written,
+        course,
+    } = how;
     let mechanism = machine.mechanism();
     let poses =
         |of: fn(&Site) -> Place<'_>, lies: fn(&Site, &Task<'_>) -> Placement| -> Vec<Pose> {
@@ -94,7 +115,9 @@ pub(crate) fn chunk(
         };
     let wanted = poses(|s| (&s.desired, s.orientation), Site::placement);
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
-    let before = written.then(|| machine.rest(&wanted, &wrenches));
+    // Along a way of its own every place is solved next to the arm there.
+    let together = course.is_none();
+    let before = written.then(|| together.then(|| machine.rest(&wanted, &wrenches)).flatten());
     let commanded = match written {
         true => poses(
             |s| (&s.commanded, s.commanded_orientation),
@@ -102,11 +125,17 @@ pub(crate) fn chunk(
         ),
         false => wanted.clone(),
     };
-    let after = machine.with_stability(&commanded, &wrenches);
+    let after = together.then(|| machine.with_stability(&commanded, &wrenches));
+    let after = after.flatten();
     let [before_memory, after_memory] = memory;
     // One after the other: each starts from its neighbour.
     let mut solved = |i: usize| -> Result<PointResult, Error> {
         let wrench = &wrenches[i];
+        let on_the_way = course.and_then(|c| c.standing_at(sites[i].move_index, sites[i].share));
+        if let Some(posture) = on_the_way {
+            before_memory.stand_at(posture);
+            after_memory.stand_at(posture);
+        }
         let before = match &before {
             None => None,
             Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),

@@ -9,6 +9,7 @@
 )]
 
 mod again;
+mod arm_way;
 mod cut_forces;
 mod fitted_arcs;
 mod five_axes;

@@ -214,7 +214,10 @@ fn directions_and_angles_are_inverse_for_any_two_axes() {
             // The closed form finds the same angles.
             let closed = axes.angles_towards(&by_hand, &[c + 4.0, a - 3.0]).unwrap();
             for (one, other) in closed.iter().zip(&found.angles_deg) {
-                assert!((one - other).abs() < 1e-6, "{carries:?}: {closed:?} {found:?}");
+                assert!(
+                    (one - other).abs() < 1e-6,
+                    "{carries:?}: {closed:?} {found:?}"
+                );
             }
         }
     }

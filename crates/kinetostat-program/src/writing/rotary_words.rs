@@ -54,9 +54,7 @@ impl TurnedAxes<'_> {
         }
         let tilted = UnitQuaternion::from_scaled_axis(step.tilt);
         let direction = tilted * rotary.axes.tool_direction_at(&near, &self.tool_axis);
-        let found = rotary
-            .axes
-            .angles_near(&direction, &self.tool_axis, &near);
+        let found = rotary.axes.angles_near(&direction, &self.tool_axis, &near);
         let both = found.angles_deg.iter().zip(&near);
         both.map(|(found, near)| found - near).collect()
     }

@@ -85,16 +85,23 @@ impl Found {
                 "widen the tolerance of the path, or that of corner steps, or cut more slowly there",
             ),
             Whose::Input => (
-                "of the input, carried as they are,",
+                match self.blocks {
+                    1 => "of the input, carried as it is,",
+                    _ => "of the input, carried as they are,",
+                },
                 "let the CAM system write longer ones (a wider tolerance of its chords), or cut more slowly there",
             ),
         };
         Some(Warning {
             line,
             text: format!(
-                "{} block{} {what} on the lines {}{more} {} shorter than the controller takes ({limit}), the shortest here with {} mm{time}: {remedy}",
+                "{} block{} {what} on {} {}{more} {} shorter than the controller takes ({limit}), the shortest here with {} mm{time}: {remedy}",
                 self.blocks,
                 if self.blocks == 1 { "" } else { "s" },
+                match named.len() {
+                    1 if more.is_empty() => "line",
+                    _ => "the lines",
+                },
                 named.join(", "),
                 if self.blocks == 1 { "is" } else { "are" },
                 at_most(length_mm),

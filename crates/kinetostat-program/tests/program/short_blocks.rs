@@ -68,7 +68,7 @@ fn short_blocks_are_named_with_their_length_time_and_remedy() {
     // 0.01 mm at 6000 mm/min take 0.1 ms, 0.02 mm 0.2 ms.
     assert!(
         said(None, Some(7000.0))[0]
-            .starts_with("5: 1 block of the input, carried as they are, on the lines 5 is shorter")
+            .starts_with("5: 1 block of the input, carried as it is, on line 5 is shorter")
     );
 }
 

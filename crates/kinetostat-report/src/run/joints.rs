@@ -52,8 +52,7 @@ fn panel(
     let ends: Vec<f64> = ends.copied().filter_map(number::drawable).collect();
     let limits = ends.iter().map(|value| Limit {
         value: *value,
-        // Limits of a URDF are rounded radians: -2.967 rad are -170 deg, not -169.997.
-        label: format!("limit {}", number::setting((10.0 * value).round() / 10.0)),
+        label: format!("limit {}", tenths(*value)),
     });
     let with_limits = ends.iter().fold(span, |span, end| span.including(*end));
     Some(Panel {
@@ -69,6 +68,11 @@ fn panel(
         limits: limits.collect(),
         marks: nearest(result, along, index).into_iter().collect(),
     })
+}
+
+/// A limit beside a plot, to a tenth: models in radians have limits with many digits.
+fn tenths(value: f64) -> String {
+    number::setting((10.0 * value).round() / 10.0 + 0.0)
 }
 
 /// Where the joint is nearest to its limit, if it is the joint that comes nearest of all and cuts there.

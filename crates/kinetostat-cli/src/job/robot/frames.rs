@@ -20,6 +20,8 @@ pub(crate) struct RobotFrames {
     pub(crate) axis_is_open: bool,
     /// The program states how the tool stands.
     pub(crate) states_orientation: bool,
+    /// It was converted: what the job says of part and tool is in it already.
+    pub(crate) converted: bool,
 }
 
 impl RobotFrames {
@@ -37,6 +39,7 @@ impl RobotFrames {
             axis_is_open: read.axis_is_open(),
             states_orientation: (read.path.path.moves.iter())
                 .any(|motion| motion.tool_turn.is_some()),
+            converted: false,
         }
     }
 }

@@ -119,7 +119,7 @@ pub(crate) fn placement_of_robot(
     }
     let is_tool_stated = flags.tool_orientation.is_some()
         || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());
-    if is_tool_stated && frames.states_orientation {
+    if is_tool_stated && frames.states_orientation && !frames.converted {
         return Err(Failure::input(
             "the program states the orientation of its tool: leave out tool_orientation under [placement] (--tool-orientation); to turn the tool about its axis, turn its frame under [robot.frames]",
         ));

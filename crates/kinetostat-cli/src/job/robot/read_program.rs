@@ -1,5 +1,6 @@
 //! A robot's program read, with its path.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use kinetostat::Directions;
@@ -19,7 +20,7 @@ use crate::ui::fault_list::fault_list_text;
 #[derive(Debug)]
 pub(crate) struct RobotRead<'s> {
     pub(crate) program: &'s RobotProgram,
-    pub(crate) path: &'s RobotPath,
+    pub(crate) path: Cow<'s, RobotPath>,
     settings: &'s RobotSettings,
 }
 
@@ -38,7 +39,7 @@ impl RobotRead<'_> {
     pub(crate) fn correctable(&self) -> Correctable<'_> {
         Correctable {
             program: self.program,
-            path: self.path,
+            path: &self.path,
             reading: &self.settings.reading,
             making: &self.settings.making,
             writing: &self.settings.writing,
@@ -57,7 +58,7 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
     };
     Ok(RobotRead {
         program: &read.program,
-        path: &read.path,
+        path: Cow::Borrowed(&read.path),
         settings: &source.settings,
     })
 }

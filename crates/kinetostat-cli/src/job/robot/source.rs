@@ -53,13 +53,12 @@ pub(crate) fn robot_source(
         if let Some(odd) = odd_program(name, bytes) {
             return Err(Failure::input(format!("'{name}': {odd}")));
         }
-        let table = table.filter(|(_, table)| !table.get_ref().says_only_what_is_corrected());
         return match (flags.of_robots_alone(), table) {
-            (Some(option), _) => Err(Failure::input(format!(
+            (Some(option), _) if !flags.converted => Err(Failure::input(format!(
                 "{option} is for programs of robots, and '{name}' is none that is known ({}): it is read as G-code; leave {option} out",
                 known_endings()
             ))),
-            (None, Some((j, table))) => Err(j.error(
+            (_, Some((j, table))) if !table.get_ref().is_of_any_program() => Err(j.error(
                 table,
                 &format!("this table is for programs of robots, and '{name}' is read as G-code"),
                 &format!(
@@ -67,7 +66,7 @@ pub(crate) fn robot_source(
                     known_endings()
                 ),
             )),
-            (None, None) => Ok(None),
+            _ => Ok(None),
         };
     };
     refuse_unfit(job, program)?;

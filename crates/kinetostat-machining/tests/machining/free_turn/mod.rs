@@ -7,6 +7,7 @@ mod no_way;
 mod planted;
 mod refused;
 mod sequences;
+mod smooth;
 mod written;
 
 use std::f64::consts::{FRAC_PI_2, PI};

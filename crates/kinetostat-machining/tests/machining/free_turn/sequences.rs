@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use kinetostat_machining::internal::{TurnPosture, turn_postures};
 use kinetostat_machining::{
-    TipCompliance, TurnBand, TurnCriterion, TurnRate, TurnTask, choose_turns,
+    TipCompliance, TurnBand, TurnCriterion, TurnCurve, TurnRate, TurnTask, choose_turns,
 };
 use nalgebra::vector;
 
@@ -128,6 +128,7 @@ fn the_choice_is_the_best_of_all_sequences() {
         }
         task.bounds.rate = TurnRate::PerLength(4.0);
         task.bounds.joint_step_deg = 60.0;
+        task.curve = TurnCurve::Steps;
         // One configuration after the other, so that all sequences can be gone.
         for number in [0, 4] {
             task.bounds.configuration = Some(number);

@@ -2,9 +2,11 @@
 
 use clap::ValueEnum;
 use kinetostat_formats::MakeLanguage;
+use serde::Deserialize;
 
 /// A language that a program is made in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum TargetWord {
     /// KUKA KRL (.src)
     Krl,

@@ -1,0 +1,378 @@
+//! A program in another language before it is compensated: made in memory, so that the run goes over it.
+
+use kinetostat::Pose;
+use kinetostat_formats::{
+    FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
+};
+use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+use kinetostat_model::Model;
+use nalgebra::{Isometry3, Vector3};
+
+use crate::convert::free_turn::{free_turn, in_metres};
+use crate::convert::made::{as_converted, made};
+use crate::convert::template_file::TemplateFile;
+use crate::job::arguments::ProgramArgs;
+use crate::job::free_turn::FreeTurn;
+use crate::job::job_file::JobFile;
+use crate::job::machine::MachineSetup;
+use crate::job::program::{ReadProgram, read_program};
+use crate::job::robot::read_once::Reading;
+use crate::job::robot::settings::settings;
+use crate::job::robot::source::RobotSource;
+use crate::job::setting::Setting;
+use crate::job::turn_arguments::FreeTurnWord;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
+
+/// Differences below this are those of digits, m and rad.
+const SAME: f64 = 1e-6;
+
+/// Most places of a program that stays one file: numbers of positions in a TP program have 16 bits.
+const MOST_POINTS: usize = 1_000_000;
+const MOST_POINTS_OF_LS: usize = 32_766;
+
+/// A run over a program that was converted.
+pub(crate) struct Converted {
+    pub(crate) setting: Setting,
+    /// The turn of the tool, where it was chosen.
+    pub(crate) turn: Option<FreeTurn>,
+    /// What is otherwise than in the source, or was taken for granted.
+    pub(crate) findings: Vec<Warning>,
+}
+
+/// The language of a robot that a run is to write.
+fn language_of_robot(language: MakeLanguage) -> Answer<Language> {
+    match language {
+        MakeLanguage::Krl => Ok(Language::Krl),
+        MakeLanguage::Rapid => Ok(Language::Rapid),
+        MakeLanguage::FanucLs => Ok(Language::FanucLs),
+        other => Err(Failure::input(format!(
+            "compensate --to writes programs of robots: krl, rapid, ls. For {} convert the program first (`kinetostat convert --to {} --out part.{}`), and compensate what that writes",
+            other.title(),
+            other.ending(),
+            other.ending()
+        ))),
+    }
+}
+
+/// The run over the program in another language; `machine` is that of the source.
+pub(crate) fn for_run(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    (mut setting, mut template, language): (Setting, TemplateFile, MakeLanguage),
+    (model, machine): (&Model, &MachineSetup),
+) -> Answer<Converted> {
+    let of_robot = language_of_robot(language)?;
+    if machine.placement.scale != 1.0 {
+        return Err(Failure::input(
+            "the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
+        ));
+    }
+    if job.is_some_and(|j| !j.job.tools.is_empty()) {
+        return Err(Failure::input(
+            "with --to the tools of a program stand in the template ([[tools]] with in_program, number and pose), not under [[tools]] in the job file",
+        ));
+    }
+    let read = read_program(&setting)?;
+    let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
+    if !states_orientation {
+        complete(&mut template.template, job, flags, machine)?;
+    }
+    let most = match language {
+        MakeLanguage::FanucLs => MOST_POINTS_OF_LS,
+        _ => MOST_POINTS,
+    };
+    template.template.most_points.get_or_insert(most);
+    let turn = match setting.free_turn {
+        FreeTurnWord::Choose => Some(free_turn(&setting, &template.template, model, read.path())?),
+        FreeTurnWord::AsStated => None,
+    };
+    refuse_fast_feeds(&setting, &read, &template.template)?;
+    let made = made((&setting, &template), &read, turn.as_ref(), language)?;
+    let [(_, bytes)] = made.files.as_slice() else {
+        return Err(Failure::input(format!(
+            "the program needs {} files in {}: a run compensates one; convert it first (`kinetostat convert`), and compensate its parts",
+            made.files.len(),
+            language.title()
+        )));
+    };
+    let bytes = bytes.clone();
+    let axis = match (read.robot(), &turn) {
+        (Some(robot), None) if states_orientation => robot.path.path.tool_axis,
+        _ => up(&template.template),
+    };
+    let mut found = settings(None, &flags.robot, (of_robot, axis))?;
+    found.axis_is_stated = true;
+    found.making.tool_axis = axis;
+    // Straight rapids have this speed, but for the last digit.
+    found.making.rapid_from_mm_per_s = Some(0.999_999 * template.template.rapid_speed_mm_per_s);
+    let file = SourceFile::new(setting.program_name.as_str(), bytes.as_slice());
+    let stated = Stated::of(&read, &template.template);
+    stated.put_into(&mut found.reading.frames, of_robot, &file)?;
+    let findings = findings(&setting, &made);
+    let flat = flat(&setting, &made, language, &file);
+    drop(read);
+    setting.program = bytes;
+    setting.flat = Some(flat);
+    setting.expansion_warnings.clear();
+    setting.targets.beside.clear();
+    setting.robot = Some(RobotSource {
+        language: of_robot,
+        files: vec![file],
+        paths: Vec::new(),
+        settings: found,
+        parquet: None,
+        reading: Reading::new(),
+    });
+    let target = setting.targets.flat.take();
+    setting.write_flat_to(target.or_else(|| setting.targets.program.as_deref().map(as_converted)));
+    Ok(Converted {
+        setting,
+        turn,
+        findings,
+    })
+}
+
+/// From the tip of the tool to its holder, axes of the tool: its z lies along the spindle, and up in the part is the holder.
+fn up(template: &Template) -> Vector3<f64> {
+    let turned = template.tool_orientation.unwrap_or_default() * Vector3::z();
+    match turned.z >= 0.0 {
+        true => Vector3::z(),
+        false => -Vector3::z(),
+    }
+}
+
+/// What the template leaves open is that of the job, and both say the same.
+fn complete(
+    template: &mut Template,
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    machine: &MachineSetup,
+) -> Answer<()> {
+    let placement = &machine.placement;
+    let part_is_stated = flags.part_origin_mm.is_some()
+        || flags.part_orientation.is_some()
+        || job.is_some_and(|j| {
+            j.job.placement.part_origin_mm.is_some() || j.job.placement.part_orientation.is_some()
+        });
+    let base = one_of(
+        ("[base]", template.base.pose.as_ref()),
+        (
+            "the place of the part (part_origin_mm, part_orientation)",
+            part_is_stated,
+        ),
+        &placement.base_from_part,
+    )?;
+    template.base.pose = Some(base);
+    if template.tools.is_empty() {
+        let given = machine.bounds.tools.first();
+        let of_job = given.map_or_else(Pose::identity, |given| given.pose);
+        let is_stated = given.is_some_and(|given| given.stated);
+        let tool = one_of(
+            ("[tool]", template.tool.frame.pose.as_ref()),
+            ("the tool (length_mm, pose)", is_stated),
+            &of_job,
+        )?;
+        template.tool.frame.pose = Some(tool);
+    }
+    let stated = flags.tool_orientation.is_some()
+        || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());
+    let in_part = base.rotation.inverse() * placement.tool_orientation;
+    template.tool_orientation = Some(match template.tool_orientation {
+        Some(own) if stated && own.angle_to(&in_part) > SAME => {
+            return Err(twice("tool_orientation", "tool_orientation"));
+        }
+        Some(own) => own,
+        None => in_part,
+    });
+    Ok(())
+}
+
+/// The pose of a template, or that of a job, mm.
+fn one_of(
+    (of_template, own): (&str, Option<&Isometry3<f64>>),
+    (of_job, is_stated): (&str, bool),
+    pose: &Pose,
+) -> Answer<Isometry3<f64>> {
+    let in_mm = Isometry3::from_parts((1e3 * pose.translation.vector).into(), pose.rotation);
+    let Some(own) = own else {
+        return Ok(in_mm);
+    };
+    let metres = in_metres(own);
+    let apart = (metres.translation.vector - pose.translation.vector).norm() > SAME
+        || metres.rotation.angle_to(&pose.rotation) > SAME;
+    match is_stated && apart {
+        true => Err(twice(of_template, of_job)),
+        false => Ok(*own),
+    }
+}
+
+fn twice(of_template: &str, of_job: &str) -> Failure {
+    Failure::input(format!(
+        "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
+    ))
+}
+
+/// Speeds tell cuts from rapids in a program of a robot.
+fn refuse_fast_feeds(setting: &Setting, read: &ReadProgram<'_>, template: &Template) -> Answer<()> {
+    let rapid = template.rapid_speed_mm_per_s;
+    let feeds = read
+        .path()
+        .moves
+        .iter()
+        .filter(|motion| motion.is_known_feed());
+    let mut fast = feeds.filter_map(|motion| {
+        let speed = motion.feed_mm_per_minute(f64::NAN)? / 60.0;
+        (speed >= 0.999 * rapid).then_some((motion.line, speed))
+    });
+    match fast.next() {
+        Some((line, speed)) => Err(setting.within(Failure::input(format!(
+            "line {line}: the feed, {} mm/s, is not below the speed of rapids, {} mm/s, by which a program of a robot tells cuts from rapids: write a larger rapid_speed_mm_per_s in the template",
+            short(speed),
+            short(rapid)
+        )))),
+        None => Ok(()),
+    }
+}
+
+/// Where work object and tools are, which not every language declares; mm.
+struct Stated {
+    base: Option<Isometry3<f64>>,
+    tools: Vec<Option<Isometry3<f64>>>,
+}
+
+impl Stated {
+    fn of(read: &ReadProgram<'_>, template: &Template) -> Self {
+        let robot = read.robot().map(|robot| &robot.path);
+        let of_source = |frame: &FrameUse| frame.known().copied();
+        let tools: Vec<_> = match (template.tool.frame.pose, robot) {
+            _ if !template.tools.is_empty() => template
+                .tools
+                .values()
+                .map(|tool| tool.frame.pose)
+                .collect(),
+            (Some(pose), _) => vec![Some(pose)],
+            (None, Some(robot)) => robot.tools.iter().map(of_source).collect(),
+            (None, None) => Vec::new(),
+        };
+        let of_robot = || robot.and_then(|robot| robot.work_object.as_ref().and_then(of_source));
+        Self {
+            base: template.base.pose.or_else(of_robot),
+            tools,
+        }
+    }
+
+    /// Under the names that the made program has for them, where it does not say itself what they are.
+    fn put_into(
+        &self,
+        frames: &mut std::collections::BTreeMap<String, Isometry3<f64>>,
+        language: Language,
+        file: &SourceFile,
+    ) -> Answer<()> {
+        let program = read(
+            language,
+            vec![file.clone()],
+            &kinetostat_formats::ReadOptions::default(),
+        );
+        let Ok(program) = program else {
+            return Ok(());
+        };
+        let mut names: Vec<&str> = Vec::new();
+        for Motion { tool, .. } in &program.motions {
+            if !names.contains(&tool.name.as_str()) {
+                names.push(&tool.name);
+            }
+        }
+        for (name, pose) in names.iter().zip(&self.tools) {
+            let is_open = (program.motions.iter())
+                .any(|motion| motion.tool.name == *name && motion.tool.known().is_none());
+            if let (Some(pose), true) = (pose, is_open) {
+                frames.insert((*name).to_owned(), *pose);
+            }
+        }
+        for motion in &program.motions {
+            let object = &motion.work_object;
+            if let (None, Some(base)) = (object.known(), self.base) {
+                frames.insert(object.name.clone(), base);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A message about lines of the source, each with its file: lines of a run over a converted program are those of that one.
+fn in_source(setting: &Setting, message: &str) -> String {
+    if let Some(flat) = &setting.flat {
+        return flat.with_sources(message);
+    }
+    let mut out = String::with_capacity(message.len());
+    let mut rest = message;
+    while let Some(at) = rest.find("line ") {
+        let number = at + "line ".len();
+        let digits = rest[number..]
+            .bytes()
+            .take_while(u8::is_ascii_digit)
+            .count();
+        let end = number + digits;
+        out.push_str(&rest[..end]);
+        rest = &rest[end..];
+        if digits > 0 && !rest.starts_with(" of ") {
+            out.push_str(" of ");
+            out.push_str(&setting.program_name);
+        }
+    }
+    out + rest
+}
+
+/// What the conversion says, with lines of the source.
+fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
+    let said = made.findings.iter().map(|finding| match finding.line {
+        Some(line) => Warning::at_line(
+            WarningCode::Program,
+            line,
+            in_source(setting, &finding.message),
+        )
+        .of_file(setting.program_name.clone()),
+        None => Warning::new(WarningCode::Program, in_source(setting, &finding.message)),
+    });
+    let expanded = setting.expansion_warnings.iter().map(|w| {
+        Warning::at_line(WarningCode::Program, w.line, w.text.clone())
+            .of_file(setting.program_name.clone())
+    });
+    said.chain(expanded).collect()
+}
+
+/// Where the lines of the made program came from: each from that of the motion on it or behind it.
+fn flat(setting: &Setting, made: &Made, language: MakeLanguage, file: &SourceFile) -> FlatProgram {
+    let count = file.line_count();
+    let last = made.lines.last().map_or(1, |[_, source]| *source);
+    let mut origins = vec![last; count];
+    let mut from = 0;
+    for [line, source] in &made.lines {
+        let end = (*line).min(count);
+        if from < end {
+            origins[from..end].fill(*source);
+        }
+        from = from.max(end);
+    }
+    let number = |line: usize| u32::try_from(line).unwrap_or(u32::MAX);
+    // Of a program that was expanded before, the lines of its files.
+    let before = setting.flat.as_ref();
+    let mut files = before.map_or_else(|| vec![setting.program_name.clone()], |b| b.files.clone());
+    let mut sources = Vec::with_capacity(count);
+    for line in origins {
+        let found = before.and_then(|flat| flat.source_of(line));
+        let (name, line) = found.unwrap_or((setting.program_name.as_str(), line));
+        let index = files
+            .iter()
+            .position(|file| file == name)
+            .unwrap_or_else(|| {
+                files.push(name.to_owned());
+                files.len() - 1
+            });
+        sources.push((number(index), number(line)));
+    }
+    let mut flat = FlatProgram::new(files, made.lines.len(), sources);
+    flat.language = Some(language.title().to_owned());
+    flat
+}

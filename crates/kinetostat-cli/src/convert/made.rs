@@ -1,0 +1,106 @@
+//! The program in the other language, and what its file is called.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_formats::{
+    Made, MakeError, MakeLanguage, SourceEvent, events_of_gcode, make, make_of_robot,
+};
+
+use crate::convert::file_names::{file_name, stem};
+use crate::convert::template_file::TemplateFile;
+use crate::job::free_turn::FreeTurn;
+use crate::job::program::ReadProgram;
+use crate::job::setting::Setting;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::fault_list::fault_list_text;
+
+/// Refuses a name that no controller, and no reader here, takes for one of the language.
+pub(crate) fn refuse_other_ending(language: MakeLanguage, out: &Path) -> Answer<()> {
+    if language.fits(&file_name(out)) {
+        return Ok(());
+    }
+    let name = out.with_extension(language.ending());
+    Err(Failure::input(match language {
+        MakeLanguage::Gcode => format!(
+            "'{}' has the ending of another language, and the new program is in G-code: name it '{}', say",
+            out.display(),
+            name.display()
+        ),
+        _ => format!(
+            "'{}': programs in {} end in .{}, by which controllers and kinetostat know them: name it '{}'",
+            out.display(),
+            match language {
+                MakeLanguage::FanucLs => "the language of FANUC (TP)",
+                _ => language.title(),
+            },
+            language.ending(),
+            name.display()
+        ),
+    }))
+}
+
+/// What the compensated program is called where nobody says so: names of programs have no hyphen.
+pub(crate) fn beside_as(out: &Path, program: &Path, ending: &str) -> PathBuf {
+    out.with_file_name(format!("{}_compensated.{ending}", stem(program)))
+}
+
+/// What a converted program is called beside its compensated form.
+pub(crate) fn as_converted(out: &Path) -> PathBuf {
+    let ending = out.extension().unwrap_or_default().to_string_lossy();
+    out.with_file_name(format!("{}_flat.{ending}", stem(out)))
+}
+
+/// The program in the other language.
+pub(crate) fn made(
+    (setting, template): (&Setting, &TemplateFile),
+    read: &ReadProgram<'_>,
+    turned: Option<&FreeTurn>,
+    language: MakeLanguage,
+) -> Answer<Made> {
+    let refused = |all: Vec<MakeError>| refused(setting, template, &all);
+    if let Some(robot) = read.robot() {
+        let mut path = robot.path.clone().into_owned();
+        if let Some(turned) = turned {
+            path.path = turned.path.clone();
+        }
+        let done = make_of_robot(&robot.program, &path, &template.template, language);
+        return done.map_err(refused);
+    }
+    if language == MakeLanguage::Gcode {
+        return Err(Failure::input(
+            "the program is in G-code already: `kinetostat expand` writes it flat, `kinetostat compensate --no-compensation` as it was read",
+        ));
+    }
+    let mut events = read
+        .gcode()
+        .map_or_else(Vec::new, |(program, path)| events_of_gcode(program, path));
+    for event in &mut events {
+        place(setting, event);
+    }
+    let path = turned.map_or(read.path(), |turned| &turned.path);
+    make(path, &events, &template.template, language).map_err(refused)
+}
+
+/// A line of an expanded program is that of the file that it came from.
+fn place(setting: &Setting, event: &mut SourceEvent) {
+    let found = setting
+        .flat
+        .as_ref()
+        .and_then(|flat| flat.source_of(event.line));
+    if let Some((file, line)) = found {
+        event.place = format!("{file}, line {line}");
+    }
+}
+
+fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Failure {
+    let Some(first) = all.first() else {
+        return Failure::input("the program is refused");
+    };
+    let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
+    let failure = Failure::input(text);
+    match (first.line, &template.name) {
+        (None, Some(name)) => failure.within(name),
+        (None, None) => failure,
+        (Some(_), _) => setting.within(failure),
+    }
+}

@@ -1,0 +1,29 @@
+//! The turn of a round tool about its own axis, as options and job files ask for it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Deserialize;
+
+/// What becomes of the turn of a round tool about its own axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum FreeTurnWord {
+    /// It stays as the job has it.
+    #[default]
+    AsStated,
+    /// It is chosen along the whole path.
+    Choose,
+}
+
+/// Options for the turn of a round tool about its own axis.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct TurnFlags {
+    /// Turn a round tool about its axis along the path of an arm: inside the limits of the joints, away from singular
+    /// postures, in one configuration
+    #[arg(long, help_heading = "Free turn")]
+    pub(crate) free_turn: bool,
+    /// Picture of that turn along the path (SVG)
+    #[arg(long, value_name = "FILE", help_heading = "Free turn")]
+    pub(crate) turn_plot: Option<PathBuf>,
+}
