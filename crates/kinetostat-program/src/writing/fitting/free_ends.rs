@@ -8,16 +8,16 @@ use crate::writing::fitting::search::farthest;
 use crate::writing::fitting::stretch::{Fit, FittedPiece, Shape, Span, Tube};
 
 /// Parts of the longest piece at which the next one is tried to begin.
-const BEGINNINGS: [f64; 5] = [1.0, 0.92, 0.84, 0.7, 0.55];
+const BEGINNINGS: [f64; 3] = [1.0, 0.86, 0.6];
 
 /// Most pieces of a stretch that are looked for in this way, which takes its time.
-const MOST: usize = 200;
+const MOST: usize = 100;
 
 /// How much longer than the shortest block, along the path, what is left for the last piece is: the corrected arc may be shorter.
 const MARGIN: f64 = 1.05;
 
 /// Steps in the search for the least tolerance that as many pieces keep.
-const NARROWINGS: u32 = 6;
+const NARROWINGS: u32 = 2;
 
 /// The farthest that a piece can end from where it begins, and the heights there.
 struct Reach {
@@ -159,7 +159,9 @@ impl Search<'_> {
                 whole: true,
             });
         }
-        let (share, tube) = farthest([from, to], (stride, self.fit.shortest()), |share| {
+        // As exactly as the tolerance is worth.
+        let shortest = larger(self.fit.shortest(), 2e-3 * stride);
+        let (share, tube) = farthest([from, to], (stride, shortest), |share| {
             self.tube(last, share, self.fit.curve.point(share))
         })?;
         Some(Reach {
