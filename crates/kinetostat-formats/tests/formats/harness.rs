@@ -244,13 +244,8 @@ pub fn divide_and_read(
     }
 }
 
-/// One case of the fuzz: whether it was read.
-pub fn check(seed: u64, chance: &mut Chance, bytes: &[u8], kind: &Kind) -> Result<bool, String> {
-    check_files(seed, chance, &[bytes.to_vec()], kind)
-}
-
-/// One case of several files.
-pub fn check_files(
+/// One case of the fuzz, of a file or of one with its data list: whether it was read.
+pub fn check(
     seed: u64,
     chance: &mut Chance,
     files: &[Vec<u8>],

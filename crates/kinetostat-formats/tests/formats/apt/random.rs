@@ -168,5 +168,5 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let kind = kind();
     let whole = program(&mut chance);
     let bytes = broken(&mut chance, &whole, &kind);
-    crate::harness::check(seed, &mut chance, &bytes, &kind)
+    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }

@@ -349,7 +349,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     };
     let bytes = broken(&mut chance, &whole, &kind);
     flattened(&bytes, &kind.options).map_err(|what| format!("case {seed}: {what}"))?;
-    match crate::harness::check(seed, &mut chance, &bytes, &kind) {
+    match crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind) {
         // Corrections by chance of what such a block begins with are refused by line.
         Err(what) if REFUSED.iter().any(|reason| what.contains(reason)) => Ok(true),
         result => result,

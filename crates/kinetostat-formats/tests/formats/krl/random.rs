@@ -3,7 +3,7 @@
 
 use kinetostat_formats::*;
 
-use crate::harness::{Chance, Kind, PLACE_MM, broken, check_files, read_files};
+use crate::harness::{Chance, Kind, PLACE_MM, broken, read_files};
 
 pub fn kind() -> Kind {
     Kind {
@@ -185,7 +185,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
     if read_files(&kind, &files).is_ok_and(|program| program.findings.iter().any(is_open)) {
         return Ok(true);
     }
-    match check_files(seed, &mut chance, &files, &kind) {
+    match crate::harness::check(seed, &mut chance, &files, &kind) {
         Err(what) => unless_said(Err(what)).map(|()| true),
         found => found,
     }

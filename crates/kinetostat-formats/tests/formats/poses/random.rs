@@ -197,5 +197,5 @@ pub fn check(seed: u64) -> Result<bool, String> {
             })
         })
     });
-    crate::harness::check(seed, &mut chance, &bytes, &kind)
+    crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind)
 }
