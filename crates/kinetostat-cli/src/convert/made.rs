@@ -63,7 +63,7 @@ pub(crate) fn made(
         if let Some(turned) = turned {
             path.path = turned.path.clone();
         }
-        let done = make_of_robot(&robot.program, &path, &template.template, language);
+        let done = make_of_robot(robot.program, &path, &template.template, language);
         return done.map_err(refused);
     }
     if language == MakeLanguage::Gcode {
