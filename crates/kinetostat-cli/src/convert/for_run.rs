@@ -353,7 +353,7 @@ fn flat(setting: &Setting, made: &Made, language: MakeLanguage, file: &SourceFil
         if from < end {
             origins[from..end].fill(*source);
         }
-        from = from.max(end);
+        from = usize::max(from, end);
     }
     let number = |line: usize| u32::try_from(line).unwrap_or(u32::MAX);
     // Of a program that was expanded before, the lines of its files.

@@ -65,7 +65,8 @@ fn a_program_in_rapid_is_compensated_and_is_one_again() {
     assert!(summary["max_position_error_before_mm"].as_f64().unwrap() > 1.0);
     assert!(summary["max_position_error_after_mm"].as_f64().unwrap() < 0.02);
     let tilt = summary["max_residual_rotation_deg"].as_f64();
-    assert!(tilt.is_none_or(|tilt| tilt < 1e-3), "{tilt:?}");
+    // Along the circle the tolerances of path and chords (10 and 8 um) hold at a lever of 50 mm: 0.0206 deg.
+    assert!(tilt.is_none_or(|tilt| tilt < 0.0206), "{tilt:?}");
     let table = read(here, "points.csv");
     let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let w = columns

@@ -42,7 +42,7 @@ fn is_in_line(byte: &u8) -> bool {
 impl Input for Characters<'_> {
     #[inline]
     fn lookahead(&mut self, count: usize) {
-        self.asked = self.asked.max(count);
+        self.asked = usize::max(self.asked, count);
     }
 
     #[inline]

@@ -7,7 +7,7 @@
 
 use crate::writing::{at_origin, bare, written_with};
 use kinetostat_program::*;
-use kinetostat_testing::Worst;
+use kinetostat_testing::{Worst, largest, least};
 use nalgebra::Vector3;
 
 /// Mean, cosine and sine of one to six waves around the circle, mm: x, y and z.
@@ -98,8 +98,8 @@ fn has_line(places: &[(f64, f64)], within_mm: f64) -> bool {
     let (lower, upper) = (hull(1.0), hull(-1.0));
     let width = |slope: f64| {
         let off = |&(x, y): &(f64, f64)| y - slope * x;
-        let high = upper.iter().map(off).fold(f64::NEG_INFINITY, f64::max);
-        let low = lower.iter().map(off).fold(f64::INFINITY, f64::min);
+        let high = largest(upper.iter().map(off));
+        let low = least(lower.iter().map(off));
         high - low
     };
     // The width is a convex function of the slope.

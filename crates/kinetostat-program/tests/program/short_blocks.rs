@@ -2,6 +2,7 @@
 
 use crate::writing::{at_origin, bare, written_with};
 use kinetostat_program::*;
+use kinetostat_testing::least;
 use nalgebra::Vector3;
 
 /// The correction bends more and more along x.
@@ -124,10 +125,10 @@ fn arcs_and_their_chords_are_longer_than_asked_or_their_line_is_named() {
             writing.arcs = arcs;
             let (free, named) = lengths(&text, &writing);
             assert!(named.is_empty() && free.len() > 3, "{free:?}");
-            let least = free.iter().copied().fold(f64::INFINITY, f64::min);
+            let shortest = least(free.iter().copied());
             let mean = free.iter().sum::<f64>() / free.len() as f64;
             for part in [0.1, 0.6, 1.2] {
-                let shortest_mm = least + part * (mean - least);
+                let shortest_mm = shortest + part * (mean - shortest);
                 for by_time in [false, true] {
                     let mut writing = writing.clone();
                     match by_time {
@@ -136,11 +137,11 @@ fn arcs_and_their_chords_are_longer_than_asked_or_their_line_is_named() {
                         false => writing.min_block_mm = Some(shortest_mm),
                     }
                     let (now, named) = lengths(&text, &writing);
-                    let now = now.into_iter().fold(f64::INFINITY, f64::min);
+                    let now = least(now);
                     assert!(now.is_finite());
                     // The speed is that along the part, on which the corrected arc is a little longer.
                     match now >= shortest_mm * (1.0 - if by_time { 2e-3 } else { 1e-9 }) {
-                        true => held[kind] += usize::from(now > least),
+                        true => held[kind] += usize::from(now > shortest),
                         false => assert_eq!(named, [3], "{now} {shortest_mm}"),
                     }
                 }
