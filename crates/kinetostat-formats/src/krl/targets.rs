@@ -10,7 +10,7 @@ use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
 use crate::krl::values::{Reason, Values, WRITE_IT};
 use crate::model::orientation::OrientationText;
-use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, TargetSite};
+use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, PoseText, TargetSite};
 use crate::model::target::{PoseTarget, Target};
 use crate::text::number::NumberText;
 
@@ -91,7 +91,11 @@ impl Targets {
             }
             let (pose, open) = pose_of(&position);
             let site = match position.text(file.index) {
-                Some(text) => TargetSite::Literal(text),
+                // Angles that are left out are those of before: known, though no number of them stands here.
+                Some(text) => TargetSite::Literal(PoseText {
+                    convention: OrientationText::Abc,
+                    ..text
+                }),
                 None => TargetSite::Fixed(SOME),
             };
             return Ok(End {

@@ -11,6 +11,7 @@ use crate::krl::table::{Ends, MotionRow, motion_row};
 use crate::model::motion::{Motion, Zone};
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
+use crate::model::site::TargetSite;
 use crate::options::{ExactStops, ExternalAxes, ReadOptions, UnknownTargets, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::name::Name;
@@ -45,7 +46,12 @@ fn with_stated_ends(program: &RobotProgram, pieces: &[Piece]) -> Option<RobotPro
     let changed: BTreeSet<usize> = pieces.iter().map(|piece| piece.motion).collect();
     let mut edits: Vec<Edits> = program.files.iter().map(|_| Edits::default()).collect();
     let mut needed = false;
+    let turned = pieces.iter().any(|piece| turns(program, piece));
     for (index, motion) in program.motions.iter().enumerate() {
+        if turned && keeps_angles(motion) {
+            needed |= state_angles(program, motion, &mut edits[motion.file]);
+            continue;
+        }
         let row = row_of(program, motion).filter(|row| row.ends == Ends::Step);
         let from = motion.follows.is_some_and(|from| changed.contains(&from));
         let (Some(row), Some(pose), true) =
@@ -85,6 +91,37 @@ fn with_stated_ends(program: &RobotProgram, pieces: &[Piece]) -> Option<RobotPro
     };
     let again = read_krl(files.collect::<Option<Vec<_>>>()?, &reading).ok()?;
     (again.motions.len() == program.motions.len()).then_some(again)
+}
+
+/// Whether a piece turns the tool out of the orientation that its motion ends with.
+fn turns(program: &RobotProgram, piece: &Piece) -> bool {
+    let end = program.motions.get(piece.motion);
+    let end = end.and_then(|motion| motion.target.pose());
+    end.zip(piece.orientation)
+        .is_some_and(|(end, to)| to.angle_to(&end.orientation) > 1e-9)
+}
+
+/// Whether the end states X, Y and Z, and keeps A, B and C of before.
+fn keeps_angles(motion: &Motion) -> bool {
+    matches!(&motion.site.target, TargetSite::Literal(text) if text.orientation.is_empty())
+}
+
+/// Adds the angles that an end keeps to its literal.
+fn state_angles(program: &RobotProgram, motion: &Motion, edits: &mut Edits) -> bool {
+    let (TargetSite::Literal(text), Some(pose)) = (&motion.site.target, motion.target.pose())
+    else {
+        return false;
+    };
+    let angles = OrientationText::Abc.numbers_of(&pose.orientation, &[0.0; 3]);
+    let ([a, b, c], true) = (
+        [0, 1, 2].map(|index| angles.get(index).copied().unwrap_or_default()),
+        program.files[motion.file].part(&text.whole).ends_with(b"}"),
+    ) else {
+        return false;
+    };
+    let at = text.whole.end - 1;
+    edits.replace(at..at, format!(",A {a:.8},B {b:.8},C {c:.8}"));
+    true
 }
 
 /// The row of the word with which a motion begins.

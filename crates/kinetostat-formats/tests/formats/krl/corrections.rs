@@ -182,7 +182,26 @@ fn ends_that_cannot_take_a_correction_say_so() {
     assert!(refused(at(3, [1.0, 2.0, 5.1])).contains("no pose that could be corrected"));
     let mut piece = at(2, [1.0, 2.0, 9.0]);
     piece.orientation = Some(UnitQuaternion::from_euler_angles(0.0, 0.0, 0.1));
-    assert!(refused(piece).contains("the end states no orientation"));
+    // The angles of before are stated where they no longer hold: a turn of 0.1 rad about Z.
+    let text = written(&program, &[piece]);
+    assert!(text.contains("LIN {X 1,Y 2,Z 9,A 5.72957795,B"), "{text}");
     // Its place alone can be.
     assert!(written(&program, &[at(2, [1.0, 2.0, 9.1])]).contains("LIN {X 1,Y 2,Z 9.100}"));
+}
+
+#[test]
+fn angles_left_out_are_those_of_before() {
+    let program = main_with(
+        "",
+        "$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$VEL.CP=0.02\nPTP {X 0,Y 0,Z 20,A -180,B 20,C 180}\nLIN {X 0,Y 0,Z -1}\nCIRC {X 10,Y 10,Z -1},{X 20,Y 0,Z -1}\nSLIN {X 40,Y 0,Z -1}\nLIN {Z 20}",
+    );
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    assert_eq!(robot.path.moves.len(), 5);
+    // Rx(180) takes z to -z, Ry(20) leans it to (-sin 20, 0, -cos 20), Rz(-180) turns x round.
+    let (sin, cos) = 20.0_f64.to_radians().sin_cos();
+    for motion in &robot.path.moves {
+        let z = motion.orientation(1.0).unwrap() * Vector3::z();
+        assert!((z - Vector3::new(sin, 0.0, -cos)).norm() < 1e-9, "{z}");
+    }
+    assert!((robot.path.moves[4].end - Vector3::new(40.0, 0.0, 20.0)).norm() < 1e-9);
 }
