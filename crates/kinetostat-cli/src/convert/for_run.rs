@@ -49,7 +49,10 @@ fn language_of_robot(language: MakeLanguage) -> Answer<Language> {
         other => Err(Failure::input(format!(
             "compensate --to writes programs of robots: krl, rapid, ls. For {} convert the program first (`kinetostat convert --to {} --out part.{}`), and compensate what that writes",
             other.title(),
-            other.ending(),
+            match other {
+                MakeLanguage::Gcode => "gcode",
+                _ => other.ending(),
+            },
             other.ending()
         ))),
     }
@@ -124,7 +127,10 @@ pub(crate) fn for_run(
         parquet: None,
         reading: Reading::new(),
     });
-    let target = setting.targets.flat.take();
+    // What --expand would call its flat program has the ending of the source.
+    let is_named = flags.expansion.flat_program.is_some()
+        || job.is_some_and(|j| j.job.output.flat_program.is_some());
+    let target = setting.targets.flat.take().filter(|_| is_named);
     setting.write_flat_to(target.or_else(|| setting.targets.program.as_deref().map(as_converted)));
     Ok(Converted {
         setting,

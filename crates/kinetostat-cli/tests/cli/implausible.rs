@@ -485,3 +485,36 @@ fn a_load_that_folds_the_machine_over_is_refused_before_the_program_is_solved() 
         assert!(said.err.contains("--limit force_n="), "{said:?}");
     }
 }
+
+#[test]
+fn a_machine_without_a_spring_is_refused() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let urdf = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../../shared/data/urdf/kuka_kr210l150.urdf"
+    );
+    if !std::path::Path::new(urdf).is_file() {
+        println!("SKIPPED: ../shared/data/urdf/kuka_kr210l150.urdf is not there");
+        return;
+    }
+    let import = ["import", "urdf", urdf, "--base", "base_link"];
+    let further = ["--tip", "tool0", "-o", "arm.toml"];
+    run(here, &[import.as_slice(), &further].concat());
+    std::fs::write(
+        here.join("a.ngc"),
+        "G21 G90\nG0 X0 Y0 Z5\nG1 X40 F600\nM30\n",
+    )
+    .unwrap();
+    for command in ["compensate --model arm.toml", "deflect arm.toml"] {
+        let line =
+            format!("{command} --program a.ngc --force 60 20 100 --part-origin-mm 1800 0 900");
+        let said = run(here, &line.split(' ').collect::<Vec<_>>());
+        assert_eq!(said.code, 1, "{said:?}");
+        let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            text.contains("has no spring") && text.contains("FILL IN"),
+            "{text}"
+        );
+    }
+}

@@ -150,7 +150,7 @@ fn by_beginning(name: &str) -> Result<Column, Refusal> {
     Ok(Column::Carried)
 }
 
-/// `joint_3_deg`, `joint_a2_rad`, or any name with a unit of joints behind it.
+/// `joint_3_deg`, `A2_deg`, `q5_rad`, or any name with a unit of joints behind it.
 pub(crate) fn joint_of(name: &str) -> Option<Column> {
     let name = name.to_ascii_lowercase();
     let (stem, unit) = name.rsplit_once('_')?;
@@ -160,8 +160,8 @@ pub(crate) fn joint_of(name: &str) -> Option<Column> {
         "m" => 1000.0,
         _ => return None,
     };
-    let number = stem
-        .strip_prefix("joint_")
-        .and_then(|number| number.parse().ok());
+    // The number behind the letters: of joint_3, a2, j5.
+    let letters = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = stem[letters.len()..].parse().ok();
     Some(Column::Joint(number, factor))
 }

@@ -222,25 +222,28 @@ fn complete(
     }
 }
 
-/// Numbered joints are 1, 2, 3, ...; others stand in the order of their columns.
+/// Numbered joints are 1, 2, 3, ... or 0, 1, 2, ...; others stand in the order of their columns.
 fn joint_order(
     joints: &mut [(Option<usize>, usize, f64)],
     whole: &Range<usize>,
     faults: &mut Vec<NameFault>,
 ) {
-    if joints.iter().all(|(number, _, _)| number.is_none()) {
+    let numbers: Vec<usize> = joints.iter().filter_map(|(number, _, _)| *number).collect();
+    let ascend = numbers.windows(2).all(|pair| pair[0] < pair[1]);
+    if numbers.is_empty() || numbers.len() < joints.len() && ascend {
         return;
     }
     joints.sort_by_key(|(number, cell, _)| (*number, *cell));
-    let counted = joints
-        .iter()
-        .enumerate()
-        .all(|(index, (number, _, _))| *number == Some(index + 1));
+    let counted_from = |first: usize| {
+        let mut all = joints.iter().enumerate();
+        all.all(|(index, (number, _, _))| *number == Some(first + index))
+    };
+    let counted = counted_from(1) || counted_from(0);
     if !counted && faults.is_empty() {
         faults.push((
             whole.clone(),
             "the joints are not numbered 1, 2, 3, ...".to_owned(),
-            "name them joint_1_deg, joint_2_deg, ..., all of them".to_owned(),
+            "name them joint_1_deg, joint_2_deg, ..., all of them; external axes have no place in it".to_owned(),
         ));
     }
 }

@@ -107,3 +107,29 @@ fn rows_that_are_far_apart_or_of_another_arm_are_refused_by_line() {
     let told = program.findings.iter().find(|f| f.line == 4).unwrap();
     assert!(told.message.contains("all joints move in step"), "{told:?}");
 }
+
+#[test]
+fn numbers_in_names_count_and_not_the_order_of_columns() {
+    let there = read_it(
+        "A2_deg,A1_deg,A3_mm\n-40,10,20\n-41,11,20\n",
+        BetweenRows::Linear,
+    );
+    let program = there.unwrap();
+    let path = path_of(&program, &PathOptions::default()).unwrap();
+    let end = path.path.moves[1].end;
+    let by_hand = Scara.tool_pose(&[11.0, -41.0, 20.0]).translation.vector;
+    assert!((end - by_hand).norm() < 1e-9, "{end}");
+    for names in [
+        "A1_deg,A2_deg,E1_mm",
+        "A1_deg,A3_deg,A4_mm",
+        "A2_deg,A3_deg,A4_mm",
+        "A2_deg,A1_deg,lift_mm",
+    ] {
+        let text = format!("{names}\n10,-40,20\n");
+        let refused = read_it(&text, BetweenRows::Linear).unwrap_err();
+        assert!(
+            refused[0].reason.contains("not numbered 1, 2, 3"),
+            "{names}: {refused:?}"
+        );
+    }
+}

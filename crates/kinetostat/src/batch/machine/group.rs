@@ -97,6 +97,10 @@ impl Group {
     /// Numbers of these postures into their places of a table.
     #[inline(always)]
     pub fn put<S: Simd>(&self, table: &mut [f64], from: usize, numbers: &[Lanes<S>]) {
+        if numbers.is_empty() {
+            // A machine without springs has nothing in its table.
+            return;
+        }
         let width = table.len() / self.count.div_ceil(BLOCK) / BLOCK;
         if self.stride > 1 {
             self.scatter(table, width, from, numbers);
