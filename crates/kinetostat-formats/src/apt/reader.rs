@@ -117,6 +117,7 @@ pub fn read_apt(
         motions,
         findings,
         declarations: Vec::new(),
+        even_axes: std::collections::BTreeSet::new(),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
-use crate::path::rotary::RotaryTurn;
+use crate::path::rotary_turn::RotaryTurn;
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
@@ -114,6 +114,7 @@ impl<'o> RotaryWords<'o> {
             axes: axes.clone(),
             start_deg: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
             end_deg,
+            great_circle: None,
         };
         Ok(Some(Box::new(ToolTurn::rotary(turn))))
     }

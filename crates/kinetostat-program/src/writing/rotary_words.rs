@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number;
 use crate::path::moves::{ExtraMode, Move};
-use crate::path::rotary::RotaryTurn;
+use crate::path::rotary_turn::RotaryTurn;
 use crate::writing::output_state::{OutputMove, OutputState};
 
 /// Digits after the point of words of other axes, at least.

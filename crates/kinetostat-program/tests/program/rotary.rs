@@ -14,6 +14,7 @@ fn axis(letter: char, carries: Carries, direction: Vector3<f64>, point: [f64; 3]
         carries,
         direction: nalgebra::Unit::new_normalize(direction),
         point_mm: point.into(),
+        limits_deg: None,
     }
 }
 
