@@ -51,9 +51,13 @@ fn limits_of_joint(mechanism: &Mechanism, direction: &Unit<Vector3<f64>>) -> Opt
     let at = |pose: &Pose| Some(mechanism.posture(pose).ok()?.commands());
     let (before, after) = (at(&home)?, at(&turned)?);
     let actuators = (mechanism.limbs().iter()).flat_map(|limb| &limb.nominal.actuators);
-    let mut joints = before.iter().zip(&after).zip(actuators).filter(|((a, b), joint)| {
-        joint.kind == kinetostat::MotionKind::Revolute && ((*b - *a).abs() - TURN).abs() < SAME
-    });
+    let mut joints = before
+        .iter()
+        .zip(&after)
+        .zip(actuators)
+        .filter(|((a, b), joint)| {
+            joint.kind == kinetostat::MotionKind::Revolute && ((*b - *a).abs() - TURN).abs() < SAME
+        });
     let ((before, after), joint) = joints.next()?;
     let (low, high) = joint.limits.filter(|_| joints.next().is_none())?;
     let limits = [low - before, high - before].map(f64::to_degrees);

@@ -5,8 +5,6 @@
 //! leaves it to ORIWKS does the same) or turns the axes evenly (ORIAXES); the postprocessors to which APT goes divide a motion until
 //! the tool's axis stays in the plane of both directions; Heidenhain with M128 turns the axes evenly (PATHCTRL AXIS).
 
-use std::fmt::Write as _;
-
 use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, Unreached};
 use nalgebra::Vector3;
 
@@ -52,7 +50,11 @@ pub(crate) fn axes_of_motions(
         };
         if let Some(axis) = axis_of(program, motion) {
             let follows = stated && motion.follows.is_some();
-            match of_motion(rotary, (&last, &axis), follows && on_great_circle(program, index)) {
+            match of_motion(
+                rotary,
+                (&last, &axis),
+                follows && on_great_circle(program, index),
+            ) {
                 Ok(found) => own = found,
                 // In air the axes may go over to other angles.
                 Err(reason) => match rotary.angles_towards(&axis, &last) {
@@ -113,10 +115,7 @@ fn fault(
 ) -> PathError {
     let along = |axis: &Vector3<f64>| format!("({:.4}, {:.4}, {:.4})", axis.x, axis.y, axis.z);
     let (reason, remedy) = match reason {
-        OffCircle::Opposite => (
-            OVER.0.to_owned(),
-            "let the CAM system write a pose between",
-        ),
+        OffCircle::Opposite => (OVER.0.to_owned(), "let the CAM system write a pose between"),
         OffCircle::Unreached(axis, Unreached::Direction) => (
             format!(
                 "the rotary axes of the machine do not point the tool along {}",
@@ -125,13 +124,10 @@ fn fault(
             "check directions and words of the axes in the model ([[rotary_axis]]), and which axes the part has",
         ),
         OffCircle::Unreached(axis, Unreached::Limits(angles)) => {
-            let outside = outside_limits(rotary, &angles);
+            let outside = rotary.words_of_limits(&angles);
             match (axis - end).norm() > SAME {
                 false => (
-                    format!(
-                        "to point the tool along {}, {outside}",
-                        along(&axis)
-                    ),
+                    format!("to point the tool along {}, {outside}", along(&axis)),
                     "let the CAM system tilt the tool less, or the other way round behind a rapid; or state other limits of the axis, if it has them (limits_deg of [[rotary_axis]], or of its joint)",
                 ),
                 true => (
@@ -154,21 +150,3 @@ fn fault(
 
 /// Directions nearer than this are one.
 const SAME: f64 = 1e-9;
-
-/// The nearest angles, and which of them is outside.
-fn outside_limits(rotary: &RotaryAxes, angles: &[f64]) -> String {
-    let mut stand = String::new();
-    for (axis, angle) in rotary.axes.iter().zip(angles) {
-        let _ = write!(stand, " {}{angle:.3}", axis.letter);
-    }
-    match rotary.angle_outside(angles) {
-        Some((axis, angle)) => {
-            let [least, largest] = axis.limits_deg.unwrap_or_default();
-            format!(
-                "axis {} would stand at {angle:.3} deg, and it reaches {least:.3} to {largest:.3} deg (nearest angles:{stand})",
-                axis.letter
-            )
-        }
-        None => format!("the axes would leave their limits (nearest angles:{stand})"),
-    }
-}

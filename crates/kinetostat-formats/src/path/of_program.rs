@@ -4,7 +4,7 @@ use std::sync;
 
 use kinetostat_program::{
     Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, RotaryAxes,
-    RotaryTurn, ToolTurn, Warning,
+    RotaryTurn, StatedBy, ToolTurn, Warning,
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
@@ -387,6 +387,7 @@ impl Maker<'_> {
                         },
                         end_deg: own.end_deg.clone(),
                         great_circle: own.great_circle.clone().filter(|_| whole),
+                        stated: StatedBy::Direction,
                     })))
                 }
                 None => self.states_orientation(motion).then(|| {

@@ -65,11 +65,7 @@ impl GreatCircle {
     ///
     /// # Errors
     /// Where there is no such way, or the axes cannot follow it within their limits.
-    pub fn new(
-        axes: &RotaryAxes,
-        from_deg: &[f64],
-        to: &Vector3<f64>,
-    ) -> Result<Self, OffCircle> {
+    pub fn new(axes: &RotaryAxes, from_deg: &[f64], to: &Vector3<f64>) -> Result<Self, OffCircle> {
         let from = axes.tool_direction_at(from_deg, &(axes.tool_at_zero.inverse() * Vector3::z()));
         if (from + to).norm() < OPPOSITE {
             return Err(OffCircle::Opposite);

@@ -77,6 +77,7 @@ impl RotaryAxes {
     /// assert!((other[0] - 270.0).abs() < 1e-9 && (other[1] + 30.0).abs() < 1e-9 || (other[0] + 90.0).abs() < 1e-9);
     /// assert!(limited.angle_outside(&other).is_none() && limited.angle_outside(&[0.0, 20.0]).is_some());
     /// limited.axes[1].limits_deg = Some([-10.0, 10.0]);
+    /// assert!(limited.words_of_limits(&[90.0, 30.0]).starts_with("axis B would stand at 30.000 deg"));
     /// assert!(matches!(limited.angles_towards(&down_y, &[80.0, 0.0]), Err(Unreached::Limits(_))));
     /// ```
     ///
@@ -96,7 +97,9 @@ impl RotaryAxes {
             let best = found.into_iter().reduce(by_way);
             best.map(|pointing| pointing.angles_deg)
         };
-        let within = found.iter().filter_map(|pointing| self.within_limits_of(pointing));
+        let within = found
+            .iter()
+            .filter_map(|pointing| self.within_limits_of(pointing));
         match (nearest(within.collect()), nearest(found)) {
             (Some(angles), _) => Ok(angles),
             (None, Some(angles)) => Err(Unreached::Limits(angles)),
@@ -118,9 +121,10 @@ impl RotaryAxes {
             .collect();
         let near = |index: usize| near_deg.get(index).copied().unwrap_or(0.0);
         let z = Vector3::z();
-        let turn = |axis: &UnitVector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>, place: usize| {
-            turn(axis, from, to, near(order[place]))
-        };
+        let turn = |axis: &UnitVector3<f64>,
+                    from: &Vector3<f64>,
+                    to: &Vector3<f64>,
+                    place: usize| { turn(axis, from, to, near(order[place])) };
         let found: Vec<Vec<Turn>> = match turning.as_slice() {
             [] => vec![Vec::new()],
             [axis] => vec![vec![turn(axis, &z, direction, 0)]],
@@ -164,7 +168,9 @@ impl RotaryAxes {
             let own = pointing.angles_deg[index];
             let angle = match pointing.free[index] {
                 true => larger(least, smaller(largest, own)),
-                false if own < least - AT_LIMIT => own + 360.0 * ((least - AT_LIMIT - own) / 360.0).ceil(),
+                false if own < least - AT_LIMIT => {
+                    own + 360.0 * ((least - AT_LIMIT - own) / 360.0).ceil()
+                }
                 false if own > largest + AT_LIMIT => {
                     own - 360.0 * ((own - largest - AT_LIMIT) / 360.0).ceil()
                 }
@@ -188,6 +194,26 @@ impl RotaryAxes {
             let inside = (least - AT_LIMIT..=largest + AT_LIMIT).contains(angle);
             (!inside).then_some((axis, *angle))
         })
+    }
+
+    /// Which axis would leave its limits at these angles, in words, with all of them.
+    #[must_use]
+    pub fn words_of_limits(&self, angles_deg: &[f64]) -> String {
+        let each = self.axes.iter().zip(angles_deg);
+        let stand: Vec<String> = each
+            .map(|(axis, angle)| format!("{}{angle:.3}", axis.letter))
+            .collect();
+        let stand = stand.join(" ");
+        match self.angle_outside(angles_deg) {
+            Some((axis, angle)) => {
+                let [least, largest] = axis.limits_deg.unwrap_or_default();
+                format!(
+                    "axis {} would stand at {angle:.3} deg, and it reaches {least} to {largest} deg (nearest angles: {stand})",
+                    axis.letter
+                )
+            }
+            None => format!("the axes stand within their limits ({stand})"),
+        }
     }
 
     fn is_table(&self, index: usize) -> bool {

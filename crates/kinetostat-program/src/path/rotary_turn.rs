@@ -20,6 +20,18 @@ pub struct RotaryTurn {
     pub origin_deg: Vec<f64>,
     /// On which the tool's axis goes in the part; `None` where each axis turns evenly with the share.
     pub great_circle: Option<GreatCircle>,
+    /// What the program says of them.
+    pub stated: StatedBy,
+}
+
+/// How a program says where rotary axes stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StatedBy {
+    /// By their words.
+    #[default]
+    Angles,
+    /// By a direction of the tool (G43.5 I J K, A3 B3 C3, six numbers of a GOTO).
+    Direction,
 }
 
 impl RotaryTurn {
@@ -56,7 +68,7 @@ impl RotaryTurn {
     /// How far the part has turned at a share of the move from where it lies at zero; `None` on a machine without tables.
     ///
     /// ```
-    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
     /// use nalgebra::{UnitQuaternion, Vector3};
     ///
     /// let head = RotaryAxis {
@@ -73,6 +85,7 @@ impl RotaryTurn {
     ///     end_deg: vec![30.0],
     ///     origin_deg: vec![0.0],
     ///     great_circle: None,
+    ///     stated: StatedBy::Angles,
     /// };
     /// assert!(turn.part(0.5).is_none());
     /// assert_eq!((turn.angles_deg(0.5), turn.ways_deg()), (vec![15.0], vec![30.0]));

@@ -50,6 +50,13 @@ impl ExtraAxes {
         Some(self.place(letter)? + self.origin_deg(letter))
     }
 
+    /// A rotary axis was turned to an angle, in its own degrees.
+    pub fn turn_to(&mut self, letter: char, angle_deg: f64) {
+        if let Some(index) = Self::rotary_index(letter as u8) {
+            self.places[index] = Some(angle_deg - self.origin_deg[index]);
+        }
+    }
+
     /// Where the words of a rotary axis count from, in its own degrees.
     pub fn origin_deg(&self, letter: char) -> f64 {
         Self::rotary_index(letter as u8).map_or(0.0, |index| self.origin_deg[index])

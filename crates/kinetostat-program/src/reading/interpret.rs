@@ -15,6 +15,7 @@ use crate::reading::beside::{
     refuse_parameters_of_calls,
 };
 use crate::reading::block::Block;
+use crate::reading::directions::{states_direction, with_circle};
 use crate::reading::extra::{ExtraAxes, RotaryOrigins};
 use crate::reading::machine::{MachinePlace, machine_place};
 use crate::reading::modes::Modes;
@@ -211,6 +212,9 @@ impl<'o> Interpreter<'o> {
             .extra
             .count_from(self.rotary_origins[self.modes.work_offset]);
         self.rotary.set_tool_centre_point(block, &mut self.modes)?;
+        if block.codes.tool_centre_point {
+            self.modes.directions = self.rotary.law_of_directions(block, &self.modes)?;
+        }
         self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
@@ -224,8 +228,8 @@ impl<'o> Interpreter<'o> {
             }
         } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
-        } else if has_axis_words || self.is_centre_only(block) {
-            refuse_parameters_of_calls(block, self.modes.motion)?;
+        } else if has_axis_words || self.is_centre_only(block) || self.turns_alone(block) {
+            refuse_parameters_of_calls(block, self.modes.motion, self.modes.directions.is_some())?;
             self.read_move(block)?;
         } else {
             self.note_no_motion(block);
@@ -237,6 +241,11 @@ impl<'o> Interpreter<'o> {
             self.spindle.end(line + usize::from(moves));
         }
         Ok(())
+    }
+
+    /// `I0 J1 K1` under G43.5 turns the tool where it stands.
+    fn turns_alone(&self, block: &Block<'_>) -> bool {
+        self.modes.directions.is_some() && states_direction(block)
     }
 
     /// `G2 I5` is a full circle without an axis word.
@@ -482,10 +491,14 @@ impl<'o> Interpreter<'o> {
         let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
         self.places.position = end;
         let angles = self.rotary.angles(&self.modes);
+        let circle = self
+            .rotary
+            .take_direction(block, (kind, motion), &mut self.modes)?;
         let extra = self.modes.extra.read(block, self.modes.incremental);
-        let tool_turn =
-            self.rotary
-                .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?;
+        let tool_turn = self
+            .rotary
+            .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
+            .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
         if let Some((axis, ..)) = lost {
             self.repeated.note(block.line_number, &format!(

@@ -2,7 +2,8 @@
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
-use crate::path::rotary_turn::RotaryTurn;
+use crate::path::rotary::RotaryAxes;
+use crate::path::rotary_turn::{RotaryTurn, StatedBy};
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
@@ -37,7 +38,11 @@ impl<'o> RotaryWords<'o> {
             || axes.any(|axis| axis.letter == char::from(letter))
     }
 
-    /// G43.4 and G49.
+    pub fn axes(self) -> Option<&'o RotaryAxes> {
+        self.options.rotary.as_deref()
+    }
+
+    /// G43.4, G43.5 and G49.
     pub fn set_tool_centre_point(
         self,
         block: &Block<'_>,
@@ -45,16 +50,21 @@ impl<'o> RotaryWords<'o> {
     ) -> Result<(), ProgramError> {
         if block.codes.tool_centre_point {
             if self.options.rotary.is_none() && self.options.other_axes != OtherAxes::Carried {
+                let code = match block.codes.by_direction {
+                    true => "G43.5",
+                    false => "G43.4",
+                };
                 return Err(block.refuse(
                     ProgramErrorKind::UnknownCode,
                     None,
-                    "G43.4 (tool length offset with tool point control): it changes where the tool point goes with rotary axes, and the machine's model has none",
+                    &format!("{code} (tool length offset with tool point control): it changes where the tool point goes with rotary axes, and the machine's model has none"),
                     "use G43 H with a Z word, or describe the rotary axes in the model ([[rotary_axis]])",
                 ));
             }
             modes.tool_centre_point = true;
         } else if block.codes.tool_length == Some(490) {
             modes.tool_centre_point = self.options.tool_centre_point == ToolCentrePoint::Throughout;
+            modes.directions = None;
         }
         if block.codes.position_offset.is_some()
             && let Some(word) = self.rotary_word(block)
@@ -89,9 +99,12 @@ impl<'o> RotaryWords<'o> {
             return Ok(None);
         };
         let after = self.angles(modes);
-        let turned = self.turned(&after).is_some();
+        let turned = self.turned(&after).or(self.turned(before)).is_some();
         if kind == MoveKind::Feed {
             self.refuse_cut_at_angles(block, modes, &after)?;
+            if !modes.tool_centre_point {
+                self.refuse_cut_at_angles(block, modes, before)?;
+            }
         }
         let tip = modes.tool_centre_point;
         let unknown = after.contains(&None);
@@ -115,6 +128,10 @@ impl<'o> RotaryWords<'o> {
             start_deg: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
             end_deg,
             great_circle: None,
+            stated: match modes.directions {
+                Some(_) => StatedBy::Direction,
+                None => StatedBy::Angles,
+            },
         };
         Ok(Some(Box::new(ToolTurn::rotary(turn))))
     }
