@@ -50,7 +50,7 @@ fn limits_of_joint(mechanism: &Mechanism, direction: &Unit<Vector3<f64>>) -> Opt
     turned.rotation = UnitQuaternion::from_axis_angle(direction, TURN) * home.rotation;
     let at = |pose: &Pose| Some(mechanism.posture(pose).ok()?.commands());
     let (before, after) = (at(&home)?, at(&turned)?);
-    let actuators = (mechanism.limbs().iter()).flat_map(|limb| &limb.nominal.actuators);
+    let actuators = (mechanism.limbs().iter()).flat_map(|limb| limb.nominal.actuators());
     let mut joints = before
         .iter()
         .zip(&after)
