@@ -70,6 +70,8 @@ impl GreatCircle {
         if (from + to).norm() < OPPOSITE {
             return Err(OffCircle::Opposite);
         }
+        // An end that is not reached says more than a place on the way to it.
+        (axes.angles_towards(to, from_deg)).map_err(|reason| OffCircle::Unreached(*to, reason))?;
         let across = from.cross(to);
         let (sine, cosine) = (across.norm(), from.dot(to));
         let turn = across

@@ -500,11 +500,17 @@ impl<'o> Interpreter<'o> {
             .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
             .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
-        if let Some((axis, ..)) = lost {
-            self.repeated.note(block.line_number, &format!(
-                "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
-                char::from(COORDINATES[axis])
-            ));
+        if let Some((axis, cause, line)) = lost {
+            let text = match cause {
+                Cause::Rotary if !self.modes.tool_centre_point => format!(
+                    "line {line} turned a rotary axis, and tool centre point control is off: X, Y and Z are places of the machine's slides here. The block is carried without a correction, as all are until a rapid states X, Y and Z under G43.4, or with the axes back at zero"
+                ),
+                _ => format!(
+                    "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
+                    char::from(COORDINATES[axis])
+                ),
+            };
+            self.repeated.note(block.line_number, &text);
         }
         // Where the slides go while a rotary axis turns is no way of the tip.
         let known_before = match lost {

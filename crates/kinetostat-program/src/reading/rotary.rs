@@ -99,6 +99,9 @@ impl<'o> RotaryWords<'o> {
             return Ok(None);
         };
         let after = self.angles(modes);
+        if before != after || self.rotary_word(block).is_some() {
+            places.turned_on = block.line_number;
+        }
         let turned = self.turned(&after).or(self.turned(before)).is_some();
         if kind == MoveKind::Feed {
             self.refuse_cut_at_angles(block, modes, &after)?;
@@ -110,7 +113,7 @@ impl<'o> RotaryWords<'o> {
         let unknown = after.contains(&None);
         if (tip && unknown) || (!tip && turned) {
             for axis in 0..3 {
-                places.lose(axis, Cause::Rotary, block.line_number);
+                places.lose(axis, Cause::Rotary, places.turned_on);
             }
         }
         if !tip || unknown {
@@ -173,6 +176,19 @@ impl<'o> RotaryWords<'o> {
     ) -> Result<(), ProgramError> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let unknown = axes.zip(angles).find(|(_, angle)| angle.is_none());
+        let mut axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        let away = axes.find(|axis| modes.extra.is_elsewhere(axis.letter));
+        if let (false, Some(axis)) = (modes.tool_centre_point, away) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                &format!(
+                    "axis {} was sent to a place of the machine (G53), and tool centre point control is off: where the tip is in the part is not known",
+                    axis.letter
+                ),
+                &format!("turn it back with an absolute word (G0 {}0) before the cut, or let the CAM system write places of the tool's tip in the part (G43.4)", axis.letter),
+            ));
+        }
         match (modes.tool_centre_point, unknown, self.turned(angles)) {
             (true, Some((axis, _)), _) => Err(block.refuse(
                 ProgramErrorKind::Ambiguous,

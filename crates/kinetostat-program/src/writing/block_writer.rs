@@ -123,6 +123,8 @@ impl<'a> BlockWriter<'a> {
                 motion,
                 tool_axis: whole.tool_axis,
                 were_turned: false,
+                begins_directions: (words.iter())
+                    .any(|word| word.letter == b'G' && word.tenths() == 435),
             },
             separator: if spaced { " " } else { "" },
             lower_case: words
@@ -175,8 +177,12 @@ impl<'a> BlockWriter<'a> {
             }
         }
         self.edit_extra_axes(steps, &mut edits)?;
-        let is_axis =
-            |word: &Word| AXES.contains(&word.letter) || b"ABCEUVW".contains(&word.letter);
+        let directed = self.turned.is_directed();
+        let is_axis = |word: &Word| {
+            AXES.contains(&word.letter)
+                || b"ABCEUVW".contains(&word.letter)
+                || directed && b"IJK".contains(&word.letter)
+        };
         if added.is_empty() && !self.words.iter().any(is_axis) {
             // A circle too small to leave the rounded place: without an axis it would be no motion.
             self.add_standing(state, &mut added);

@@ -23,6 +23,8 @@ pub(crate) struct TurnedAxes<'a> {
     pub tool_axis: Vector3<f64>,
     /// They stand otherwise than the program has them when the block begins.
     pub were_turned: bool,
+    /// G43.5 stands in the block: a direction does not, and the axes stay at the angles of the program.
+    pub begins_directions: bool,
 }
 
 impl TurnedAxes<'_> {
@@ -48,9 +50,14 @@ impl TurnedAxes<'_> {
 
     /// Whether pieces of the block get words of their own here: what angles of the program say is shared out elsewhere.
     fn has_words(&self, steps: &[OutputMove]) -> bool {
-        let directions = |rotary: &RotaryTurn| rotary.stated == StatedBy::Direction;
-        let divided = steps.len() > 1 && self.rotary().is_some_and(directions);
-        divided || self.are_turned(steps)
+        let divided = steps.len() > 1 && self.is_directed();
+        !self.begins_directions && (divided || self.are_turned(steps))
+    }
+
+    /// Whether directions say how the tool stands (G43.5).
+    pub fn is_directed(&self) -> bool {
+        let directed = |rotary: &RotaryTurn| rotary.stated == StatedBy::Direction;
+        self.rotary().is_some_and(directed)
     }
 
     /// By how much the axes stand otherwise at the end of a piece than the program has them, deg.

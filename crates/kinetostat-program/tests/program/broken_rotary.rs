@@ -35,6 +35,11 @@ fn broken_programs_are_refused_with_line_and_reason() {
     let begun = |begin: &str, more: &str| format!("{begin}{more}");
     let cases = [
         (
+            "G21 G90 G94\nG0 X0 Y0 Z50 A0 C0\nG53 G0 C90\nG0 X0 Y0 Z50\nG1 X9 F100\n".to_owned(),
+            5,
+            "axis C was sent to a place of the machine (G53)",
+        ),
+        (
             begun(ANGLES, "G1 X9 B10 F100\n"),
             4,
             "axis B changes where the tool is",
@@ -55,8 +60,8 @@ fn broken_programs_are_refused_with_line_and_reason() {
             "axis A stands at 10 deg, and tool centre point control is off",
         ),
         (
-            begun(ANGLES, "G49\nG1 X9 C90 F100\n"),
-            5,
+            begun(ANGLES, "G49\nG0 X0 Y0 Z50\nG1 X9 C90 F100\n"),
+            6,
             "axis C stands at 90 deg, and tool centre point control is off",
         ),
         (

@@ -59,7 +59,7 @@ fn between(from: &Vector3<f64>, to: &Vector3<f64>, share: f64) -> Vector3<f64> {
 }
 
 fn begun(angles: &str, more: &str) -> String {
-    format!("G21 G90 G94\nG0 X0 Y0 Z50 {angles}\nG43.5 H1 Z50{more}\nG0 I0.1 J0.3 K0.9\n")
+    format!("G21 G90 G94\nG0 X0 Y0 Z50 {angles}\nG43.5 H1 X0 Y0 Z50{more}\nG0 I0.1 J0.3 K0.9\n")
 }
 
 const CUTS: &str = "G1 Z0 F600\nX40 I0.3 J0.2 K0.8\nX40 Y40 I-0.2 J0.5 K1\nI0.1 J0.4 K0.7 F900\nX0 F600\nG0 Z50\nG49\nM30\n";
