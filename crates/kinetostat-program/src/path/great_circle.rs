@@ -71,7 +71,8 @@ impl GreatCircle {
             return Err(OffCircle::Opposite);
         }
         // An end that is not reached says more than a place on the way to it.
-        (axes.angles_towards(to, from_deg)).map_err(|reason| OffCircle::Unreached(*to, reason))?;
+        let end = (axes.angles_towards(to, from_deg))
+            .map_err(|reason| OffCircle::Unreached(*to, reason))?;
         let across = from.cross(to);
         let (sine, cosine) = (across.norm(), from.dot(to));
         let turn = across
@@ -89,21 +90,21 @@ impl GreatCircle {
                 true => *to,
                 false => circle.direction_at(step as f64 / steps as f64),
             };
-            let last = &circle.guides[step - 1];
             let off = |reason| OffCircle::Unreached(direction, reason);
-            let limited = axes.angles_towards(&direction, last).map_err(off)?;
-            let begins_free = step == 1 && at_pole(&axes.pointing(&from, last));
-            // Off a pole the axes go on as they came: over to other angles they would take the tool off its way.
-            let nearest = nearest(axes.pointing(&direction, last));
-            match nearest {
-                Some(angles) if !begins_free => {
-                    if axes.angle_outside(&angles).is_some() {
-                        return Err(off(Unreached::Limits(angles)));
-                    }
-                    circle.guides.push(angles);
-                }
-                _ => circle.guides.push(limited),
+            // From a pole the way leads to the angles of its end. Elsewhere the axes go on as they came: over to other angles they would
+            // take the tool off its way.
+            let begins_free = step == 1 && at_pole(&axes.pointing(&from, from_deg));
+            let near = match begins_free {
+                true => &end,
+                false => &circle.guides[step - 1],
+            };
+            let Some(angles) = nearest(axes.pointing(&direction, near)) else {
+                return Err(off(Unreached::Direction));
+            };
+            if axes.angle_outside(&angles).is_some() {
+                return Err(off(Unreached::Limits(angles)));
             }
+            circle.guides.push(angles);
             if begins_free {
                 let first = circle.guides[1].clone();
                 let begun = axes.angles_towards(&from, &first);
