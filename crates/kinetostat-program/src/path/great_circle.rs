@@ -60,6 +60,7 @@ impl GreatCircle {
     /// assert!((c - 45.0).abs() < 1e-9);
     /// assert!((b.to_radians().tan() - 30_f64.to_radians().tan() / 2_f64.sqrt()).abs() < 1e-9);
     /// assert!((circle.direction_at(0.5) - Vector3::new(0.25, 0.25, half) / (0.875_f64).sqrt()).norm() < 1e-12);
+    /// assert!(circle.start_deg()[0].abs() < 1e-9 && (circle.end_deg()[0] - 90.0).abs() < 1e-9);
     /// assert!(circle.way_deg()[0] > 89.0 && circle.fastest_deg()[0] < 120.0);
     /// ```
     ///
