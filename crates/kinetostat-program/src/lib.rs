@@ -72,11 +72,14 @@ pub use field::request::{
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
 pub use path::curve::{Arc, Curve};
+pub use path::great_circle::{GreatCircle, OffCircle};
 pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
 pub use path::pause::{Pause, PauseKind};
-pub use path::rotary::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
+pub use path::rotary::{Carries, RotaryAxes, RotaryAxis};
+pub use path::rotary_angles::Unreached;
+pub use path::rotary_turn::{RotaryTurn, StatedBy};
 pub use path::spindle::{SpeedMode, Spindle, SpindleChange, SpindleRotation};
 pub use path::tool_change::ToolChange;
 pub use path::tool_direction::Directed;

@@ -9,10 +9,11 @@ pub(crate) mod arguments;
 mod correction_table;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use kinetostat_machining::number::counted;
 use kinetostat_model::Model;
-use kinetostat_program::{Program, interpret};
+use kinetostat_program::{Program, RotaryAxes, interpret};
 
 use crate::compensate::arguments::CompensateArgs;
 use crate::convert::for_run::{Converted, for_run};
@@ -74,6 +75,11 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let mut setting = setting(files, job, flags, &writing(args))?;
     let existing = Existing::forced(flags.force_overwrite);
     if args.no_compensation {
+        let known = args.run.model.is_some() || job.is_some_and(|j| j.job.model.is_some());
+        if known && setting.robot.is_none() {
+            let named = (job, args.run.model.as_deref());
+            setting.turned_by(rotary_of_copy(files, named, flags));
+        }
         return copy(&setting, existing);
     }
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
@@ -230,6 +236,17 @@ fn job_after_json(args: &mut CompensateArgs) {
     if taken && args.run.job.is_none() {
         args.run.job = args.run.json.replace(PathBuf::from("-"));
     }
+}
+
+/// The rotary axes of the model that a copy is given: whether its program could be compensated depends on them.
+fn rotary_of_copy(
+    files: &InputFiles,
+    (job, model): (Option<&JobFile>, Option<&str>),
+    flags: &ProgramArgs,
+) -> Option<Arc<RotaryAxes>> {
+    // A copy needs no machine: what is wrong with it stops nothing.
+    let machine = machine_setup(files, job, model, flags, (None, &mut Vec::new()));
+    machine.ok()?.0.rotary
 }
 
 /// The program as it was read.

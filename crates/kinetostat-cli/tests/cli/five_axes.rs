@@ -91,3 +91,65 @@ fn the_tool_s_axis_is_corrected_on_request() {
     assert_eq!(said.code, 1);
     assert!(said.err.contains("--correct pose"), "{said:?}");
 }
+
+/// A copy is told by the rotary axes of the model whether its program could be compensated.
+#[test]
+fn a_copy_knows_the_axes_of_its_model() {
+    let here = place();
+    let here = here.path();
+    let line = format!("compensate --program cone.nc {MACHINE} --no-compensation --out copy.nc");
+    let said = run(here, &words(&line)).answered();
+    assert!(!said.out.contains("could not be compensated"), "{said:?}");
+    assert_eq!(read(here, "copy.nc"), shown("cone.nc"));
+    // Without a model there is none of its axes.
+    let said = run(
+        here,
+        &words("compensate --program cone.nc --no-compensation --out copy2.nc"),
+    )
+    .answered();
+    assert!(said.out.contains("[[rotary_axis]]"), "{said:?}");
+}
+
+/// The joint of a head says how far its word reaches, and so do limits that the model states.
+#[test]
+fn limits_of_a_head_choose_its_angles() {
+    let here = place();
+    let here = here.path();
+    let text = "UNITS/MM\nMULTAX/ON\nRAPID\nGOTO/60,0,50,0,0,1\nFEDRAT/600,MMPM\nGOTO/60,0,0,0,0,1\nGOTO/60,40,0,0,0.342020143,0.939692621\nGOTO/0,40,0,0,0.342020143,0.939692621\nFINI\n";
+    std::fs::write(here.join("tilted.apt"), text).unwrap();
+    let model = read(here, "portal.toml");
+    let head = "word = \"A\"\ncarries = \"tool\"\naxis = \"x\"\n";
+    let joint = "limits_deg = [-110, 110]";
+    assert!(model.contains(head) && model.contains(joint));
+    for (name, changed) in [
+        (
+            "joint.toml",
+            model.replace(joint, "limits_deg = [-110, 10]"),
+        ),
+        (
+            "stated.toml",
+            model.replace(head, &format!("{head}limits_deg = [-5, 10]\n")),
+        ),
+        ("both.toml", model.replace(joint, "limits_deg = [-10, 10]")),
+    ] {
+        std::fs::write(here.join(name), changed).unwrap();
+    }
+    let line = |name: &str| {
+        format!("compensate --program tilted.apt {MACHINE} --out out.apt --force-overwrite")
+            .replace("portal.toml", name)
+    };
+    run(here, &words(&line("joint.toml"))).answered();
+    for (name, limits) in [
+        ("stated.toml", "-5 to 10 deg"),
+        ("both.toml", "-10 to 10 deg"),
+    ] {
+        let said = run(here, &words(&line(name)));
+        assert_eq!(said.code, 1, "{said:?}");
+        let one_line = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            one_line.contains("line 7") && one_line.contains(limits),
+            "{one_line}"
+        );
+        assert!(one_line.contains("nearest angles"), "{one_line}");
+    }
+}

@@ -103,5 +103,6 @@ pub fn read_apt(
         motions,
         findings,
         declarations: Vec::new(),
+        even_axes: std::collections::BTreeSet::new(),
     })
 }

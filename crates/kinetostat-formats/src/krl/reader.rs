@@ -114,6 +114,7 @@ pub fn read_krl(
         motions,
         findings,
         declarations: targets.declarations,
+        even_axes: std::collections::BTreeSet::new(),
     })
 }
 

@@ -63,6 +63,8 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
+    /// The motions in which the rotary axes of a machine turn evenly, where others lead the tool's axis on a great circle.
+    pub(crate) even_axes: BTreeSet<usize>,
 }
 
 impl RobotProgram {

@@ -5,7 +5,6 @@
 //! it does: another turn is another posture. So a rule says it, for every pose of the program, from the numbers of the text alone:
 //! what was written is read again by the same rule.
 
-use kinetostat_program::RotaryAxes;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::model::motion::Motion;
@@ -16,8 +15,8 @@ use crate::path::fault::PathError;
 
 /// How the tool is turned about its axis where a program states the axis alone.
 ///
-/// Between two poses it turns by the shorter way about one axis, evenly with the way. With [`TurnAboutAxis::Least`] its axis then
-/// goes on the great circle, as with `ORIVECT` of SINUMERIK.
+/// Between two poses the tool's axis goes on the great circle, evenly with the way, as with `ORIVECT` of SINUMERIK; and the tool turns
+/// evenly about it.
 ///
 /// ```
 /// use kinetostat_formats::*;
@@ -71,7 +70,7 @@ pub(crate) fn is_by_axis(program: &RobotProgram, motion: &Motion) -> bool {
 }
 
 /// The axis at the end of a motion, in axes of its work object; none where the motion states more, or nothing.
-fn axis_of(program: &RobotProgram, motion: &Motion) -> Option<Vector3<f64>> {
+pub(crate) fn axis_of(program: &RobotProgram, motion: &Motion) -> Option<Vector3<f64>> {
     let pose = motion
         .target
         .pose()
@@ -180,43 +179,7 @@ pub(crate) fn axis_turns(
     }
 }
 
-/// The angles of a machine's rotary axes at the end of every motion, deg; those of before where a motion states no axis.
-///
-/// Of the angles that point the tool along the axis, those nearest to the ones before; at first, to zero.
-pub(crate) fn rotary_angles(
-    program: &RobotProgram,
-    rotary: &RotaryAxes,
-) -> Result<Vec<Vec<f64>>, Vec<PathError>> {
-    let mut faults = Vec::new();
-    let mut last = vec![0.0; rotary.axes.len()];
-    let mut all = Vec::with_capacity(program.motions.len());
-    for motion in &program.motions {
-        let Some(axis) = axis_of(program, motion) else {
-            all.push(last.clone());
-            continue;
-        };
-        match rotary.angles_towards(&axis, &last) {
-            Some(angles) => last = angles,
-            None => faults.push(PathError {
-                file: program.files[motion.file].name().to_owned(),
-                line: motion.line,
-                reason: format!(
-                    "the rotary axes of the machine do not point the tool along ({:.4}, {:.4}, {:.4})",
-                    axis.x, axis.y, axis.z
-                ),
-                remedy: "check directions and words of the axes in the model ([[rotary_axis]]), and which axes the part has"
-                    .to_owned(),
-            }),
-        }
-        all.push(last.clone());
-    }
-    match faults.is_empty() {
-        true => Ok(all),
-        false => Err(faults),
-    }
-}
-
-const OVER: (&str, &str) = (
+pub(crate) const OVER: (&str, &str) = (
     "the tool's axis turns to its opposite here, and over which side it goes is not stated",
     "let the CAM system write a pose between, or state how the tool turns about its axis (`turn_about_axis`)",
 );

@@ -3,6 +3,7 @@
 //! [`of_program`] makes the path of a program, [`circle`] the arcs of its circular motions, [`axis_turns`] says how the tool stands
 //! where the text states its axis alone, [`correctable`] writes corrections of the path as pieces of motions and reads them again.
 
+pub(crate) mod axis_angles;
 pub(crate) mod axis_turns;
 pub(crate) mod circle;
 pub(crate) mod correctable;

@@ -4,9 +4,9 @@ use std::sync;
 
 use kinetostat_program::{
     Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, RotaryAxes,
-    RotaryTurn, ToolTurn, Warning,
+    RotaryTurn, StatedBy, ToolTurn, Warning,
 };
-use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
 use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
@@ -15,7 +15,8 @@ use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
-use crate::path::axis_turns::{axis_turns, first_leaning, rotary_angles};
+use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
+use crate::path::axis_turns::{axis_turns, first_leaning, is_by_axis};
 use crate::path::circle::about;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
@@ -172,7 +173,9 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
                         "write one program for each work object",
                     )]);
                 }
-                maker.rotary = Some((sync::Arc::clone(rotary), rotary_angles(program, rotary)?));
+                let is_rapid = |motion: &Motion| maker.is_rapid(motion);
+                let angles = axes_of_motions(program, rotary, is_rapid)?;
+                maker.rotary = Some((sync::Arc::clone(rotary), angles));
                 maker.tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
             }
             None => {
@@ -218,8 +221,8 @@ struct Maker<'a> {
     in_base: bool,
     /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
     turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
-    /// Where the rotary axes of the machine stand there, deg, instead.
-    rotary: Option<(sync::Arc<RotaryAxes>, Vec<Vec<f64>>)>,
+    /// What the rotary axes of the machine do, instead.
+    rotary: Option<(sync::Arc<RotaryAxes>, Vec<AxesOfMotion>)>,
     /// From the tip to the holder, in axes of the tool.
     tool_axis: Vector3<f64>,
 }
@@ -372,22 +375,28 @@ impl Maker<'_> {
             start: a,
             end: b,
             tool_turn: match &self.rotary {
-                Some((axes, angles)) => {
-                    let before = match known {
-                        Knowledge::Whole => index.saturating_sub(1),
-                        _ => index,
-                    };
+                Some((axes, motions)) => {
+                    let own = &motions[index];
+                    let whole = known == Knowledge::Whole;
                     Some(Box::new(ToolTurn::rotary(RotaryTurn {
                         axes: sync::Arc::clone(axes),
-                        origin_deg: vec![0.0; angles[index].len()],
-                        start_deg: angles[before].clone(),
-                        end_deg: angles[index].clone(),
+                        origin_deg: vec![0.0; own.end_deg.len()],
+                        start_deg: match whole {
+                            true => own.start_deg.clone(),
+                            false => own.end_deg.clone(),
+                        },
+                        end_deg: own.end_deg.clone(),
+                        great_circle: own.great_circle.clone().filter(|_| whole),
+                        stated: StatedBy::Direction,
                     })))
                 }
                 None => self.states_orientation(motion).then(|| {
                     let start = nearest(from.rotation, &to.rotation);
+                    let axis = Unit::new_normalize(self.tool_axis);
+                    let by_axis = self.turns.is_some() && is_by_axis(self.program, motion);
                     Box::new(match self.swivels(motion) {
                         true => ToolTurn::swivelled(start, to.rotation, Vector3::x_axis()),
+                        false if by_axis => ToolTurn::swivelled(start, to.rotation, axis),
                         false => ToolTurn::shortest(start, to.rotation),
                     })
                 }),

@@ -7,6 +7,7 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
+use crate::path::axis_angles::on_great_circle;
 use crate::path::axis_turns::TurnAboutAxis;
 use crate::path::options::PathOptions;
 
@@ -95,7 +96,15 @@ pub(crate) fn by_rule(
     options: &PathOptions,
 ) -> Vec<Warning> {
     let rule = match options.turn_about_axis {
-        _ if options.rotary.is_some() => "with the rotary axes of the machine",
+        _ if options.rotary.is_some() => {
+            let index = (program.motions.iter()).position(|motion| std::ptr::eq(motion, leaning));
+            match on_great_circle(program, index.unwrap_or(0)) {
+                true => {
+                    "with the rotary axes of the machine, which lead its axis on the great circle from pose to pose"
+                }
+                false => "with the rotary axes of the machine, each evenly from pose to pose",
+            }
+        }
         TurnAboutAxis::Least => "as little as possible from pose to pose (`turn_about_axis`)",
         TurnAboutAxis::Towards { .. } => "towards the direction that is stated (`turn_about_axis`)",
     };

@@ -1,7 +1,7 @@
 //! What a written program satisfies, read off its bytes.
 
 use kinetostat_program::{
-    Corrected, Knowledge, Piece, Verification, WriteError, WriteOptions, irregular,
+    Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
 };
 
 use crate::model::program::{Language, RobotProgram};
@@ -14,9 +14,13 @@ const SEED: u64 = 11;
 /// Turn of the tool that may lie between what is read and what was to be written, rad.
 const TURN: f64 = 1e-5;
 
+/// Turn between the ends of a piece that the digits of written directions may leave, rad.
+const TURN_BETWEEN: f64 = 1e-4;
+
 /// Checks a written program that was read again:
 ///
 /// - its motions are the pieces accounted for, one after the other, at their places and with their orientation;
+/// - between them the tool's axis goes as in the input, where the program states it alone;
 /// - no place between them is farther from the input's path than the largest correction, the chords of arcs and the rounding;
 /// - the speed along the part is the programmed one, or slower where it was held;
 /// - lines without a motion or a target of one are there byte for byte, in their order.
@@ -95,6 +99,10 @@ fn one(
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }
+    let between = input.axis_alone && motion.known == Knowledge::Whole;
+    if between && !goes_as_stated((input, made), written, (index, piece)) {
+        return fail("between its ends the tool stands otherwise than in the program".to_owned());
+    }
     if let Some(circle) = &piece.circle {
         let off =
             [0.25, 0.5, 0.75].map(|part| (made.point(part) - circle.curve.point(part)).norm());
@@ -130,6 +138,28 @@ fn one(
         }
     }
     speed((program, input), again, (index, piece), found).map_or(Ok(()), fail)
+}
+
+/// Whether the tool's axis goes between the ends of a piece as it does in the input, but for what it is turned at them.
+fn goes_as_stated(
+    (input, made): (&RobotPath, &Move),
+    written: &Corrected,
+    (index, piece): (usize, &Piece),
+) -> bool {
+    let motion = &input.path.moves[piece.move_index];
+    let tilt = |index: usize| {
+        let piece = written.pieces.get(index)?;
+        let own = input.path.moves[piece.move_index].orientation(piece.share_to)?;
+        Some(input.turned(written.orientations.get(index)?, &own))
+    };
+    let before = index.checked_sub(1).and_then(tilt);
+    let allowed = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0) + TURN_BETWEEN;
+    [0.25, 0.5, 0.75].into_iter().all(|part| {
+        let share = piece.share_from + part * (piece.share_to - piece.share_from);
+        let both = made.orientation(part).zip(motion.orientation(share));
+        // Not a number is off, too.
+        both.is_none_or(|(made, own)| input.turned(&made, &own) <= allowed)
+    })
 }
 
 /// The speed along the part; what is wrong with it.

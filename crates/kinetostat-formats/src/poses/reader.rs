@@ -101,6 +101,7 @@ pub fn read_poses(
         motions,
         findings,
         declarations: Vec::new(),
+        even_axes: std::collections::BTreeSet::new(),
     })
 }
 

@@ -12,9 +12,9 @@ use crate::siemens::words::{Purpose, Words};
 use crate::table::Treatment;
 
 /// Words that are understood and have no value.
-const ALONE: [&str; 13] = [
+const ALONE: [&str; 16] = [
     "SUPA", "CIP", "TRANS", "ATRANS", "ROT", "AROT", "RET", "TRAORI", "TRAFOOF", "ORIWKS",
-    "ORIMKS", "ORIEULER", "ORIRPY",
+    "ORIMKS", "ORIEULER", "ORIRPY", "ORIAXES", "ORIVECT", "ORIPLANE",
 ];
 
 impl Reader<'_> {
@@ -52,6 +52,8 @@ impl Reader<'_> {
             }
             "ORIWKS" => self.state.machine_orientation = false,
             "ORIMKS" => self.state.machine_orientation = true,
+            "ORIAXES" => self.state.even_axes = true,
+            "ORIVECT" | "ORIPLANE" => self.state.even_axes = false,
             "ORIEULER" => self.state.angles = Some(Angles::Euler),
             "ORIRPY" => self.state.angles = Some(Angles::Rpy),
             _ => words.frame = Change::of(&name).or(words.frame),

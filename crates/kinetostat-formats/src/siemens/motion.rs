@@ -375,6 +375,9 @@ impl Reader<'_> {
             machine: words.purpose == Purpose::Machine,
             steps: state.steps,
         };
+        if state.even_axes {
+            self.out.even_axes.insert(self.out.motions.len());
+        }
         self.out.motions.push(motion);
         self.out.written.push(written);
         self.state.place = end;

@@ -114,6 +114,8 @@ pub(crate) struct State {
     pub angles: Option<Angles>,
     /// ORIMKS.
     pub machine_orientation: bool,
+    /// ORIAXES; else ORIVECT, the basic setting, is in force: the tool's axis goes on a great circle.
+    pub even_axes: bool,
     /// Direction of the tool in the part's axes, where it was stated.
     pub direction: Option<Vector3<f64>>,
     /// Where the tool is, in the frame's axes, mm.
@@ -151,6 +153,7 @@ impl State {
             oriented: false,
             angles: None,
             machine_orientation: false,
+            even_axes: false,
             direction: None,
             place: [None; 3],
             last: None,

@@ -1,6 +1,6 @@
 //! What the walk over a program knows and has found, and how it says what is wrong.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
@@ -23,6 +23,8 @@ pub(crate) struct Scan {
     pub written: Vec<Written>,
     pub findings: Vec<Finding>,
     pub faults: Vec<ProgramError>,
+    /// Motions under ORIAXES.
+    pub even_axes: BTreeSet<usize>,
 }
 
 /// How a motion is written, for the writer.

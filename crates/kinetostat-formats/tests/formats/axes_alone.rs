@@ -321,6 +321,7 @@ fn rotary_axes_of_a_machine_are_turned_to_the_axis() {
         carries,
         direction: Unit::new_normalize(direction),
         point_mm: V::new(3.0, -8.0, 20.0),
+        limits_deg: None,
     };
     let (head, table) = (Carries::Tool, Carries::Part);
     let upright = UnitQuaternion::identity();

@@ -10,6 +10,7 @@
 
 mod apt;
 mod axes_alone;
+mod axes_on_circles;
 mod chance;
 mod circles;
 mod fields;

@@ -8,14 +8,16 @@
 //! ```
 //!
 //! so that on a counter-clockwise circle `e_r` points outwards. Where the program turns the tool, z is the direction from its tip
-//! to its holder and the feed is seen along that. At a gentle corner the load turns
+//! to its holder and the feed is seen along that. While the tool turns in place (`G1 C90` alone) the feed counts as that of the path around,
+//! over 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into
+//! blocks. Where the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns
 //! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
 //! while the written program steps there is a matter of reading ([`CornerLoad`]).
 
 use std::borrow::Cow;
 
 use kinetostat::Wrench;
-use kinetostat_program::{Curve, MoveKind, Path};
+use kinetostat_program::{Curve, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::cut::profile::{CutAxes, ForceAlongPath};
@@ -289,9 +291,8 @@ impl<'a> LoadAlongPath<'a> {
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
         let h = self.headings.get(move_index).copied().unwrap_or_default();
-        let own = h
-            .around
-            .or_else(|| heading_on(self.path, (move_index, share), motion.tangent(share)))?;
+        let along = h.around.or_else(|| motion.tangent(share));
+        let own = heading_on(self.path, (move_index, share), along)?;
         let length = motion.length_mm();
         let load = self.load_of(move_index);
         let zone = load.turning_length_mm;
@@ -311,12 +312,31 @@ impl<'a> LoadAlongPath<'a> {
     /// The load in words.
     #[must_use]
     pub fn description(&self) -> String {
-        if self.tools.is_empty() {
-            return self.load.description();
-        }
         let of_tool =
             |tool: &Tool<'_>| format!("tool {}: {}", tool.number, tool.load.description());
-        let all: Vec<String> = self.tools.iter().map(of_tool).collect();
-        all.join("; ")
+        let all: Vec<String> = match self.tools.is_empty() {
+            true => vec![self.load.description()],
+            false => self.tools.iter().map(of_tool).collect(),
+        };
+        all.join("; ") + self.words_of_turning()
+    }
+
+    /// How a load of the feed turns with the rotary axes of a machine.
+    fn words_of_turning(&self) -> &'static str {
+        let turns = self.load.turns() || self.tools.iter().any(|tool| tool.load.turns());
+        let by_axes = |motion: &Move| {
+            let turn = motion.tool_turn.as_ref();
+            turn.is_some_and(|turn| turn.rotary.is_some()) && motion.kind == MoveKind::Feed
+        };
+        let mut moves = self.path.moves.iter().filter(|motion| by_axes(motion));
+        if !turns || moves.clone().next().is_none() {
+            return "";
+        }
+        match moves.any(Move::turns_in_place) {
+            true => {
+                ", all as seen along the tool in the part; while rotary axes turn alone, the feed counts as that of the path around, fixed in the part"
+            }
+            false => ", all as seen along the tool in the part",
+        }
     }
 }

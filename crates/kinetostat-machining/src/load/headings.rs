@@ -1,6 +1,7 @@
 //! In which direction a cut goes at the ends of every move, and how far the load lags behind at a gentle corner.
 
 use kinetostat_program::{Move, MoveKind, Path};
+use nalgebra::Vector3;
 
 use crate::cut::station::SHORT_MM;
 use crate::load::law::ProgramLoad;
@@ -10,8 +11,9 @@ use crate::load::tool_frame::heading_on;
 /// of the load differs there because a corner is gentle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Headings {
-    /// Of a move so short that its own direction says nothing: that of the path around it.
-    pub around: Option<f64>,
+    /// Of a move so short that its own direction says nothing, and of a turn in place: the direction of the path around it, part axes. It
+    /// stays as it is in the part while the tool turns.
+    pub around: Option<Vector3<f64>>,
     pub at_start: Option<f64>,
     pub at_end: Option<f64>,
     pub lag_start: f64,
@@ -21,8 +23,8 @@ pub(crate) struct Headings {
 /// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
 const AROUND_MM: f64 = 0.05;
 
-/// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
-fn around(path: &Path, move_index: usize) -> Option<f64> {
+/// Direction of the path around a move that is too short to have one; `None` for others, and where the path turns back.
+fn around(path: &Path, move_index: usize) -> Option<Vector3<f64>> {
     let motion = &path.moves[move_index];
     if !motion.is_known_feed() || motion.length_mm() >= SHORT_MM {
         return None;
@@ -45,10 +47,7 @@ fn around(path: &Path, move_index: usize) -> Option<f64> {
     let from = reach(&mut path.moves[..move_index].iter().rev(), true);
     let to = reach(&mut path.moves[move_index + 1..].iter(), false);
     let chord = to - from;
-    match chord.norm() > SHORT_MM {
-        true => heading_on(path, (move_index, 0.5), chord.try_normalize(0.0)),
-        false => None,
-    }
+    chord.try_normalize(SHORT_MM)
 }
 
 fn wrap(angle: f64) -> f64 {
@@ -65,12 +64,8 @@ pub(crate) fn headings<'l>(
     for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
         if m.kind == MoveKind::Feed && load_of(i).turns() {
             h.around = around(path, i);
-            h.at_start = h
-                .around
-                .or_else(|| heading_on(path, (i, 0.0), m.tangent(0.0)));
-            h.at_end = h
-                .around
-                .or_else(|| heading_on(path, (i, 1.0), m.tangent(1.0)));
+            h.at_start = heading_on(path, (i, 0.0), h.around.or_else(|| m.tangent(0.0)));
+            h.at_end = heading_on(path, (i, 1.0), h.around.or_else(|| m.tangent(1.0)));
         }
     }
     for i in 1..headings.len() {

@@ -106,6 +106,7 @@ impl Machine {
                 carries: *carries,
                 direction: Unit::new_normalize(*direction),
                 point_mm: *point,
+                limits_deg: None,
             });
         options.rotary = Some(Arc::new(RotaryAxes {
             axes: axes.collect(),

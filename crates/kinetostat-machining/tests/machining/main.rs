@@ -31,3 +31,4 @@ mod thinning;
 mod tools;
 mod turned_axes;
 mod turns_in_place;
+mod turns_of_load;

@@ -192,6 +192,7 @@ fn directions_and_angles_are_inverse_for_any_two_axes() {
         carries,
         direction: Unit::new_normalize(direction),
         point_mm: Vector3::zeros(),
+        limits_deg: None,
     };
     for carries in [Carries::Tool, Carries::Part] {
         let axes = RotaryAxes {

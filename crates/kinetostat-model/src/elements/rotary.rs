@@ -18,6 +18,8 @@ pub struct RotaryAxis {
     pub direction: Unit<Vector3<f64>>,
     /// A point on it, m; zero where it does not matter.
     pub point: Vector3<f64>,
+    /// Least and largest angle of its word, deg.
+    pub limits_deg: Option<[f64; 2]>,
 }
 
 /// The axes, each with its place in the file or what is wrong with it.
@@ -55,10 +57,20 @@ fn axis(place: &KeyPath, table: &RotaryAxisTable) -> ReadResult<RotaryAxis> {
             "write a point on it, as in  point_mm = [0, 0, 0]",
         ));
     }
+    if let Some([least, largest]) = table.limits_deg
+        && !(least.is_finite() && largest.is_finite() && least < largest)
+    {
+        return Err(Finding::new(
+            &place.key("limits_deg"),
+            format!("the limits {least} and {largest} leave no angle between them"),
+            "write the least angle and the largest one, as in  limits_deg = [-110, 110]",
+        ));
+    }
     Ok(RotaryAxis {
         letter: table.word.letter(),
         carries: table.carries,
         direction: direction(&place.key("axis"), &table.axis)?,
         point: point.map_or_else(Vector3::zeros, |given| given.value.into()),
+        limits_deg: table.limits_deg,
     })
 }

@@ -60,6 +60,8 @@ pub struct RotaryAxisTable {
     pub point_mm: Option<[f64; 3]>,
     /// A point on the axis there, base axes, m.
     pub point_m: Option<[f64; 3]>,
+    /// Least and largest angle of its word, deg; without them it turns without end, or a head as far as the joint of its chain does.
+    pub limits_deg: Option<[f64; 2]>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.

@@ -7,6 +7,7 @@ use crate::irregular::irregular;
 use crate::number::larger;
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
+use crate::path::rotary_turn::StatedBy;
 use crate::writing::written::Piece;
 
 use crate::checking::verifier::{Verifier, fail};
@@ -16,6 +17,9 @@ const SAME_PLACE_MM: f64 = 1e-6;
 
 /// Largest relative error of the speed along the part.
 const SPEED_TOLERANCE: f64 = 1e-3;
+
+/// Directions of the tool as written and as read again differ by less, rad: their digits.
+const SAME_DIRECTION: f64 = 1e-6;
 
 /// Largest difference between an angle as written and as read again, in deg: arithmetic only.
 const SAME_ANGLE_DEG: f64 = 1e-7;
@@ -79,6 +83,7 @@ impl Verifier<'_> {
             self.check_uncorrected(motion, piece, read)?;
             self.check_distance(motion, piece, read)?;
             self.check_speed(motion, piece, read)?;
+            self.check_directions(index, motion, read)?;
             let turned = self.check_turned_axes(index, motion, read)?;
             check_extra_axes(motion, piece, (read, turned))?;
         }
@@ -295,6 +300,53 @@ fn is_same_arc(read: &Move, point: impl Fn(f64) -> Vector3<f64>) -> bool {
 }
 
 impl Verifier<'_> {
+    /// Where directions say how the tool stands (G43.5), it stands so in the end of a piece as it was written, and goes between its ends as
+    /// the program has it.
+    fn check_directions(&self, index: usize, motion: &Move, read: &Move) -> Result<(), WriteError> {
+        let rotary = |motion: &Move| motion.tool_turn.as_ref()?.rotary.clone();
+        let Some(own) = rotary(motion).filter(|own| own.stated == StatedBy::Direction) else {
+            return Ok(());
+        };
+        let piece = &self.pieces[index];
+        let lost = || {
+            fail(
+                motion.line,
+                piece.output_line,
+                "the direction of the tool is lost".to_owned(),
+            )
+        };
+        let again = rotary(read).ok_or_else(lost)?;
+        let axis = self.input_path.tool_axis;
+        let at = |angles: &[f64]| own.axes.tool_direction_at(angles, &axis);
+        let tilt = |index: usize| -> Option<f64> {
+            let piece = self.pieces.get(index)?;
+            let own = rotary(&self.input_path.moves[piece.move_index])?;
+            let written = self.rotary_deg.get(index).filter(|list| !list.is_empty())?;
+            Some((at(written) - at(&own.angles_deg(piece.share_to))).norm())
+        };
+        let written = self.rotary_deg.get(index).filter(|list| !list.is_empty());
+        let wanted = written.map_or_else(|| at(&own.angles_deg(piece.share_to)), |list| at(list));
+        let off = (at(&again.end_deg) - wanted).norm();
+        let before = index.checked_sub(1).and_then(tilt);
+        let tilted = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0);
+        let between = [0.25, 0.5, 0.75].map(|part| {
+            let share = piece.share_from + part * (piece.share_to - piece.share_from);
+            (at(&again.angles_deg(part)) - at(&own.angles_deg(share))).norm()
+        });
+        // Not a number is off, too.
+        let goes = between.iter().all(|off| *off <= tilted + SAME_DIRECTION);
+        match off <= SAME_DIRECTION && (goes || motion.kind == MoveKind::Rapid) {
+            true => Ok(()),
+            false => Err(fail(
+                motion.line,
+                piece.output_line,
+                format!(
+                    "the tool points {off:.2e} rad from where it was written, or leaves its way between"
+                ),
+            )),
+        }
+    }
+
     /// Rotary axes whose angles are corrected stand where they were written, near those of the program. Which letters they have;
     /// none where the words of the program stay.
     fn check_turned_axes(
@@ -304,6 +356,9 @@ impl Verifier<'_> {
         read: &Move,
     ) -> Result<Vec<char>, WriteError> {
         let rotary = |motion: &Move| motion.tool_turn.as_ref()?.rotary.clone();
+        if rotary(motion).is_some_and(|rotary| rotary.stated == StatedBy::Direction) {
+            return Ok(Vec::new());
+        }
         let (Some(written), Some(own)) = (self.rotary_deg.get(index), rotary(motion)) else {
             return Ok(Vec::new());
         };

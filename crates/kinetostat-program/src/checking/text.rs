@@ -7,6 +7,7 @@ use crate::error::WriteError;
 use crate::number::decimals_of;
 use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Move};
+use crate::path::rotary_turn::StatedBy;
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::blocks::block_text::{is_after_motion, motion_word};
@@ -165,7 +166,7 @@ impl Verifier<'_> {
         let is_feed_mode =
             |code: &(u8, i64)| by_time && code.0 == b'G' && [930, 940].contains(&code.1);
         let split = shapes.len() > 1;
-        let turned = self.turned(motion);
+        let (turned, directed) = (self.turned(motion), is_directed(motion));
         let kept_arc = shapes.contains(&Shape::Kept);
         let is_arc = motion.curve != Curve::Line && !kept_arc;
         let names_motion = motion_word(self.input.words(line)).is_some();
@@ -179,6 +180,7 @@ impl Verifier<'_> {
                         || is_arc && (b"IJKRP".contains(&word.letter) || is_motion(word))
                         || kept_arc && !names_motion && is_motion(word)
                         || turned && b"ABC".contains(&word.letter)
+                        || (turned || split) && directed && b"IJK".contains(&word.letter)
                         || by_time && is_feed_mode(&code_of(word))
                         || split && (b"ABCEUVW".contains(&word.letter) || is_after_motion(word)))
                 },
@@ -301,6 +303,8 @@ impl Verifier<'_> {
                 // Whether the input named the motion too is checked with the codes.
                 b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && is_own(word),
                 b'A' | b'B' | b'C' if self.turned(motion) => true,
+                // Which direction it is, is checked with the moves.
+                b'I' | b'J' | b'K' if is_directed(motion) => true,
                 letter => motion
                     .extra
                     .iter()
@@ -324,6 +328,13 @@ impl Verifier<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a direction says how the tool stands (G43.5).
+fn is_directed(motion: &Move) -> bool {
+    let turn = motion.tool_turn.as_ref();
+    let rotary = turn.and_then(|turn| turn.rotary.as_ref());
+    rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
 }
 
 /// How a piece of a block is written.

@@ -5,6 +5,7 @@
 pub(crate) mod crossing;
 pub(crate) mod curve;
 pub(crate) mod feed;
+pub(crate) mod great_circle;
 pub(crate) mod moves;
 pub(crate) mod orientation;
 pub(crate) mod pause;
@@ -12,6 +13,7 @@ pub(crate) mod pauses;
 pub(crate) mod position_offset;
 pub(crate) mod rotary;
 pub(crate) mod rotary_angles;
+pub(crate) mod rotary_turn;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;
 pub(crate) mod tool_direction;

@@ -3,8 +3,6 @@
 //! A head turns the tool, a table the part. A program whose places are those of the tool's tip in the part (tool centre point control:
 //! G43.4, TRAORI, M128) says where the tip goes in the part as it stands on the table; heads and tables turn by their words.
 
-use std::sync::Arc;
-
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 /// What a rotary axis turns.
@@ -28,6 +26,8 @@ pub struct RotaryAxis {
     pub direction: UnitVector3<f64>,
     /// A point on it, mm, part frame there. That of a head does not matter: the tip goes where the program says.
     pub point_mm: Vector3<f64>,
+    /// Least and largest angle that it reaches, deg; `None` where it turns without end.
+    pub limits_deg: Option<[f64; 2]>,
 }
 
 /// All rotary axes of a machine.
@@ -42,6 +42,7 @@ pub struct RotaryAxis {
 ///     carries: Carries::Part,
 ///     direction: Vector3::z_axis(),
 ///     point_mm: Vector3::new(100.0, 0.0, 0.0),
+///     limits_deg: None,
 /// };
 /// let axes = RotaryAxes { axes: vec![table], tool_at_zero: UnitQuaternion::identity() };
 /// let turned = axes.part(&[90.0]) * Point3::origin();
@@ -91,66 +92,7 @@ impl RotaryAxes {
     }
 
     /// Whether there are tables.
-    fn turns_part(&self) -> bool {
+    pub(crate) fn turns_part(&self) -> bool {
         self.axes.iter().any(|axis| axis.carries == Carries::Part)
-    }
-}
-
-/// What the rotary axes do in a move: each turns evenly with the share.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RotaryTurn {
-    /// The axes.
-    pub axes: Arc<RotaryAxes>,
-    /// Where they stand at the start of the move, in their order, deg.
-    pub start_deg: Vec<f64>,
-    /// Where they stand at its end.
-    pub end_deg: Vec<f64>,
-    /// Where the words of the program count from (`G10 L2`).
-    pub origin_deg: Vec<f64>,
-}
-
-impl RotaryTurn {
-    /// Where the axes stand at a share of the move, deg.
-    #[must_use]
-    pub fn angles_deg(&self, share: f64) -> Vec<f64> {
-        let both = self.start_deg.iter().zip(&self.end_deg);
-        both.map(|(start, end)| start + (end - start) * share.clamp(0.0, 1.0))
-            .collect()
-    }
-
-    /// Orientation of the tool at a share of the move, part axes from tool axes.
-    #[must_use]
-    pub fn tool(&self, share: f64) -> UnitQuaternion<f64> {
-        self.axes.tool(&self.angles_deg(share))
-    }
-
-    /// How far the part has turned at a share of the move from where it lies at zero; `None` on a machine without tables.
-    ///
-    /// ```
-    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn};
-    /// use nalgebra::{UnitQuaternion, Vector3};
-    ///
-    /// let head = RotaryAxis {
-    ///     letter: 'A',
-    ///     carries: Carries::Tool,
-    ///     direction: Vector3::x_axis(),
-    ///     point_mm: Vector3::zeros(),
-    /// };
-    /// let axes = RotaryAxes { axes: vec![head], tool_at_zero: UnitQuaternion::identity() };
-    /// let turn = RotaryTurn {
-    ///     axes: axes.into(),
-    ///     start_deg: vec![0.0],
-    ///     end_deg: vec![30.0],
-    ///     origin_deg: vec![0.0],
-    /// };
-    /// assert!(turn.part(0.5).is_none());
-    /// assert_eq!(turn.angles_deg(0.5), [15.0]);
-    /// assert!((turn.tool(1.0).angle().to_degrees() - 30.0).abs() < 1e-12);
-    /// ```
-    #[must_use]
-    pub fn part(&self, share: f64) -> Option<Isometry3<f64>> {
-        self.axes
-            .turns_part()
-            .then(|| self.axes.part(&self.angles_deg(share)))
     }
 }

@@ -5,7 +5,8 @@
 
 use nalgebra::{UnitVector3, Vector3};
 
-use crate::path::rotary::{Carries, RotaryAxes};
+use crate::number::{larger, smaller};
+use crate::path::rotary::{Carries, RotaryAxes, RotaryAxis};
 
 /// Directions off by less than this are reached: the last digits of written directions.
 const REACHED: f64 = 1e-4;
@@ -13,15 +14,39 @@ const REACHED: f64 = 1e-4;
 /// Directions as near as this to an axis do not turn about it.
 const ALONG: f64 = 1e-7;
 
+/// Ways that differ by less are equal: the last bits of an angle choose nothing, deg.
+const SAME_WAY: f64 = 1e-6;
+
+/// An axis stands within its limits up to this, deg.
+const AT_LIMIT: f64 = 1e-6;
+
+/// Why rotary axes do not point the tool in a direction.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Unreached {
+    /// No angles do.
+    Direction,
+    /// These angles do, deg, in the order of the axes, and they lie outside the limits of an axis; all others do, too.
+    Limits(Vec<f64>),
+}
+
+/// Angles that point the tool in a direction.
+#[derive(Debug, Clone)]
+pub(crate) struct Pointing {
+    pub angles_deg: Vec<f64>,
+    /// The axes that need not stand so: the tool lies along them.
+    pub free: Vec<bool>,
+    /// The sum of the turns from the angles that these are near to, deg.
+    pub way: f64,
+}
+
 impl RotaryAxes {
     /// The angles at which the tool's axis points in a direction, deg, in the order of the axes; of those that do, the nearest to
     /// others: the sum of the turns counts, and an axis that need not turn stays. `direction` is a unit vector from the tip to the
-    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero.
-    ///
-    /// `None` where the axes do not reach it, and of more than two axes.
+    /// holder, in axes of the part as it stands then; the tool's axis is along z of the part where all axes stand at zero. Of
+    /// more than two axes no angles are found.
     ///
     /// ```
-    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis};
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, Unreached};
     /// use nalgebra::{UnitQuaternion, Vector3};
     ///
     /// let axis = |letter, direction| RotaryAxis {
@@ -29,6 +54,7 @@ impl RotaryAxes {
     ///     carries: Carries::Tool,
     ///     direction,
     ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
     /// };
     /// // A fork head: B on C.
     /// let axes = RotaryAxes {
@@ -44,9 +70,45 @@ impl RotaryAxes {
     /// // Along z axis C need not turn.
     /// let near = axes.angles_towards(&Vector3::z(), &[33.0, 5.0]).unwrap();
     /// assert!((near[0] - 33.0).abs() < 1e-9 && near[1].abs() < 1e-9);
+    /// // An axis with limits takes the way that lies within them.
+    /// let mut limited = axes.clone();
+    /// limited.axes[1].limits_deg = Some([-100.0, 10.0]);
+    /// let other = limited.angles_towards(&down_y, &[80.0, 0.0]).unwrap();
+    /// assert!((other[0] - 270.0).abs() < 1e-9 && (other[1] + 30.0).abs() < 1e-9 || (other[0] + 90.0).abs() < 1e-9);
+    /// assert!(limited.angle_outside(&other).is_none() && limited.angle_outside(&[0.0, 20.0]).is_some());
+    /// limited.axes[1].limits_deg = Some([-10.0, 10.0]);
+    /// assert!(limited.words_of_limits(&[90.0, 30.0]).starts_with("axis B would stand at 30.000 deg"));
+    /// assert!(matches!(limited.angles_towards(&down_y, &[80.0, 0.0]), Err(Unreached::Limits(_))));
     /// ```
-    #[must_use]
-    pub fn angles_towards(&self, direction: &Vector3<f64>, near_deg: &[f64]) -> Option<Vec<f64>> {
+    ///
+    /// # Errors
+    /// [`Unreached`] where no angles do that, or none within the limits of the axes.
+    pub fn angles_towards(
+        &self,
+        direction: &Vector3<f64>,
+        near_deg: &[f64],
+    ) -> Result<Vec<f64>, Unreached> {
+        let found = self.pointing(direction, near_deg);
+        let nearest = |found: Vec<Pointing>| {
+            let by_way = |best: Pointing, other: Pointing| match other.way < best.way - SAME_WAY {
+                true => other,
+                false => best,
+            };
+            let best = found.into_iter().reduce(by_way);
+            best.map(|pointing| pointing.angles_deg)
+        };
+        let within = found
+            .iter()
+            .filter_map(|pointing| self.within_limits_of(pointing));
+        match (nearest(within.collect()), nearest(found)) {
+            (Some(angles), _) => Ok(angles),
+            (None, Some(angles)) => Err(Unreached::Limits(angles)),
+            (None, None) => Err(Unreached::Direction),
+        }
+    }
+
+    /// All angles that point the tool in a direction, each as near as possible to others; whatever the limits.
+    pub(crate) fn pointing(&self, direction: &Vector3<f64>, near_deg: &[f64]) -> Vec<Pointing> {
         // From the part outwards: tables turn the part away below the tool.
         let tables = (0..self.axes.len()).rev().filter(|i| self.is_table(*i));
         let heads = (0..self.axes.len()).filter(|i| !self.is_table(*i));
@@ -57,37 +119,101 @@ impl RotaryAxes {
                 false => self.axes[*index].direction,
             })
             .collect();
-        let near: Vec<f64> = order
-            .iter()
-            .map(|index| near_deg.get(*index).copied().unwrap_or(0.0))
-            .collect();
+        let near = |index: usize| near_deg.get(index).copied().unwrap_or(0.0);
         let z = Vector3::z();
-        let found: Vec<Vec<f64>> = match (turning.as_slice(), near.as_slice()) {
-            ([], _) => vec![Vec::new()],
-            ([axis], [near]) => vec![vec![turn(axis, &z, direction, *near)]],
-            ([first, second], [near_first, near_second]) => {
-                let meet = meeting(first, second, direction, &z)?;
+        let turn = |axis: &UnitVector3<f64>,
+                    from: &Vector3<f64>,
+                    to: &Vector3<f64>,
+                    place: usize| { turn(axis, from, to, near(order[place])) };
+        let found: Vec<Vec<Turn>> = match turning.as_slice() {
+            [] => vec![Vec::new()],
+            [axis] => vec![vec![turn(axis, &z, direction, 0)]],
+            [first, second] => {
                 let both = |between: &Vector3<f64>| {
-                    let first = turn(first, between, direction, *near_first);
-                    vec![first, turn(second, &z, between, *near_second)]
+                    let away = turn(first, between, direction, 0);
+                    vec![away, turn(second, &z, between, 1)]
                 };
-                meet.iter().map(both).collect()
+                let meet = meeting(first, second, direction, &z);
+                meet.iter().flatten().map(both).collect()
             }
-            _ => return None,
+            _ => Vec::new(),
         };
-        let away = |angles: &Vec<f64>| -> f64 {
-            let both = angles.iter().zip(&near);
-            both.map(|(angle, near)| (angle - near).abs()).sum()
+        let placed = found.into_iter().map(|turns| {
+            let mut pointing = Pointing {
+                angles_deg: vec![0.0; order.len()],
+                free: vec![false; order.len()],
+                way: 0.0,
+            };
+            for (index, turn) in order.iter().zip(turns) {
+                pointing.angles_deg[*index] = turn.angle_deg;
+                pointing.free[*index] = turn.free;
+                pointing.way += (turn.angle_deg - near(*index)).abs();
+            }
+            pointing
+        });
+        let reaches = |pointing: &Pointing| {
+            let points = self.tool(&pointing.angles_deg) * (self.tool_at_zero.inverse() * z);
+            (points - direction).norm() < REACHED
         };
-        let best = found
-            .into_iter()
-            .min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        let mut angles = vec![0.0; self.axes.len()];
-        for (index, angle) in order.iter().zip(best) {
-            angles[*index] = angle;
+        placed.filter(reaches).collect()
+    }
+
+    /// The same direction within the limits of the axes: full turns away, or anywhere where an axis need not turn.
+    fn within_limits_of(&self, pointing: &Pointing) -> Option<Pointing> {
+        let mut within = pointing.clone();
+        for (index, axis) in self.axes.iter().enumerate() {
+            let Some([least, largest]) = axis.limits_deg else {
+                continue;
+            };
+            let own = pointing.angles_deg[index];
+            let angle = match pointing.free[index] {
+                true => larger(least, smaller(largest, own)),
+                false if own < least - AT_LIMIT => {
+                    own + 360.0 * ((least - AT_LIMIT - own) / 360.0).ceil()
+                }
+                false if own > largest + AT_LIMIT => {
+                    own - 360.0 * ((own - largest - AT_LIMIT) / 360.0).ceil()
+                }
+                false => own,
+            };
+            if angle < least - AT_LIMIT || angle > largest + AT_LIMIT {
+                return None;
+            }
+            within.way += (angle - own).abs();
+            within.angles_deg[index] = angle;
         }
-        let points = self.tool(&angles) * (self.tool_at_zero.inverse() * z);
-        ((points - direction).norm() < REACHED).then_some(angles)
+        Some(within)
+    }
+
+    /// The first axis that stands outside its limits, with these.
+    #[must_use]
+    pub fn angle_outside(&self, angles_deg: &[f64]) -> Option<(&RotaryAxis, f64)> {
+        let mut both = self.axes.iter().zip(angles_deg);
+        both.find_map(|(axis, angle)| {
+            let [least, largest] = axis.limits_deg?;
+            let inside = (least - AT_LIMIT..=largest + AT_LIMIT).contains(angle);
+            (!inside).then_some((axis, *angle))
+        })
+    }
+
+    /// Which axis would leave its limits at these angles, in words, with all of them.
+    #[must_use]
+    pub fn words_of_limits(&self, angles_deg: &[f64]) -> String {
+        let each = self.axes.iter().zip(angles_deg);
+        let stand: Vec<String> = each
+            .map(|(axis, angle)| format!("{}{angle:.3}", axis.letter))
+            .collect();
+        let stand = stand.join(" ");
+        match self.angle_outside(angles_deg) {
+            Some((axis, angle)) => {
+                let [least, largest] = axis.limits_deg.unwrap_or_default();
+                format!(
+                    "axis {} would stand at {angle:.3} deg, and it reaches {least} to {largest} deg (nearest angles: {stand})",
+                    axis.letter
+                )
+            }
+            None => format!("the axes stand within their limits ({stand})"),
+        }
     }
 
     fn is_table(&self, index: usize) -> bool {
@@ -95,15 +221,28 @@ impl RotaryAxes {
     }
 }
 
-/// The angle by which a direction turns about an axis to another one, deg, next to one that is near; that one where it need not.
-fn turn(axis: &UnitVector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>, near: f64) -> f64 {
+/// The angle of one axis.
+struct Turn {
+    angle_deg: f64,
+    /// The direction lies along the axis: any angle would do.
+    free: bool,
+}
+
+/// The angle by which a direction turns about an axis to another one, next to one that is near; that one where it need not.
+fn turn(axis: &UnitVector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>, near: f64) -> Turn {
     let across = |v: &Vector3<f64>| v - axis.into_inner() * axis.dot(v);
     let (from, to) = (across(from), across(to));
     if from.norm() < ALONG || to.norm() < ALONG {
-        return near;
+        return Turn {
+            angle_deg: near,
+            free: true,
+        };
     }
     let angle = axis.dot(&from.cross(&to)).atan2(from.dot(&to)).to_degrees();
-    angle + 360.0 * ((near - angle) / 360.0).round()
+    Turn {
+        angle_deg: angle + 360.0 * ((near - angle) / 360.0).round(),
+        free: false,
+    }
 }
 
 /// The directions that turn about the first axis to one direction and about the second from another; none where these cones miss

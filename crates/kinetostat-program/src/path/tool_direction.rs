@@ -113,6 +113,7 @@ impl RotaryAxes {
     ///     carries: Carries::Tool,
     ///     direction,
     ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
     /// };
     /// let axes = vec![head('C', Vector3::z_axis()), head('A', Vector3::x_axis())];
     /// let fork = RotaryAxes { axes, tool_at_zero: UnitQuaternion::identity() };

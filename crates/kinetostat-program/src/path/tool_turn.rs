@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, UnitQuaternion, UnitVector3, Vector3};
 
-use crate::path::rotary::RotaryTurn;
+use crate::path::rotary_turn::RotaryTurn;
 
 /// The orientation of the tool at the two ends of a move, part axes from tool axes: what is written in axes of the tool, turned by
 /// it, is in axes of the part.

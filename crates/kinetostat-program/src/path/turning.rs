@@ -18,6 +18,7 @@ impl Move {
     ///     carries: Carries::Tool,
     ///     direction,
     ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
     /// };
     /// let axes = vec![head('C', Vector3::z_axis()), head('A', Vector3::x_axis())];
     /// let mut reading = ReadOptions::default();
@@ -36,8 +37,7 @@ impl Move {
         };
         match &turn.rotary {
             Some(rotary) => {
-                let both = rotary.start_deg.iter().zip(&rotary.end_deg);
-                let squares = both.map(|(start, end)| (end - start) * (end - start));
+                let squares = rotary.ways_deg().into_iter().map(|way| way * way);
                 squares.sum::<f64>().sqrt()
             }
             None => turn.start.angle_to(&turn.end).to_degrees(),
@@ -73,15 +73,18 @@ impl Move {
         let Some(rotary) = &turn.rotary else {
             return turn.start.angle_to(&turn.end);
         };
-        let angles = rotary.start_deg.iter().zip(&rotary.end_deg);
-        let each = rotary.axes.axes.iter().zip(angles).map(|(axis, (a, b))| {
+        let ways = match &rotary.great_circle {
+            Some(circle) => circle.fastest_deg(),
+            None => rotary.ways_deg(),
+        };
+        let each = rotary.axes.axes.iter().zip(ways).map(|(axis, way)| {
             let far = (self.start - axis.point_mm).norm();
             let far = larger(far, (self.end - axis.point_mm).norm());
             let carries = match axis.carries {
                 Carries::Part => larger(1.0, far / radius_mm),
                 Carries::Tool => 1.0,
             };
-            (b - a).to_radians().abs() * carries
+            way.to_radians() * carries
         });
         each.sum()
     }

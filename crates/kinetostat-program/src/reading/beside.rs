@@ -19,6 +19,7 @@ pub(crate) const OTHER_AXES: &[u8; 6] = b"ABCUVW";
 pub(crate) fn refuse_parameters_of_calls(
     block: &Block<'_>,
     motion: Option<Motion>,
+    directions: bool,
 ) -> Result<(), ProgramError> {
     if block
         .words
@@ -34,7 +35,16 @@ pub(crate) fn refuse_parameters_of_calls(
         ));
     }
     if matches!(motion, Some(Motion::Rapid | Motion::Feed)) {
-        for letter in *b"IJKRP" {
+        // Under G43.5 they say how the tool stands.
+        let refused: &[u8] = match directions {
+            true => b"RP",
+            false => b"IJKRP",
+        };
+        for letter in refused.iter().copied() {
+            // How the tool turns under tool centre point control.
+            if letter == b'P' && block.codes.tool_centre_point {
+                continue;
+            }
             if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
                 return Err(block.refuse(
                     ProgramErrorKind::Ambiguous,

@@ -17,8 +17,10 @@ pub(crate) struct Codes {
     pub feed_mode: Option<u32>,
     pub work_offset: Option<u32>,
     pub tool_length: Option<u32>,
-    /// G43.4: a G43 with tool centre point control.
+    /// G43.4 and G43.5: a G43 with tool centre point control.
     pub tool_centre_point: bool,
+    /// G43.5: the tool stands as I, J and K say.
+    pub by_direction: bool,
     /// Axes that G43.1 and G43.2 name: their words are lengths.
     pub length_axes: [bool; 3],
     pub position_offset: Option<u32>,
@@ -193,8 +195,9 @@ impl<'p> Block<'p> {
             ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
             ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
             ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
-            ('G', 434) => {
+            ('G', 434 | 435) => {
                 codes.tool_centre_point = true;
+                codes.by_direction = tenths == 435;
                 codes.tool_length.replace(430).is_some()
             }
             ('G', 430..=432 | 490) => codes.tool_length.replace(tenths).is_some(),

@@ -155,7 +155,12 @@ pub const CODES: &[Code] = &[
         Understood,
     ),
     g(
-        &[433, 435, 437, 440],
+        &[435],
+        "the same, with directions of the tool (I, J, K) in place of angles: with rotary axes in the model",
+        Understood,
+    ),
+    g(
+        &[433, 437, 440],
         "tool length offset with tool point control",
         refused(
             "it changes where the tool point goes",

@@ -15,6 +15,8 @@ pub(crate) struct ExtraAxes {
     extruder_relative_by_last_word: bool,
     /// Where A, B and C of the program count from, deg of the machine.
     origin_deg: [f64; 3],
+    /// Whether A, B and C were sent to a place of the machine other than its zero (G53), and not back.
+    elsewhere: [bool; 3],
 }
 
 /// Origins of A, B and C in the work coordinate systems, deg of the machine.
@@ -48,6 +50,13 @@ impl ExtraAxes {
     /// Where a rotary axis of the machine stands, in its own degrees.
     pub fn angle_deg(&self, letter: char) -> Option<f64> {
         Some(self.place(letter)? + self.origin_deg(letter))
+    }
+
+    /// A rotary axis was turned to an angle, in its own degrees.
+    pub fn turn_to(&mut self, letter: char, angle_deg: f64) {
+        if let Some(index) = Self::rotary_index(letter as u8) {
+            self.places[index] = Some(angle_deg - self.origin_deg[index]);
+        }
     }
 
     /// Where the words of a rotary axis count from, in its own degrees.
@@ -92,8 +101,17 @@ impl ExtraAxes {
         for (index, letter) in Self::LETTERS.iter().enumerate() {
             if block.value(*letter).is_some() || all && index != Self::EXTRUDER {
                 self.places[index] = None;
+                if let Some(elsewhere) = self.elsewhere.get_mut(index) {
+                    let at_zero = block.value(*letter) == Some(0.0);
+                    *elsewhere = block.codes.machine == Some(530) && !at_zero;
+                }
             }
         }
+    }
+
+    /// Whether a rotary axis was sent to a place of the machine that is not its zero.
+    pub fn is_elsewhere(&self, letter: char) -> bool {
+        Self::rotary_index(letter as u8).is_some_and(|index| self.elsewhere[index])
     }
 
     fn mode(&self, index: usize) -> ExtraMode {
@@ -129,6 +147,9 @@ impl ExtraAxes {
             };
             let mode = self.mode(index);
             let start = self.places[index];
+            if let (Some(elsewhere), ExtraMode::Absolute) = (self.elsewhere.get_mut(index), mode) {
+                *elsewhere = false;
+            }
             self.places[index] = match mode {
                 ExtraMode::Absolute => Some(value),
                 ExtraMode::Incremental => start.map(|start| start + value),

@@ -7,6 +7,7 @@ pub(crate) mod arc;
 pub(crate) mod beside;
 pub(crate) mod block;
 pub(crate) mod dialect;
+pub(crate) mod directions;
 pub(crate) mod extra;
 pub(crate) mod faults;
 pub(crate) mod interpreting;

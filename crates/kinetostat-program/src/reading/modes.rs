@@ -31,8 +31,19 @@ pub(crate) struct Modes {
     tool_length_on: [bool; 3],
     /// Places are those of the tool's tip in the part, however the rotary axes stand.
     pub tool_centre_point: bool,
+    /// How the tool turns between directions I, J and K (G43.5); none where angles say how it stands.
+    pub directions: Option<DirectionLaw>,
     /// H of the G43 in force, where it names one.
     length_number: Option<f64>,
+}
+
+/// How rotary axes turn the tool from one direction to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DirectionLaw {
+    /// Each axis evenly (G43.5, or with P0).
+    Evenly,
+    /// The tool's axis on a great circle: tool posture control (G43.5 P1).
+    GreatCircle,
 }
 
 impl Modes {
@@ -52,6 +63,7 @@ impl Modes {
             feed_is_stale: false,
             tool_length_on: [false; 3],
             tool_centre_point: false,
+            directions: None,
             length_number: None,
         }
     }

@@ -30,6 +30,8 @@ pub(crate) struct Places {
     lost: [Option<(Cause, usize)>; 3],
     /// Behind a line that could not be read: it may have moved the axis.
     pub unsure: [bool; 3],
+    /// The last line that turned a rotary axis.
+    pub turned_on: usize,
 }
 
 impl Places {
@@ -40,6 +42,7 @@ impl Places {
             stated: [start.is_some(); 3],
             lost: [None; 3],
             unsure: [false; 3],
+            turned_on: 0,
         }
     }
 

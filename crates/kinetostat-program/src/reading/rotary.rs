@@ -2,7 +2,8 @@
 
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Feed, FeedMode, Move, MoveKind};
-use crate::path::rotary::RotaryTurn;
+use crate::path::rotary::RotaryAxes;
+use crate::path::rotary_turn::{RotaryTurn, StatedBy};
 use crate::path::tool_turn::ToolTurn;
 use crate::reading::block::Block;
 use crate::reading::modes::Modes;
@@ -37,7 +38,11 @@ impl<'o> RotaryWords<'o> {
             || axes.any(|axis| axis.letter == char::from(letter))
     }
 
-    /// G43.4 and G49.
+    pub fn axes(self) -> Option<&'o RotaryAxes> {
+        self.options.rotary.as_deref()
+    }
+
+    /// G43.4, G43.5 and G49.
     pub fn set_tool_centre_point(
         self,
         block: &Block<'_>,
@@ -45,16 +50,21 @@ impl<'o> RotaryWords<'o> {
     ) -> Result<(), ProgramError> {
         if block.codes.tool_centre_point {
             if self.options.rotary.is_none() && self.options.other_axes != OtherAxes::Carried {
+                let code = match block.codes.by_direction {
+                    true => "G43.5",
+                    false => "G43.4",
+                };
                 return Err(block.refuse(
                     ProgramErrorKind::UnknownCode,
                     None,
-                    "G43.4 (tool length offset with tool point control): it changes where the tool point goes with rotary axes, and the machine's model has none",
+                    &format!("{code} (tool length offset with tool point control): it changes where the tool point goes with rotary axes, and the machine's model has none"),
                     "use G43 H with a Z word, or describe the rotary axes in the model ([[rotary_axis]])",
                 ));
             }
             modes.tool_centre_point = true;
         } else if block.codes.tool_length == Some(490) {
             modes.tool_centre_point = self.options.tool_centre_point == ToolCentrePoint::Throughout;
+            modes.directions = None;
         }
         if block.codes.position_offset.is_some()
             && let Some(word) = self.rotary_word(block)
@@ -89,15 +99,21 @@ impl<'o> RotaryWords<'o> {
             return Ok(None);
         };
         let after = self.angles(modes);
-        let turned = self.turned(&after).is_some();
+        if before != after || self.rotary_word(block).is_some() {
+            places.turned_on = block.line_number;
+        }
+        let turned = self.turned(&after).or(self.turned(before)).is_some();
         if kind == MoveKind::Feed {
             self.refuse_cut_at_angles(block, modes, &after)?;
+            if !modes.tool_centre_point {
+                self.refuse_cut_at_angles(block, modes, before)?;
+            }
         }
         let tip = modes.tool_centre_point;
         let unknown = after.contains(&None);
         if (tip && unknown) || (!tip && turned) {
             for axis in 0..3 {
-                places.lose(axis, Cause::Rotary, block.line_number);
+                places.lose(axis, Cause::Rotary, places.turned_on);
             }
         }
         if !tip || unknown {
@@ -114,6 +130,11 @@ impl<'o> RotaryWords<'o> {
             axes: axes.clone(),
             start_deg: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
             end_deg,
+            great_circle: None,
+            stated: match modes.directions {
+                Some(_) => StatedBy::Direction,
+                None => StatedBy::Angles,
+            },
         };
         Ok(Some(Box::new(ToolTurn::rotary(turn))))
     }
@@ -155,6 +176,19 @@ impl<'o> RotaryWords<'o> {
     ) -> Result<(), ProgramError> {
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let unknown = axes.zip(angles).find(|(_, angle)| angle.is_none());
+        let mut axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
+        let away = axes.find(|axis| modes.extra.is_elsewhere(axis.letter));
+        if let (false, Some(axis)) = (modes.tool_centre_point, away) {
+            return Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                None,
+                &format!(
+                    "axis {} was sent to a place of the machine (G53), and tool centre point control is off: where the tip is in the part is not known",
+                    axis.letter
+                ),
+                &format!("turn it back with an absolute word (G0 {}0) before the cut, or let the CAM system write places of the tool's tip in the part (G43.4)", axis.letter),
+            ));
+        }
         match (modes.tool_centre_point, unknown, self.turned(angles)) {
             (true, Some((axis, _)), _) => Err(block.refuse(
                 ProgramErrorKind::Ambiguous,

@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number;
 use crate::path::moves::{ExtraMode, Move};
-use crate::path::rotary::RotaryTurn;
+use crate::path::rotary_turn::{RotaryTurn, StatedBy};
 use crate::writing::output_state::{OutputMove, OutputState};
 
 /// Digits after the point of words of other axes, at least.
@@ -23,6 +23,8 @@ pub(crate) struct TurnedAxes<'a> {
     pub tool_axis: Vector3<f64>,
     /// They stand otherwise than the program has them when the block begins.
     pub were_turned: bool,
+    /// G43.5 stands in the block: a direction does not, and the axes stay at the angles of the program.
+    pub begins_directions: bool,
 }
 
 impl TurnedAxes<'_> {
@@ -46,6 +48,18 @@ impl TurnedAxes<'_> {
         self.rotary().is_some() && (corrected || self.were_turned)
     }
 
+    /// Whether pieces of the block get words of their own here: what angles of the program say is shared out elsewhere.
+    fn has_words(&self, steps: &[OutputMove]) -> bool {
+        let divided = steps.len() > 1 && self.is_directed();
+        !self.begins_directions && (divided || self.are_turned(steps))
+    }
+
+    /// Whether directions say how the tool stands (G43.5).
+    pub fn is_directed(&self) -> bool {
+        let directed = |rotary: &RotaryTurn| rotary.stated == StatedBy::Direction;
+        self.rotary().is_some_and(directed)
+    }
+
     /// By how much the axes stand otherwise at the end of a piece than the program has them, deg.
     fn wanted_deg(&self, rotary: &RotaryTurn, step: &OutputMove) -> Vec<f64> {
         let near = rotary.angles_deg(step.share_to);
@@ -67,7 +81,7 @@ impl TurnedAxes<'_> {
         (steps, index): (&[OutputMove], usize),
         own: impl Fn(u8) -> Option<f64>,
     ) -> Vec<RotaryWord> {
-        let Some(rotary) = self.rotary().filter(|_| self.are_turned(steps)) else {
+        let Some(rotary) = self.rotary().filter(|_| self.has_words(steps)) else {
             return Vec::new();
         };
         let step = &steps[index];
@@ -77,6 +91,17 @@ impl TurnedAxes<'_> {
             rotary.angles_deg(step.share_to),
         );
         state.turned_deg.resize(wanted.len(), 0.0);
+        if rotary.stated == StatedBy::Direction {
+            let stood = directed(rotary, &from, &state.turned_deg, &self.tool_axis);
+            let stands = directed(rotary, &to, &wanted, &self.tool_axis);
+            state.turned_deg = wanted;
+            let standing = match index {
+                0 => b"IJK".map(own),
+                _ => [None; 3],
+            };
+            let is_own = step.share_to >= 1.0 && step.tilt == Vector3::zeros();
+            return words_of_direction((&stood, &stands), standing, is_own);
+        }
         let mut words = Vec::with_capacity(wanted.len());
         for (axis, wanted) in wanted.into_iter().enumerate() {
             let letter = rotary.axes.axes[axis].letter;
@@ -116,4 +141,46 @@ impl TurnedAxes<'_> {
         }
         words
     }
+}
+
+/// Digits after the point of directions.
+const DIRECTION_DECIMALS: usize = 8;
+
+/// Directions nearer than this are one.
+const SAME_DIRECTION: f64 = 1e-9;
+
+/// The tool's direction where the axes stand otherwise than in the program.
+fn directed(
+    rotary: &RotaryTurn,
+    angles_deg: &[f64],
+    turned_deg: &[f64],
+    tool_axis: &Vector3<f64>,
+) -> Vector3<f64> {
+    let both = angles_deg.iter().zip(turned_deg);
+    let angles: Vec<f64> = both.map(|(angle, turned)| angle + turned).collect();
+    rotary.axes.tool_direction_at(&angles, tool_axis)
+}
+
+/// I, J and K of a piece in which the tool turns from one direction to another one. `standing` are the numbers that stand in its line;
+/// where the piece ends as the block does (`is_own`), they stay.
+fn words_of_direction(
+    (stood, stands): (&Vector3<f64>, &Vector3<f64>),
+    standing: [Option<f64>; 3],
+    is_own: bool,
+) -> Vec<RotaryWord> {
+    let stated = standing.iter().any(Option::is_some);
+    let stays = match stated {
+        true => is_own,
+        false => (stood - stands).norm() < SAME_DIRECTION,
+    };
+    let word = |(letter, part): (u8, &f64)| {
+        let text = (!stays).then(|| number::fixed(*part, DIRECTION_DECIMALS));
+        (letter, text)
+    };
+    b"IJK"
+        .iter()
+        .copied()
+        .zip(stands.iter())
+        .map(word)
+        .collect()
 }

@@ -9,8 +9,10 @@
 )]
 
 mod arcs;
+mod broken_rotary;
 mod code_programs;
 mod codes;
+mod directions;
 mod divided_blocks;
 mod expanding;
 mod expanding_radius;

@@ -14,6 +14,7 @@ fn axis(letter: char, carries: Carries, direction: Vector3<f64>, point: [f64; 3]
         carries,
         direction: nalgebra::Unit::new_normalize(direction),
         point_mm: point.into(),
+        limits_deg: None,
     }
 }
 
@@ -119,6 +120,26 @@ fn without_tool_centre_point_control_turned_places_are_those_of_the_machine() {
         "{cut}"
     );
     assert!(cut.remedy.contains("--tool-centre-point"), "{cut}");
+    let program = Program::read(turned).unwrap();
+    let carried = interpret(&program, &trunnion()).unwrap();
+    let warned = carried
+        .warnings
+        .iter()
+        .find(|w| w.text.contains("machine's slides"));
+    let warned = warned.unwrap();
+    assert!(
+        (
+            warned.line,
+            warned.text.starts_with("line 3 turned a rotary axis")
+        ) == (3, true),
+        "{warned:?}"
+    );
+    // Behind it the line that turned the axis is named, and not the last one at an angle.
+    let back = fault(&format!("{turned}G0 A0 C0\nG1 X9 F100\n"), &trunnion());
+    assert!(
+        back.reason.starts_with("line 3 turned a rotary axis"),
+        "{back}"
+    );
     // With it on all along the same program cuts.
     let mut throughout = trunnion();
     throughout.tool_centre_point = ToolCentrePoint::Throughout;

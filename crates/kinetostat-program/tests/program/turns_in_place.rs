@@ -19,6 +19,7 @@ fn table() -> ReadOptions {
             carries: Carries::Part,
             direction: Vector3::z_axis(),
             point_mm: Vector3::zeros(),
+            limits_deg: None,
         }],
         tool_at_zero: UnitQuaternion::identity(),
     }));

@@ -59,6 +59,7 @@ pub fn read_heidenhain(
         motions: found.motions,
         findings,
         declarations: Vec::new(),
+        even_axes: std::collections::BTreeSet::new(),
     })
 }
 

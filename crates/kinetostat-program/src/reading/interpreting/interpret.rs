@@ -6,6 +6,7 @@ use crate::reading::beside::{
     COORDINATES, refuse_dwell_with_motion, refuse_other_axes, refuse_parameters_of_calls,
 };
 use crate::reading::block::Block;
+use crate::reading::directions::states_direction;
 use crate::reading::extra::ExtraAxes;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::machine::machine_place;
@@ -78,6 +79,9 @@ impl Interpreter<'_> {
             .extra
             .count_from(self.rotary_origins[self.modes.work_offset]);
         self.rotary.set_tool_centre_point(block, &mut self.modes)?;
+        if block.codes.tool_centre_point {
+            self.modes.directions = self.rotary.law_of_directions(block, &self.modes)?;
+        }
         self.change_tool_length(block)?;
         self.tools.note(block)?;
         self.spindle.note(block, self.modes.units())?;
@@ -91,8 +95,8 @@ impl Interpreter<'_> {
             }
         } else if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
-        } else if has_axis_words || self.is_centre_only(block) {
-            refuse_parameters_of_calls(block, self.modes.motion)?;
+        } else if has_axis_words || self.is_centre_only(block) || self.turns_alone(block) {
+            refuse_parameters_of_calls(block, self.modes.motion, self.modes.directions.is_some())?;
             self.read_move(block)?;
         } else {
             self.note_no_motion(block);
@@ -104,6 +108,11 @@ impl Interpreter<'_> {
             self.spindle.end(line + usize::from(moves));
         }
         Ok(())
+    }
+
+    /// `I0 J1 K1` under G43.5 turns the tool where it stands.
+    fn turns_alone(&self, block: &Block<'_>) -> bool {
+        self.modes.directions.is_some() && states_direction(block)
     }
 
     /// `G2 I5` is a full circle without an axis word.

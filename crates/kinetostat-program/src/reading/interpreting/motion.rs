@@ -8,6 +8,7 @@ use crate::path::moves::{Knowledge, Motion, Move, MoveKind};
 use crate::reading::arc::{self, ArcFrame};
 use crate::reading::beside::{COORDINATES, check_codes_beside_motion};
 use crate::reading::block::Block;
+use crate::reading::directions::with_circle;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::places::Cause;
 
@@ -52,16 +53,26 @@ impl Interpreter<'_> {
         let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
         self.places.position = end;
         let angles = self.rotary.angles(&self.modes);
+        let circle = self
+            .rotary
+            .take_direction(block, (kind, motion), &mut self.modes)?;
         let extra = self.modes.extra.read(block, self.modes.incremental);
-        let tool_turn =
-            self.rotary
-                .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?;
+        let tool_turn = self
+            .rotary
+            .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?
+            .map(|turn| with_circle(turn, circle));
         let lost = self.places.first_lost();
-        if let Some((axis, ..)) = lost {
-            self.repeated.note(block.line_number, &format!(
-                "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
-                char::from(COORDINATES[axis])
-            ));
+        if let Some((axis, cause, line)) = lost {
+            let text = match cause {
+                Cause::Rotary if !self.modes.tool_centre_point => format!(
+                    "line {line} turned a rotary axis, and tool centre point control is off: X, Y and Z are places of the machine's slides here. The block is carried without a correction, as all are until a rapid states X, Y and Z under G43.4, or with the axes back at zero"
+                ),
+                _ => format!(
+                    "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
+                    char::from(COORDINATES[axis])
+                ),
+            };
+            self.repeated.note(block.line_number, &text);
         }
         // Where the slides go while a rotary axis turns is no way of the tip.
         let known_before = match lost {

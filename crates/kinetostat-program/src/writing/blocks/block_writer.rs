@@ -62,6 +62,8 @@ impl<'a> BlockWriter<'a> {
                 motion,
                 tool_axis: whole.tool_axis,
                 were_turned: false,
+                begins_directions: (text.words.iter())
+                    .any(|word| word.letter == b'G' && word.tenths() == 435),
             },
         }
     }
@@ -94,8 +96,12 @@ impl<'a> BlockWriter<'a> {
                 text.edit_word(&mut edits, letter, number);
             }
         }
-        let is_axis =
-            |word: &Word| AXES.contains(&word.letter) || b"ABCEUVW".contains(&word.letter);
+        let directed = self.turned.is_directed();
+        let is_axis = |word: &Word| {
+            AXES.contains(&word.letter)
+                || b"ABCEUVW".contains(&word.letter)
+                || directed && b"IJK".contains(&word.letter)
+        };
         if edits.added.is_empty() && !text.words.iter().any(is_axis) {
             // A circle too small to leave the rounded place: without an axis it would be no motion.
             let (letter, number) = self.axes.standing_word(state);

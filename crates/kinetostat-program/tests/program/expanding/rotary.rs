@@ -16,6 +16,7 @@ fn trunnion() -> ReadOptions {
         carries: Carries::Part,
         direction,
         point_mm: Vector3::zeros(),
+        limits_deg: None,
     };
     let mut options = ReadOptions::default();
     options.rotary = Some(Arc::new(RotaryAxes {

@@ -1,0 +1,100 @@
+//! What the rotary axes of a machine do in a move.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, UnitQuaternion};
+
+use crate::path::great_circle::GreatCircle;
+use crate::path::rotary::RotaryAxes;
+
+/// What the rotary axes do in a move: each turns evenly with the share, or all of them lead the tool's axis on a great circle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotaryTurn {
+    /// The axes.
+    pub axes: Arc<RotaryAxes>,
+    /// Where they stand at the start of the move, in their order, deg.
+    pub start_deg: Vec<f64>,
+    /// Where they stand at its end.
+    pub end_deg: Vec<f64>,
+    /// Where the words of the program count from (`G10 L2`).
+    pub origin_deg: Vec<f64>,
+    /// On which the tool's axis goes in the part; `None` where each axis turns evenly with the share.
+    pub great_circle: Option<GreatCircle>,
+    /// What the program says of them.
+    pub stated: StatedBy,
+}
+
+/// How a program says where rotary axes stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StatedBy {
+    /// By their words.
+    #[default]
+    Angles,
+    /// By a direction of the tool (G43.5 I J K, A3 B3 C3, six numbers of a GOTO).
+    Direction,
+}
+
+impl RotaryTurn {
+    /// Where the axes stand at a share of the move, deg.
+    #[must_use]
+    pub fn angles_deg(&self, share: f64) -> Vec<f64> {
+        if let Some(circle) = &self.great_circle
+            && share > 0.0
+            && share < 1.0
+        {
+            return circle.angles_at(&self.axes, share);
+        }
+        let both = self.start_deg.iter().zip(&self.end_deg);
+        both.map(|(start, end)| start + (end - start) * share.clamp(0.0, 1.0))
+            .collect()
+    }
+
+    /// How far each axis turns, back and forth, deg.
+    #[must_use]
+    pub fn ways_deg(&self) -> Vec<f64> {
+        if let Some(circle) = &self.great_circle {
+            return circle.way_deg();
+        }
+        let both = self.start_deg.iter().zip(&self.end_deg);
+        both.map(|(start, end)| (end - start).abs()).collect()
+    }
+
+    /// Orientation of the tool at a share of the move, part axes from tool axes.
+    #[must_use]
+    pub fn tool(&self, share: f64) -> UnitQuaternion<f64> {
+        self.axes.tool(&self.angles_deg(share))
+    }
+
+    /// How far the part has turned at a share of the move from where it lies at zero; `None` on a machine without tables.
+    ///
+    /// ```
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let head = RotaryAxis {
+    ///     letter: 'A',
+    ///     carries: Carries::Tool,
+    ///     direction: Vector3::x_axis(),
+    ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
+    /// };
+    /// let axes = RotaryAxes { axes: vec![head], tool_at_zero: UnitQuaternion::identity() };
+    /// let turn = RotaryTurn {
+    ///     axes: axes.into(),
+    ///     start_deg: vec![0.0],
+    ///     end_deg: vec![30.0],
+    ///     origin_deg: vec![0.0],
+    ///     great_circle: None,
+    ///     stated: StatedBy::Angles,
+    /// };
+    /// assert!(turn.part(0.5).is_none());
+    /// assert_eq!((turn.angles_deg(0.5), turn.ways_deg()), (vec![15.0], vec![30.0]));
+    /// assert!((turn.tool(1.0).angle().to_degrees() - 30.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn part(&self, share: f64) -> Option<Isometry3<f64>> {
+        self.axes
+            .turns_part()
+            .then(|| self.axes.part(&self.angles_deg(share)))
+    }
+}
