@@ -26,4 +26,4 @@ pub(crate) mod tree;
 pub(crate) mod usage;
 pub(crate) mod values;
 pub(crate) mod walk;
-pub(crate) mod write;
+pub(crate) mod writing;

@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use crate::krl::aggregate::{Position, position_of};
 use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
 use crate::krl::values::{Reason, Values, WRITE_IT};
 use crate::model::orientation::OrientationText;
-use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, PoseText, TargetSite};
+use crate::model::site::{
+    Declaration, DeclarationCopy, OffsetAxes, PartialText, PoseText, TargetSite,
+};
 use crate::model::target::{PoseTarget, Target};
 use crate::text::number::NumberText;
 
@@ -31,8 +33,15 @@ pub(crate) struct Targets {
     known: BTreeMap<(usize, usize), usize>,
 }
 
-const SOME: &str =
-    "it states only some of X, Y and Z, or of A, B and C: the others are those of before";
+/// What a position states where that is not all, and where the statement has it.
+fn partial(position: Position, file: usize, place: Range<usize>) -> TargetSite {
+    TargetSite::Partial(Box::new(PartialText {
+        file,
+        whole: position.whole,
+        place,
+        numbers: position.numbers,
+    }))
+}
 
 /// A position without the members that it leaves open.
 fn pose_of(position: &Position) -> (PoseTarget, Option<[Option<f64>; 6]>) {
@@ -96,7 +105,7 @@ impl Targets {
                     convention: OrientationText::Abc,
                     ..text
                 }),
-                None => TargetSite::Fixed(SOME),
+                None => partial(position, file.index, file.span(tokens)),
             };
             return Ok(End {
                 target: Target::Pose(pose),
@@ -115,7 +124,7 @@ impl Targets {
         let Some(text) = position.text(datum.file) else {
             return Ok(End {
                 target: Target::Pose(pose),
-                site: TargetSite::Fixed(SOME),
+                site: partial(position, datum.file, file.span(tokens)),
                 open,
             });
         };
@@ -192,7 +201,10 @@ impl Targets {
             TargetSite::Declared { declaration, .. } => {
                 Some(self.declarations[*declaration].text.clone())
             }
-            TargetSite::Offset { .. } | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
+            TargetSite::Offset { .. }
+            | TargetSite::Partial(_)
+            | TargetSite::Joints(_)
+            | TargetSite::Fixed(_) => None,
         };
         let site = match (numbers(&added), literal) {
             (Some(arguments), Some(literal)) => TargetSite::Offset {
@@ -246,21 +258,50 @@ fn around(datum: &Datum) -> DeclarationCopy {
     }
 }
 
-/// Fills in what a position leaves open from the pose of before; none where a part of both is missing.
+/// A, B and C of an orientation as a controller says them: B no farther than 90 degrees.
+pub(crate) fn kept_angles(orientation: &UnitQuaternion<f64>) -> [f64; 3] {
+    let near = OrientationText::Abc.numbers_of(orientation, &[0.0; 3]);
+    let [a, b, c] = [0, 1, 2].map(|index| near.get(index).copied().unwrap_or_default());
+    let other = |angle: f64| match angle > 0.0 {
+        true => angle - 180.0,
+        false => angle + 180.0,
+    };
+    let angles = match b.abs() > 90.0 {
+        true => [other(a), 180.0_f64.copysign(b) - b, other(c)],
+        false => [a, b, c],
+    };
+    // Half a turn is 180 degrees, also where the last bit says -180.
+    angles.map(|angle| match angle < HALF_TURN_DEG {
+        true => angle + 360.0,
+        false => angle,
+    })
+}
+
+/// Half a turn backward, with the last bits that a rotation loses, degrees.
+const HALF_TURN_DEG: f64 = 1e-9 - 180.0;
+
+/// Where B is as near to 90 degrees as this, or beyond, angles that are left out may be others than those that were written.
+const NEAR_BEYOND_DEG: f64 = 1e-6;
+
+/// Whether a B lets the controller say the same orientation with another A and C.
+pub(crate) fn is_beyond(b: f64) -> bool {
+    b.is_nan() || b.abs() > 90.0 - NEAR_BEYOND_DEG
+}
+
+/// Fills in what a position leaves open from the pose of before; none where that is not certain.
 pub(crate) fn completed(
     open: &[Option<f64>; 6],
     before: &PoseTarget,
-) -> Option<(Vector3<f64>, nalgebra::UnitQuaternion<f64>)> {
+    is_beyond: bool,
+) -> Option<(Vector3<f64>, UnitQuaternion<f64>)> {
     let place = [0, 1, 2].map(|axis| open[axis].unwrap_or(before.position_mm[axis]));
     let turn = match (open[3], open[4], open[5]) {
         (None, None, None) => before.orientation,
+        (Some(a), Some(b), Some(c)) => OrientationText::Abc.rotation_of(&[a, b, c])?,
+        _ if is_beyond => return None,
         (a, b, c) => {
-            let near = OrientationText::Abc.numbers_of(&before.orientation, &[0.0; 3]);
-            let angles: Vec<f64> = [a, b, c]
-                .iter()
-                .zip(near)
-                .map(|(stated, near)| stated.unwrap_or(near))
-                .collect();
+            let kept = kept_angles(&before.orientation);
+            let angles = [0, 1, 2].map(|index| [a, b, c][index].unwrap_or(kept[index]));
             OrientationText::Abc.rotation_of(&angles)?
         }
     };

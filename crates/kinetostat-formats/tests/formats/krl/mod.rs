@@ -2,8 +2,10 @@
 
 mod broken;
 mod corrections;
+mod folds;
 mod frames;
 mod order;
+mod partial;
 mod pieces;
 mod properties;
 mod random;
