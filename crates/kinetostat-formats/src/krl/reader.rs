@@ -1,6 +1,7 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
+use crate::krl::folds::not_paired;
 use crate::krl::lex::TokenFile;
 use crate::krl::parser::routines::content_of;
 use crate::krl::resolve::{resolve, unknown_frames};
@@ -9,7 +10,7 @@ use crate::krl::targets::Targets;
 use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
-use crate::krl::walk::Walker;
+use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Finding, Language, RobotProgram};
@@ -107,6 +108,15 @@ pub fn read_krl(
     }
     let motions = resolved.motions;
     let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
+    for file in &token_files {
+        findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
+            file: file.index,
+            line,
+            message: format!(
+                "{what}: it is carried, but the pendant shows other FOLDs than are meant"
+            ),
+        }));
+    }
     findings.sort_by_key(|finding| (finding.file, finding.line));
     Ok(RobotProgram {
         language: Language::Krl,

@@ -7,9 +7,9 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
+use crate::krl::kept::kept_angles;
 use crate::krl::reader::read_krl;
 use crate::krl::table::{Ends, motion_row};
-use crate::krl::targets::kept_angles;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::{PartialText, PoseText, TargetSite};

@@ -14,7 +14,7 @@ const DATA: &str = "DEFDAT part\n\
     DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE,POINT2[] \" \"}\n\
     DECL E6POS XP2={X 0.0,Y 0.0,Z -1.0,A 0,B 0,C 180,S 2,T 2}\n\
     DECL FDAT FP2={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE,POINT2[] \" \"}\n\
-    DECL LDAT LCPDAT2={VEL 2,ACC 100,APO_DIST 3.5}\nENDDAT\n";
+    DECL LDAT LCPDAT2={VEL 2,ACC 100,APO_DIST 3.5,ORI_TYP #VAR,CIRC_TYP #BASE,JERK_FAC 50.0}\nENDDAT\n";
 
 /// As KSS 5 writes it.
 fn old_form(word: &str, point: &str) -> String {
@@ -29,7 +29,8 @@ fn new_form(point: &str) -> String {
     format!(
         ";FOLD SLIN {point} Vel=0.02 m/s CPDAT2 Tool[1] Base[1] ;%{{PE}}\n;FOLD Parameters ;%{{h}}\n\
          ;Params IlfProvider=kukaroboter.basistech.inlineforms.movement.spline; Kuka.PointName={point}; Kuka.MovementParameterFieldEnabled=True\n\
-         ;ENDFOLD\nSLIN X{point} WITH $VEL=SVEL_CP(0.02, , LCPDAT2), $TOOL=STOOL2(F{point}), $BASE=SBASE(F{point}.BASE_NO)\n;ENDFOLD\n"
+         ;ENDFOLD\nSLIN X{point} WITH $VEL = SVEL_CP(0.02, , LCPDAT2), $TOOL = STOOL2(F{point}), $BASE = SBASE(F{point}.BASE_NO), $IPO_MODE = SIPO_MODE(F{point}.IPO_FRAME), \
+         $LOAD = SLOAD(F{point}.TOOL_NO), $ACC = SACC_CP(LCPDAT2), $ORI_TYPE = SORI_TYP(LCPDAT2), $APO = SAPO(LCPDAT2), $JERK = SJERK(LCPDAT2), $COLLMON_TOL_PRO[1] = USE_CM_PRO_VALUES(0)\n;ENDFOLD\n"
     )
 }
 

@@ -1,6 +1,7 @@
 //! KUKA KRL.
 
 mod broken;
+mod broken_forms;
 mod corrections;
 mod folds;
 mod frames;
