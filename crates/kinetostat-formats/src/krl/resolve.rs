@@ -1,7 +1,5 @@
 //! What depends on where routines are called from: how often motions run, where they begin, what is in force.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::krl::calls::of_calls;
 use crate::krl::folds::{contradiction, folds_of, text_of};
@@ -243,24 +241,3 @@ const BEYOND: &str = "it states only some of A, B and C, and the pose before it 
 
 const STEP: &str =
     "it goes on from where the tool is, and that is not known from the text in these axes";
-
-/// Names of frames that are not known, each once.
-pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
-    let mut named = BTreeSet::new();
-    let mut findings = Vec::new();
-    for motion in motions {
-        for frame in [&motion.tool, &motion.work_object] {
-            if let crate::model::frame::Frame::Unknown { reason } = &frame.frame
-                && named.insert(frame.name.clone())
-            {
-                let message = format!("where `{}` is, is not known: {reason}", frame.name);
-                findings.push(Finding {
-                    file: motion.file,
-                    line: motion.line,
-                    message,
-                });
-            }
-        }
-    }
-    findings
-}

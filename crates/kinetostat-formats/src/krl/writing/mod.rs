@@ -3,4 +3,5 @@
 
 mod renamed;
 mod stated;
+mod steps;
 pub(crate) mod write;

@@ -9,19 +9,15 @@ use nalgebra::Vector3;
 use crate::error::WriteError;
 use crate::krl::kept::kept_angles;
 use crate::krl::reader::read_krl;
-use crate::krl::table::{Ends, motion_row};
+use crate::krl::writing::steps::{MEMBERS, state_step, step_of, trimmed};
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::{PartialText, PoseText, TargetSite};
 use crate::model::target::PoseTarget;
 use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
 use crate::text::edits::Edits;
-use crate::text::name::Name;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
-
-/// Members of a position in the order in which they are written.
-const MEMBERS: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 
 /// Places nearer than this are one, mm.
 const SAME_MM: f64 = 1e-9;
@@ -228,46 +224,4 @@ fn insertions(home: &SourceFile, text: &PartialText, added: &[Option<String>; 6]
         }
     }
     edits
-}
-
-/// With which word a step is written that states its end.
-fn step_of(program: &RobotProgram, motion: &Motion) -> Option<&'static str> {
-    let word = program.files[motion.file].part(&motion.site.keyword);
-    let row = motion_row(&Name::of(word)?)?;
-    (row.ends == Ends::Step).then_some(row.straight.unwrap_or("LIN"))
-}
-
-fn state_step(
-    program: &RobotProgram,
-    motion: &Motion,
-    (straight, pose): (&'static str, &PoseTarget),
-    edits: &mut [Edits],
-) {
-    let place = pose.position_mm.iter().map(|value| format!("{value:.6}"));
-    let angles = kept_angles(&pose.orientation);
-    let values = place.chain(angles.iter().map(|value| format!("{value:.8}")));
-    let members: Vec<String> = (MEMBERS.iter().zip(values))
-        .map(|(name, value)| format!("{name} {}", trimmed(value)))
-        .collect();
-    let edits = &mut edits[motion.file];
-    edits.replace(motion.site.keyword.clone(), straight);
-    let file = &program.files[motion.file];
-    let behind = file.part(&(motion.site.target_span.end..motion.span.end));
-    // In whose axes the step was.
-    let blanks = behind.len() - behind.trim_ascii_start().len();
-    let word = match behind.trim_ascii_start().starts_with(b"#") {
-        true => blanks + "#BASE".len(),
-        false => 0,
-    };
-    let span = motion.site.target_span.start..motion.site.target_span.end + word;
-    edits.replace(span, format!("{{{}}}", members.join(",")));
-}
-
-/// A number without zeros that say nothing.
-fn trimmed(number: String) -> String {
-    let short = number.trim_end_matches('0').trim_end_matches('.');
-    match short {
-        "-0" => "0".to_owned(),
-        _ => short.to_owned(),
-    }
 }
