@@ -10,7 +10,7 @@ use crate::heidenhain::expand::program::called as called_by_heidenhain;
 use crate::heidenhain::reading::reader::read_heidenhain;
 use crate::heidenhain::writing::write::write_heidenhain;
 use crate::krl::reader::read_krl;
-use crate::krl::write::write_krl;
+use crate::krl::writing::write::write_krl;
 use crate::ls::reader::read_ls;
 use crate::ls::write::write_ls;
 use crate::model::program::{Language, RobotProgram};

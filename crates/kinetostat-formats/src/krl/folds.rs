@@ -54,3 +54,29 @@ pub(crate) fn text_of<'f>(file: &'f TokenFile<'_>, line: usize) -> &'f [u8] {
     let span: Range<usize> = file.lines[line].comment.clone().unwrap_or(0..0);
     file.source.part(&span)
 }
+
+/// Most lines of a file of which it is said that their folds are not closed.
+const MOST_TOLD: usize = 100;
+
+/// Lines (counted from 1) of folds that are not opened or not closed, and what is wrong with each: no controller minds, but the
+/// pendant shows other folds than are meant.
+pub(crate) fn not_paired(file: &TokenFile<'_>) -> Vec<(usize, &'static str)> {
+    let mut open = Vec::new();
+    let mut found = Vec::new();
+    for line in &file.lines {
+        let Some(span) = &line.comment else {
+            continue;
+        };
+        let comment = file.source.part(span);
+        if opens(comment) {
+            open.push(span.start);
+        } else if closes(comment) && open.pop().is_none() {
+            found.push((span.start, "no FOLD is open that this ENDFOLD could close"));
+        }
+    }
+    found.extend(open.into_iter().map(|at| (at, "this FOLD has no ENDFOLD")));
+    found.sort_unstable();
+    found.truncate(MOST_TOLD);
+    let line_of = |(at, message)| (file.source.line_of(at), message);
+    found.into_iter().map(line_of).collect()
+}

@@ -1,16 +1,21 @@
 //! KUKA KRL: programs and data lists read together, and what the writer must know of the language.
 //!
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`aggregate`], [`values`], [`frames`]), to what is in force ([`state`], [`settings`], [`touched`]), to motions ([`motion`], [`targets`]) in
-//! the order in which they run ([`walk`], [`calls`], [`resolve`]). [`folds`] compares what the pendant shows with what runs.
+//! [`aggregate`], [`values`], [`frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
+//! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
+//! [`resolve`]). [`folds`] compares what the pendant shows with what runs, [`findings`] says what a person should know, and
+//! [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
 //! Instructions for System Integrators.
 
 pub(crate) mod aggregate;
+pub(crate) mod behind_ends;
 pub(crate) mod calls;
+pub(crate) mod findings;
 pub(crate) mod folds;
 pub(crate) mod frames;
+pub(crate) mod kept;
 pub(crate) mod lex;
 pub(crate) mod motion;
 pub(crate) mod parser;
@@ -18,12 +23,14 @@ pub(crate) mod reader;
 pub(crate) mod resolve;
 pub(crate) mod settings;
 pub(crate) mod state;
+pub(crate) mod steps;
 pub(crate) mod symbols;
 pub(crate) mod table;
 pub(crate) mod targets;
 pub(crate) mod touched;
 pub(crate) mod tree;
+pub(crate) mod turning;
 pub(crate) mod usage;
 pub(crate) mod values;
-pub(crate) mod walk;
-pub(crate) mod write;
+pub(crate) mod walking;
+pub(crate) mod writing;

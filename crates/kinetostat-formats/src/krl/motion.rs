@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
-use crate::krl::aggregate::position_of;
-use crate::krl::lex::TokenFile;
+use crate::krl::behind_ends::rest_of;
 use crate::krl::settings::Setter;
 use crate::krl::state::{Settings, State, Thing};
+use crate::krl::steps::{by_step, step_of};
 use crate::krl::table::{Ends, MotionRow};
 use crate::krl::targets::{End, Targets};
 use crate::krl::usage::ends_of;
@@ -15,7 +15,7 @@ use crate::krl::values::{Reason, Values};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, TargetSite};
-use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::model::target::Target;
 use crate::options::UnknownTargets;
 
 /// A motion that waits for what was in force before it.
@@ -33,78 +33,6 @@ pub(crate) struct Followed {
     /// Members that its end leaves open, and those of the pose on its circle.
     pub open: Option<[Option<f64>; 6]>,
     pub via_open: Option<[Option<f64>; 6]>,
-}
-
-const ROUNDINGS: [(&str, Option<Thing>); 5] = [
-    ("C_DIS", Some(Thing::Distance)),
-    ("C_PTP", Some(Thing::Percent)),
-    ("C_VEL", Some(Thing::VelocityPercent)),
-    ("C_ORI", None),
-    ("C_SPL", Some(Thing::Distance)),
-];
-
-/// What stands behind the ends of a motion.
-struct Rest {
-    /// Place of the words of rounding.
-    zone: Option<Range<usize>>,
-    rounding: Option<Thing>,
-    /// What follows WITH.
-    with: Range<usize>,
-}
-
-fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
-    let mut rest = Rest {
-        zone: None,
-        rounding: None,
-        with: tokens.end..tokens.end,
-    };
-    let mut at = tokens.start;
-    while at < tokens.end {
-        let Some(name) = file.name(at) else {
-            // A comma between words of rounding.
-            if file.is(at, b',') && rest.zone.is_some() {
-                at += 1;
-                continue;
-            }
-            return Err(inline_form());
-        };
-        if let Some((_, thing)) = ROUNDINGS.iter().find(|(word, _)| name.is(word)) {
-            let span = file.span(&(at..at + 1));
-            let start = rest.zone.as_ref().map_or(span.start, |zone| zone.start);
-            if rest.zone.is_none() {
-                rest.rounding = *thing;
-            }
-            rest.zone = Some(start..span.end);
-            at += 1;
-        } else if name.is("WITH") {
-            rest.with = at + 1..tokens.end;
-            // Words of rounding may stand behind it.
-            if let Some(zone) = file.name(tokens.end - 1) {
-                let found = ROUNDINGS.iter().find(|(word, _)| zone.is(word));
-                if let (Some((_, thing)), true) = (found, rest.with.len() > 1) {
-                    rest.with.end -= 1;
-                    rest.rounding = *thing;
-                    rest.zone = Some(file.span(&(tokens.end - 1..tokens.end)));
-                }
-            }
-            return Ok(rest);
-        } else if name.is("CA") {
-            return Err((
-                "the angle CA lets the circle end elsewhere than at its end point".to_owned(),
-                "write the circle with the point at which it ends, without CA: a full turn as two of them",
-            ));
-        } else {
-            return Err(inline_form());
-        }
-    }
-    Ok(rest)
-}
-
-fn inline_form() -> Reason {
-    (
-        "behind the target stands what only the text of an inline form has: no controller runs that".to_owned(),
-        "give the file as the controller saves it, with the statements in its FOLDs",
-    )
 }
 
 /// Where a motion statement stands.
@@ -249,38 +177,6 @@ pub(crate) fn with(
         start = end + 1;
     }
     Ok(())
-}
-
-/// `{X 10,Z -5}`: a step along the axes of the base that turns nothing.
-fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vector3<f64>, Reason> {
-    let remedy = "write the end with LIN and all its numbers";
-    let position =
-        position_of(file, tokens).map_err(|reason| (format!("its step: {reason}"), remedy))?;
-    let values = position.values().map(Option::unwrap_or_default);
-    let turns = values[3..].iter().any(|angle| *angle != 0.0);
-    let moves_others = position.external.iter().flatten().any(|step| *step != 0.0)
-        || position.axes.iter().any(Option::is_some);
-    match turns || moves_others {
-        true => Err((
-            "it goes on from where the tool is, and turns it or moves axes".to_owned(),
-            remedy,
-        )),
-        false => Ok(Vector3::new(values[0], values[1], values[2])),
-    }
-}
-
-/// The end of a step before the pose that it goes on from is known.
-fn by_step() -> End {
-    End {
-        target: Target::Pose(PoseTarget {
-            position_mm: Vector3::zeros(),
-            orientation: UnitQuaternion::identity(),
-            configuration: Configuration::default(),
-            external: Vec::new(),
-        }),
-        site: TargetSite::Fixed("it goes on from where the tool is"),
-        open: None,
-    }
 }
 
 /// A frame that nothing before it sets.

@@ -1,19 +1,20 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
+use crate::krl::findings::{left, unknown_frames};
+use crate::krl::folds::not_paired;
 use crate::krl::lex::TokenFile;
 use crate::krl::parser::routines::content_of;
-use crate::krl::resolve::{resolve, unknown_frames};
+use crate::krl::resolve::resolve;
 use crate::krl::symbols::Symbols;
 use crate::krl::targets::Targets;
 use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
-use crate::krl::walk::Walker;
+use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
-use crate::model::motion::{Motion, MotionKind};
+use crate::model::motion::Motion;
 use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::target::Target;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -24,7 +25,7 @@ const MOST_BYTES: usize = 1 << 28;
 ///
 /// Files of one name are one module. The program begins with the first routine of the first `.src` file that no other
 /// calls. Bases and tools that neither the statements nor the data say are those that [`ReadOptions::frames`] states as
-/// `BASE_DATA[1]`, `TOOL_DATA[1]`, or `$BASE` and `$TOOL` for where nothing sets them. Relative motions, spline blocks, motions of
+/// `BASE_DATA[1]`, `TOOL_DATA[1]`, or `$BASE` and `$TOOL` for where nothing sets them. Splines through points (SPL), joint splines, motions of
 /// sensors and ends computed at run time are refused, as are external axes that move unless the options carry them. The text of
 /// FOLDs is carried and never trusted; where it contradicts its statements a finding says so.
 ///
@@ -107,6 +108,15 @@ pub fn read_krl(
     }
     let motions = resolved.motions;
     let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
+    for file in &token_files {
+        findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
+            file: file.index,
+            line,
+            message: format!(
+                "{what}: it is carried, but the pendant shows other FOLDs than are meant"
+            ),
+        }));
+    }
     findings.sort_by_key(|finding| (finding.file, finding.line));
     Ok(RobotProgram {
         language: Language::Krl,
@@ -140,28 +150,6 @@ fn main(values: &Values<'_>) -> Option<usize> {
     let mut firsts = (0..routines.len()).filter(|index| routines[*index].is_first);
     let first = firsts.clone().next();
     firsts.find(|index| !called[*index]).or(first)
-}
-
-/// Motions that stay as they are written because their ends are not known.
-fn left(motions: &[Motion]) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    for motion in motions {
-        let via = match &motion.kind {
-            MotionKind::Circular { via } => Some(via),
-            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
-        };
-        for target in via.into_iter().chain([&motion.target]) {
-            if let Target::Unknown { reason } = target {
-                let message = format!("it stays as it is written: {reason}");
-                findings.push(Finding {
-                    file: motion.file,
-                    line: motion.line,
-                    message,
-                });
-            }
-        }
-    }
-    findings
 }
 
 /// A motion with its external axes.

@@ -1,21 +1,19 @@
 //! What depends on where routines are called from: how often motions run, where they begin, what is in force.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::krl::calls::of_calls;
 use crate::krl::folds::{contradiction, folds_of, text_of};
 use crate::krl::frames::Role;
+use crate::krl::kept::{completed, is_beyond, kept_angles};
 use crate::krl::motion::Followed;
 use crate::krl::state::{Settings, Slot, State, Thing};
-use crate::krl::targets::completed;
 use crate::krl::values::{Reason, Values};
-use crate::krl::walk::Walker;
+use crate::krl::walking::walker::Walker;
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::program::Finding;
-use crate::model::site::SpeedSite;
-use crate::model::target::Target;
+use crate::model::site::{Declaration, SpeedSite, TargetSite};
+use crate::model::target::{PoseTarget, Target};
 use crate::options::UnknownTargets;
 
 /// Motions in their order, and what a person should know of them.
@@ -34,6 +32,7 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
         faults,
         motions,
         findings,
+        targets,
         ..
     } = walker;
     let mut resolver = Resolver {
@@ -41,6 +40,8 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
         settings,
         unknown,
         findings,
+        declarations: &targets.declarations,
+        beyond: Vec::with_capacity(motions.len()),
         done: Vec::with_capacity(motions.len()),
     };
     let mut folds: Vec<Option<Vec<Option<usize>>>> = values.files.iter().map(|_| None).collect();
@@ -70,7 +71,10 @@ struct Resolver<'v, 'p> {
     settings: Settings,
     unknown: UnknownTargets,
     findings: Vec<Finding>,
+    declarations: &'v [Declaration],
     done: Vec<Motion>,
+    /// Of each motion done: whether its end has a B beyond 90 degrees, with which the angles of an orientation are not certain.
+    beyond: Vec<bool>,
 }
 
 impl Resolver<'_, '_> {
@@ -135,11 +139,20 @@ impl Resolver<'_, '_> {
                 }
             }
         }
+        let beyond = motion.follows.is_some_and(|index| self.beyond[index]);
         let mut fill = |target: &mut Target, open: Option<[Option<f64>; 6]>| {
             let (Some(open), Target::Pose(pose)) = (open, &mut *target) else {
                 return;
             };
-            let filled = before.as_ref().and_then(|before| completed(&open, before));
+            let is_beyond =
+                |before: &PoseTarget| beyond || is_beyond(kept_angles(&before.orientation)[1]);
+            let filled = before
+                .as_ref()
+                .and_then(|before| completed(&open, before, is_beyond(before)));
+            let why = match before {
+                Some(_) => BEYOND,
+                None => OPEN,
+            };
             match (filled, self.unknown) {
                 (Some((position_mm, orientation)), _) => {
                     pose.position_mm = position_mm;
@@ -147,35 +160,42 @@ impl Resolver<'_, '_> {
                 }
                 (None, UnknownTargets::LeftAsWritten) => {
                     *target = Target::Unknown {
-                        reason: OPEN.to_owned(),
+                        reason: why.to_owned(),
                     }
                 }
                 (None, UnknownTargets::Refused) => {
-                    fault = Some((OPEN.to_owned(), "write all of X, Y, Z, A, B and C"));
+                    fault = Some((why.to_owned(), "write all of X, Y, Z, A, B and C"));
                 }
             }
         };
         fill(&mut motion.target, open);
-        let mut is_open = open.is_some();
         if let MotionKind::Circular { via } = &mut motion.kind {
             // The orientation on the way is that of the ends: only the place counts.
             let placed = via_open.filter(|open| open[..3].iter().any(Option::is_none));
-            is_open |= placed.is_some();
             fill(via, placed);
         }
-        if is_open && matches!(motion.target, Target::Pose(_)) {
-            self.findings.push(Finding {
-                file: motion.file,
-                line: motion.line,
-                message: "it states only some of X, Y, Z, A, B, C: a correction of the motion before moves its end too".to_owned(),
-            });
-        }
+        self.beyond.push(self.ends_beyond(&motion, beyond));
         self.done.push(motion);
         fault.map_or(Ok(()), Err)
     }
 
+    /// Whether the B with which a motion ends is beyond 90 degrees, as it is written or as that of before was.
+    fn ends_beyond(&self, motion: &Motion, before: bool) -> bool {
+        let b = match &motion.site.target {
+            TargetSite::Literal(text) => text.orientation.get(1),
+            TargetSite::Declared { declaration, .. } => {
+                let declared = self.declarations.get(*declaration);
+                declared.and_then(|declared| declared.text.orientation.get(1))
+            }
+            TargetSite::Partial(text) => text.numbers[4].as_ref(),
+            TargetSite::Offset { .. } | TargetSite::Joints(_) => return false,
+            TargetSite::Fixed(_) => None,
+        };
+        b.map_or(before, |b| is_beyond(b.value))
+    }
+
     /// The pose before, where it is in the same axes and of the same tool.
-    fn before(&self, index: usize, motion: &Motion) -> Option<&crate::model::target::PoseTarget> {
+    fn before(&self, index: usize, motion: &Motion) -> Option<&PoseTarget> {
         let before = self.done.get(index)?;
         let same = before.tool == motion.tool && before.work_object == motion.work_object;
         same.then(|| before.target.pose())?
@@ -217,26 +237,7 @@ impl Resolver<'_, '_> {
 
 const OPEN: &str = "it states only some of X, Y, Z, A, B, C, and the pose before it is not known from the text in these axes";
 
+const BEYOND: &str = "it states only some of A, B and C, and the pose before it has a B of 90 degrees or beyond: a controller may keep other angles than those that are written";
+
 const STEP: &str =
     "it goes on from where the tool is, and that is not known from the text in these axes";
-
-/// Names of frames that are not known, each once.
-pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
-    let mut named = BTreeSet::new();
-    let mut findings = Vec::new();
-    for motion in motions {
-        for frame in [&motion.tool, &motion.work_object] {
-            if let crate::model::frame::Frame::Unknown { reason } = &frame.frame
-                && named.insert(frame.name.clone())
-            {
-                let message = format!("where `{}` is, is not known: {reason}", frame.name);
-                findings.push(Finding {
-                    file: motion.file,
-                    line: motion.line,
-                    message,
-                });
-            }
-        }
-    }
-    findings
-}

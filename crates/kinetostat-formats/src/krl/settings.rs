@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use crate::error::excerpt;
 use crate::krl::aggregate::{aggregate_of, number_of};
 use crate::krl::frames::Role;
 use crate::krl::lex::TokenFile;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
+use crate::krl::turning::turns_as_followed;
 use crate::krl::values::{Reason, Values};
 use crate::model::motion::Speed;
 
@@ -129,20 +129,8 @@ impl Setter<'_, '_> {
             b"$IPO_MODE" if file.text(&value).to_uppercase().contains("#TCP") => {
                 return Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT));
             }
-            b"$ORI_TYPE" if !file.text(&value).to_uppercase().contains("#VAR") => {
-                return Err((
-                    format!(
-                        "`{}`: the tool does not turn evenly to the orientation of the point",
-                        excerpt(file.text(tokens).as_bytes())
-                    ),
-                    "write $ORI_TYPE=#VAR, with the orientations that the tool has",
-                ));
-            }
-            b"$CIRC_TYPE" if file.text(&value).to_uppercase().contains("#PATH") => {
-                return Err((
-                    "the tool turns with the circle (#PATH), whatever its points say".to_owned(),
-                    "write $CIRC_TYPE=#BASE, with the orientations that the tool has",
-                ));
+            b"$ORI_TYPE" | b"$CIRC_TYPE" => {
+                turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
             }
             b"FDAT_ACT" => {
                 let point = self.values.point_data(self.routine, &value);

@@ -135,7 +135,7 @@ const fn sorted() -> [StatementRow; COUNT] {
 }
 
 #[rustfmt::skip]
-const OTHERS: [StatementRow; 124] = [
+const OTHERS: [StatementRow; 140] = [
     line("DEF", Understood, EXPERT),
     line("DEFFCT", Understood, EXPERT),
     line("DEFDAT", Understood, EXPERT),
@@ -199,6 +199,22 @@ const OTHERS: [StatementRow; 124] = [
     line("TIME_BLOCK", TIMES, KSS),
     line("CONST_VEL", Carried, KSS),
     line("STOP", Carried, KSS),
+    line("SVEL_CP", Carried, KSS),
+    line("SVEL_JOINT", Carried, KSS),
+    line("SACC_CP", Carried, KSS),
+    line("SACC_JOINT", Carried, KSS),
+    line("STOOL2", Carried, KSS),
+    line("SBASE", Carried, KSS),
+    line("SLOAD", Carried, KSS),
+    line("SIPO_MODE", Carried, KSS),
+    line("SORI_TYP", Carried, KSS),
+    line("SCIRC_TYP", Carried, KSS),
+    line("SCIRC_M", Carried, KSS),
+    line("SAPO", Carried, KSS),
+    line("SAPO_PTP", Carried, KSS),
+    line("SJERK", Carried, KSS),
+    line("SGEAR_JERK", Carried, KSS),
+    line("USE_CM_PRO_VALUES", Carried, KSS),
     line("ASYPTP", ASYNCHRONOUS, KSS),
     line("ASYCONT", ASYNCHRONOUS, KSS),
     line("ASYSTOP", ASYNCHRONOUS, KSS),

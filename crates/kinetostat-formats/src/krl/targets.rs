@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, position_of};
 use crate::krl::frames::isometry;
 use crate::krl::symbols::Datum;
 use crate::krl::values::{Reason, Values, WRITE_IT};
 use crate::model::orientation::OrientationText;
-use crate::model::site::{Declaration, DeclarationCopy, OffsetAxes, PoseText, TargetSite};
+use crate::model::site::{
+    Declaration, DeclarationCopy, OffsetAxes, PartialText, PoseText, TargetSite,
+};
 use crate::model::target::{PoseTarget, Target};
 use crate::text::number::NumberText;
 
@@ -31,8 +33,15 @@ pub(crate) struct Targets {
     known: BTreeMap<(usize, usize), usize>,
 }
 
-const SOME: &str =
-    "it states only some of X, Y and Z, or of A, B and C: the others are those of before";
+/// What a position states where that is not all, and where the statement has it.
+fn partial(position: Position, file: usize, place: Range<usize>) -> TargetSite {
+    TargetSite::Partial(Box::new(PartialText {
+        file,
+        whole: position.whole,
+        place,
+        numbers: position.numbers,
+    }))
+}
 
 /// A position without the members that it leaves open.
 fn pose_of(position: &Position) -> (PoseTarget, Option<[Option<f64>; 6]>) {
@@ -96,7 +105,7 @@ impl Targets {
                     convention: OrientationText::Abc,
                     ..text
                 }),
-                None => TargetSite::Fixed(SOME),
+                None => partial(position, file.index, file.span(tokens)),
             };
             return Ok(End {
                 target: Target::Pose(pose),
@@ -115,7 +124,7 @@ impl Targets {
         let Some(text) = position.text(datum.file) else {
             return Ok(End {
                 target: Target::Pose(pose),
-                site: TargetSite::Fixed(SOME),
+                site: partial(position, datum.file, file.span(tokens)),
                 open,
             });
         };
@@ -192,7 +201,10 @@ impl Targets {
             TargetSite::Declared { declaration, .. } => {
                 Some(self.declarations[*declaration].text.clone())
             }
-            TargetSite::Offset { .. } | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
+            TargetSite::Offset { .. }
+            | TargetSite::Partial(_)
+            | TargetSite::Joints(_)
+            | TargetSite::Fixed(_) => None,
         };
         let site = match (numbers(&added), literal) {
             (Some(arguments), Some(literal)) => TargetSite::Offset {
@@ -244,25 +256,4 @@ fn around(datum: &Datum) -> DeclarationCopy {
         middle: b"=".to_vec(),
         after: Vec::new(),
     }
-}
-
-/// Fills in what a position leaves open from the pose of before; none where a part of both is missing.
-pub(crate) fn completed(
-    open: &[Option<f64>; 6],
-    before: &PoseTarget,
-) -> Option<(Vector3<f64>, nalgebra::UnitQuaternion<f64>)> {
-    let place = [0, 1, 2].map(|axis| open[axis].unwrap_or(before.position_mm[axis]));
-    let turn = match (open[3], open[4], open[5]) {
-        (None, None, None) => before.orientation,
-        (a, b, c) => {
-            let near = OrientationText::Abc.numbers_of(&before.orientation, &[0.0; 3]);
-            let angles: Vec<f64> = [a, b, c]
-                .iter()
-                .zip(near)
-                .map(|(stated, near)| stated.unwrap_or(near))
-                .collect();
-            OrientationText::Abc.rotation_of(&angles)?
-        }
-    };
-    Some((Vector3::from(place), turn))
 }

@@ -149,6 +149,21 @@ impl<'p> Values<'p> {
         })
     }
 
+    /// A member of a LDAT as it is written, without its `#`, in capitals; none where it states none.
+    pub(crate) fn choice(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+        capitals: &str,
+    ) -> Result<Option<String>, Reason> {
+        let (datum, stated) = self.datum(routine, tokens)?;
+        let file = &self.files[datum.file];
+        let members = aggregate_of(file, &stated.value);
+        let member = members.and_then(|members| members.member(capitals).cloned());
+        let text = member.map(|tokens| file.text(&tokens).to_uppercase());
+        Ok(text.map(|text| text.trim_start_matches('#').trim().to_owned()))
+    }
+
     /// A number of a LDAT or PDAT.
     pub(crate) fn member(
         &self,

@@ -27,6 +27,19 @@ pub(crate) struct PoseText {
     pub width: Width,
 }
 
+/// The numbers of a pose that leaves some of them open: they are those of before (KRL).
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PartialText {
+    /// An index of the program's files.
+    pub file: usize,
+    /// The whole literal, with configuration and external axes.
+    pub whole: Range<usize>,
+    /// Where the statement has it: the literal itself, or the name with which it is declared.
+    pub place: Range<usize>,
+    /// X, Y, Z, A, B, C.
+    pub numbers: [Option<NumberText>; 6],
+}
+
 /// Joint values in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct JointsText {
@@ -107,6 +120,8 @@ pub(crate) enum TargetSite {
         /// A literal with the configuration and external axes of the end.
         literal: Box<PoseText>,
     },
+    /// A literal that leaves something open, in the statement or declared.
+    Partial(Box<PartialText>),
     /// Joint values in a row of a table.
     Joints(Box<JointsText>),
     /// Nothing to correct, in words why.

@@ -191,7 +191,7 @@ impl Correctable<'_> {
         changed: &[bool],
         files: &[(String, Vec<u8>)],
     ) -> Result<Vec<WrittenMove>, PathWriteError> {
-        let again = self.read_again(files)?;
+        let (_, again) = self.read_again(files)?;
         let mut moves = again.path.moves.iter();
         let mut written = Vec::with_capacity(plan.moves().len());
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
@@ -236,13 +236,17 @@ impl Correctable<'_> {
         Ok(written)
     }
 
-    fn read_again(&self, files: &[(String, Vec<u8>)]) -> Result<RobotPath, PathWriteError> {
+    fn read_again(
+        &self,
+        files: &[(String, Vec<u8>)],
+    ) -> Result<(RobotProgram, RobotPath), PathWriteError> {
         let sources = files
             .iter()
             .map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
         let program =
             read(self.program.language, sources.collect(), self.reading).map_err(unreadable)?;
-        path_of(&program, self.making).map_err(unreadable)
+        let path = path_of(&program, self.making).map_err(unreadable)?;
+        Ok((program, path))
     }
 
     fn files(&self, written: &Corrected) -> Vec<(String, Vec<u8>)> {
@@ -352,7 +356,8 @@ impl MachineProgram for Correctable<'_> {
         options: &PathWriteOptions,
     ) -> Result<Verification, PathWriteError> {
         let files = self.files(written);
-        let again = self.read_again(&files)?;
-        check(self.program, self.path, &again, written, options)
+        let (program, again) = self.read_again(&files)?;
+        let input = (self.program, self.path);
+        check(input, (&program, &again), written, options)
     }
 }

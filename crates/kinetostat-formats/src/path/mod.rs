@@ -1,7 +1,8 @@
 //! The program of a robot as a path that is divided, solved and corrected like one in G-code.
 //!
 //! [`of_program`] makes the path of a program, [`circle`] the arcs of its circular motions, [`axis_turns`] says how the tool stands
-//! where the text states its axis alone, [`correctable`] writes corrections of the path as pieces of motions and reads them again.
+//! where the text states its axis alone, [`correctable`] writes corrections of the path as pieces of motions and reads them again,
+//! and [`read_again`] with [`kept_lines`] checks what was read.
 
 pub(crate) mod axis_angles;
 pub(crate) mod axis_turns;
@@ -9,6 +10,7 @@ pub(crate) mod circle;
 pub(crate) mod correctable;
 pub(crate) mod fault;
 pub(crate) mod header;
+pub(crate) mod kept_lines;
 pub(crate) mod of_program;
 pub(crate) mod options;
 pub(crate) mod path_warnings;

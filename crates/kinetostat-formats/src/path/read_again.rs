@@ -4,8 +4,9 @@ use kinetostat_program::{
     Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
 };
 
-use crate::model::program::{Language, RobotProgram};
+use crate::model::program::RobotProgram;
 use crate::path::fault::broken;
+use crate::path::kept_lines::{Read, kept_lines, lines};
 use crate::path::of_program::RobotPath;
 
 /// Seed of the places that are looked at: neither that of the division nor those of other checks.
@@ -23,11 +24,10 @@ const TURN_BETWEEN: f64 = 1e-4;
 /// - between them the tool's axis goes as in the input, where the program states it alone;
 /// - no place between them is farther from the input's path than the largest correction, the chords of arcs and the rounding;
 /// - the speed along the part is the programmed one, or slower where it was held;
-/// - lines without a motion or a target of one are there byte for byte, in their order.
+/// - lines without a motion or a target of one are there byte for byte, in their order; in FOLDs the names of points may have changed.
 pub(crate) fn check(
-    program: &RobotProgram,
-    input: &RobotPath,
-    again: &RobotPath,
+    (program, input): Read<'_>,
+    (output, again): Read<'_>,
     written: &Corrected,
     options: &WriteOptions,
 ) -> Result<Verification, WriteError> {
@@ -59,7 +59,7 @@ pub(crate) fn check(
             &mut found,
         )?;
     }
-    untouched(program, input, written)?;
+    kept_lines((program, input), (output, again), written)?;
     Ok(found)
 }
 
@@ -206,57 +206,3 @@ const SHORT_MM: f64 = 0.5;
 
 /// How far the speed along the part may be off, relative.
 const SPEED: f64 = 2e-3;
-
-fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
-    bytes
-        .split(|byte| *byte == b'\n')
-        .map(|line| line.strip_suffix(b"\r").unwrap_or(line))
-}
-
-/// Lines that hold nothing of a motion are there as they were, in their order.
-fn untouched(
-    program: &RobotProgram,
-    input: &RobotPath,
-    written: &Corrected,
-) -> Result<(), WriteError> {
-    let mut beside = written.beside.iter();
-    for (index, file) in program.files.iter().enumerate() {
-        let output: &[u8] = match index == input.file {
-            true => &written.bytes,
-            false => beside.next().map_or(&[], |(_, bytes)| bytes),
-        };
-        let touched = program.lines_of_targets(index);
-        let mut output = lines(output).enumerate();
-        for (number, line) in lines(file.bytes()).enumerate() {
-            if touched.contains(&(number + 1)) {
-                continue;
-            }
-            let wanted = without_number(program.language, line);
-            if !output.any(|(_, written)| without_number(program.language, written) == wanted) {
-                return Err(broken(
-                    number + 1,
-                    0,
-                    format!("line {} of {} is not there", number + 1, file.name()),
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// A line without what is counted anew where lines are added: its number and the count of lines.
-fn without_number(language: Language, line: &[u8]) -> &[u8] {
-    if language == Language::Heidenhain {
-        let digits = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
-        return line[digits..].trim_ascii_start();
-    }
-    if language != Language::FanucLs {
-        return line;
-    }
-    if line.starts_with(b"LINE_COUNT") {
-        return b"";
-    }
-    let colon = line.iter().position(|byte| *byte == b':');
-    let number = |at: &usize| line[..*at].iter().all(|b| *b == b' ' || b.is_ascii_digit());
-    colon.filter(number).map_or(line, |at| &line[at..])
-}

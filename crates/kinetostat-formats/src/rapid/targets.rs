@@ -280,7 +280,7 @@ impl Targets {
                 Some(self.declarations[*declaration].text.clone())
             }
             TargetSite::Offset { literal, .. } => Some((**literal).clone()),
-            TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
+            TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
         }
     }
 }

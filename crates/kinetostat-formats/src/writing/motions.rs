@@ -116,6 +116,11 @@ const NO_END: Reason = (
     "leave its pieces out",
 );
 
+const PARTIAL: Reason = (
+    "it states only some of X, Y, Z, A, B, C: the others are those of before",
+    "write all of them",
+);
+
 const NO_JOINTS: Reason = (
     "no joint values next to those of the row give the corrected pose",
     "keep away from singular postures and from the end of the reach",
@@ -353,6 +358,7 @@ impl Writer<'_> {
                     put(file, number, *value, least, Width::Free, edits);
                 }
             }
+            (TargetSite::Partial(_), Some(_)) => return Err(PARTIAL),
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }
         Ok(())
@@ -367,7 +373,7 @@ fn text_of<'s>(program: &'s RobotProgram, site: &'s TargetSite) -> Option<&'s Po
             Some(&program.declarations.get(*declaration)?.text)
         }
         TargetSite::Offset { literal, .. } => Some(literal),
-        TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
+        TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => None,
     }
 }
 
@@ -377,7 +383,7 @@ fn span_of(site: &TargetSite) -> Range<usize> {
         TargetSite::Literal(text) => text.whole.clone(),
         TargetSite::Declared { name, .. } => name.clone(),
         TargetSite::Offset { call, .. } => call.clone(),
-        TargetSite::Joints(_) | TargetSite::Fixed(_) => 0..0,
+        TargetSite::Partial(_) | TargetSite::Joints(_) | TargetSite::Fixed(_) => 0..0,
     }
 }
 

@@ -138,7 +138,12 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> 
             && let (Some(old), Some(new)) = (old.pose(), new.pose())
         {
             let to = piece.and_then(|piece| piece.via_mm);
-            compare(new, to.unwrap_or(old.position_mm), old.orientation);
+            // How the tool stands on the way of KRL's circles is said by their ends.
+            let stands = match kind.language {
+                Language::Krl => new.orientation,
+                _ => old.orientation,
+            };
+            compare(new, to.unwrap_or(old.position_mm), stands);
         }
         if kind.speeds {
             let factor = piece.map_or(1.0, |piece| piece.speed_factor);

@@ -46,8 +46,17 @@ pub fn corrected(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<usize, String> {
-    let file = SourceFile::new(name, bytes);
-    let program = read(language, vec![file], options).map_err(|all| all[0].to_string())?;
+    corrected_files(language, vec![SourceFile::new(name, bytes)], options)
+}
+
+/// The same of several files, of which the first has the motions.
+pub fn corrected_files(
+    language: Language,
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Result<usize, String> {
+    let (name, bytes) = (files[0].name().to_owned(), files[0].bytes().to_vec());
+    let program = read(language, files, options).map_err(|all| all[0].to_string())?;
     let making = PathOptions::default();
     let path = path_of(&program, &making).map_err(|all| all[0].to_string())?;
     let robot = Correctable {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::krl::parser::cursor::{Block, Parser};
+use crate::krl::parser::cursor::{Block, JOINT_SPLINE, Parser};
 use crate::krl::tree::{Least, Statement};
 
 /// Deepest nesting of blocks.
@@ -45,6 +45,9 @@ impl Parser<'_, '_> {
             b"ENDFOR" => self.end_loop(tokens, "FOR"),
             b"ENDWHILE" => self.end_loop(tokens, "WHILE"),
             b"UNTIL" => self.end_loop(tokens, "REPEAT"),
+            b"SPLINE" => self.begin_spline(line, tokens, "SPLINE"),
+            b"PTP_SPLINE" => self.begin_spline(line, tokens, JOINT_SPLINE),
+            b"ENDSPLINE" => self.end_spline(line, tokens),
             b"EXIT" => self.push(Statement::Exit),
             b"RETURN" => self.push(Statement::Leaves(line)),
             b"GOTO" => {
@@ -60,22 +63,79 @@ impl Parser<'_, '_> {
     /// Ends the routine and what is open in it.
     pub(super) fn close(&mut self) {
         while let Some(block) = self.blocks.pop() {
-            let header = match &block {
-                Block::Branches { header, .. } | Block::Loop { header, .. } => *header,
-            };
             if !self.lost {
-                let tokens = self.file.lines[header].tokens.clone();
-                self.fault(
-                    &tokens,
-                    "the block has no end",
-                    "close it as the controller does",
-                );
+                self.no_end(&block);
             }
             self.lost = true;
-            let statement = finished(block);
-            self.push(statement);
+            self.leave(block, None);
         }
         self.content.routines.extend(self.routine.take());
+    }
+
+    /// Refuses a block that is open where it must not be.
+    fn no_end(&mut self, block: &Block) {
+        let (header, word, end) = block.words();
+        let tokens = self.file.lines[header].tokens.clone();
+        let remedy = match word {
+            "SPLINE" => "write ENDSPLINE behind its last segment".to_owned(),
+            _ => format!("write {end} where it ends"),
+        };
+        let reason = format!("the block has no end: there is no {end} that closes it");
+        self.fault(&tokens, reason, &remedy);
+    }
+
+    /// Puts a block that is closed, by the line of its end if there is one, among the statements around it.
+    fn leave(&mut self, block: Block, end: Option<usize>) {
+        let (header, word, block) = match block {
+            Block::Spline {
+                header,
+                word,
+                block,
+            } => (header, word, block),
+            other => {
+                let statement = finished(other);
+                return self.push(statement);
+            }
+        };
+        if word == JOINT_SPLINE {
+            return self.push(Statement::Simple(header));
+        }
+        // Without an end there is none: what is behind it is not said to be wrong in it.
+        let words = end.map(|end| [header, end].map(Statement::Simple));
+        let [first, last] = match words {
+            Some([first, last]) => [Some(first), Some(last)],
+            None => [None, None],
+        };
+        for statement in first.into_iter().chain(block).chain(last) {
+            self.push(statement);
+        }
+    }
+
+    fn begin_spline(&mut self, line: usize, tokens: &Range<usize>, word: &'static str) {
+        // A block in another one is that one without its end.
+        if let Some(open) = self
+            .blocks
+            .pop_if(|block| matches!(block, Block::Spline { .. }))
+        {
+            self.no_end(&open);
+            self.leave(open, None);
+        }
+        let block = Block::Spline {
+            header: line,
+            word,
+            block: Vec::new(),
+        };
+        self.open(tokens, block);
+    }
+
+    fn end_spline(&mut self, line: usize, tokens: &Range<usize>) {
+        let open = self
+            .blocks
+            .pop_if(|block| matches!(block, Block::Spline { .. }));
+        match open {
+            Some(block) => self.leave(block, Some(line)),
+            None => self.misplaced(tokens),
+        }
     }
 
     pub(super) fn open(&mut self, tokens: &Range<usize>, block: Block) {
@@ -111,11 +171,15 @@ impl Parser<'_, '_> {
     pub(super) fn misplaced(&mut self, tokens: &Range<usize>) {
         if !self.lost {
             self.lost = true;
-            self.fault(
-                tokens,
-                "it closes no block that is open here",
-                "close blocks in the order in which they are opened",
-            );
+            let remedy = match self.blocks.last().map(Block::words) {
+                Some((header, word, end)) => {
+                    let span = self.file.span(&self.file.lines[header].tokens);
+                    let line = self.file.source.line_of(span.start);
+                    format!("close the {word} of line {line} with {end} before it")
+                }
+                None => "remove it, or open its block before it".to_owned(),
+            };
+            self.fault(tokens, "it closes no block that is open here", &remedy);
         }
     }
 
@@ -166,6 +230,8 @@ fn finished(block: Block) -> Statement {
                 blocks,
             }
         }
+        // Its statements stand among those around it.
+        Block::Spline { header, .. } => Statement::Simple(header),
         Block::Loop {
             header,
             word,

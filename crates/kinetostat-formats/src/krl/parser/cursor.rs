@@ -20,7 +20,41 @@ pub(super) enum Block {
         word: &'static str,
         block: Vec<Statement>,
     },
+    /// SPLINE, or PTP_SPLINE, which is refused as a whole: nothing in it is looked at.
+    Spline {
+        header: usize,
+        word: &'static str,
+        block: Vec<Statement>,
+    },
 }
+
+impl Block {
+    /// The line that opens it, with its word and the one that closes it.
+    pub fn words(&self) -> (usize, &'static str, &'static str) {
+        match self {
+            Self::Branches {
+                header,
+                is_switch: true,
+                ..
+            } => (*header, "SWITCH", "ENDSWITCH"),
+            Self::Branches { header, .. } => (*header, "IF", "ENDIF"),
+            Self::Loop { header, word, .. } => (
+                *header,
+                word,
+                match *word {
+                    "LOOP" => "ENDLOOP",
+                    "FOR" => "ENDFOR",
+                    "WHILE" => "ENDWHILE",
+                    _ => "UNTIL",
+                },
+            ),
+            Self::Spline { header, word, .. } => (*header, word, "ENDSPLINE"),
+        }
+    }
+}
+
+/// The joint motions of which one block is.
+pub(super) const JOINT_SPLINE: &str = "PTP_SPLINE";
 
 pub(super) struct Parser<'p, 'a> {
     pub file: &'p TokenFile<'a>,
@@ -29,7 +63,6 @@ pub(super) struct Parser<'p, 'a> {
     pub routine: Option<Routine>,
     pub blocks: Vec<Block>,
     pub in_list: bool,
-    pub in_spline: bool,
     /// Blocks were not nested as they must be: one fault for a routine is enough.
     pub lost: bool,
     pub outside: bool,
@@ -47,7 +80,7 @@ impl Parser<'_, '_> {
     pub(super) fn push(&mut self, statement: Statement) {
         match self.blocks.last_mut() {
             Some(Block::Branches { now, .. }) => now.push(statement),
-            Some(Block::Loop { block, .. }) => block.push(statement),
+            Some(Block::Loop { block, .. } | Block::Spline { block, .. }) => block.push(statement),
             None => {
                 if let Some(routine) = &mut self.routine {
                     routine.body.push(statement);

@@ -53,6 +53,9 @@ impl Parser<'_, '_> {
             });
             start = end + 1;
         }
+        if found.is_empty() {
+            return self.fault(tokens, "nothing is declared here", "write DECL type name");
+        }
         match &mut self.routine {
             Some(routine) => routine.data.extend(found),
             None => self.content.data.extend(found),

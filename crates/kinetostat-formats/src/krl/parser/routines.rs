@@ -21,7 +21,6 @@ pub(crate) fn content_of(file: &TokenFile<'_>, faults: &mut Vec<ProgramError>) -
         routine: None,
         blocks: Vec::new(),
         in_list: false,
-        in_spline: false,
         lost: false,
         outside: false,
     };
@@ -52,19 +51,12 @@ impl Parser<'_, '_> {
             self.content.list = word(1);
             return;
         }
-        if self.in_spline {
-            self.in_spline = !is(0, "ENDSPLINE");
-            return;
-        }
         if is(0, "END") || is(0, "ENDFCT") {
             return self.end_routine(&tokens);
         }
         if is(0, "ENDDAT") {
             self.in_list = false;
             return;
-        }
-        if is(0, "PTP_SPLINE") {
-            self.in_spline = true;
         }
         let declares = is(0, "DECL")
             || is(0, "CONST")

@@ -48,7 +48,7 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "SPLINE\nSPLINE\nENDSPLINE",
-            "a spline block begins in another one",
+            "the block has no end: there is no ENDSPLINE that closes it",
         ),
         (
             "SPLINE\nTIME_BLOCK START\nENDSPLINE",

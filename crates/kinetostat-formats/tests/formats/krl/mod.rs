@@ -1,9 +1,12 @@
 //! KUKA KRL.
 
 mod broken;
+mod broken_forms;
 mod corrections;
+mod folds;
 mod frames;
 mod order;
+mod partial;
 mod pieces;
 mod properties;
 mod random;

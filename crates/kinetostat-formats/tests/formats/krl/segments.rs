@@ -77,8 +77,8 @@ fn steps_go_along_the_axes_of_the_base() {
     let text = written(&program, &[piece]);
     assert!(
         text.contains(
-            "LIN {X 40.000000,Y 20.000000,Z 3.125000,A 15.00000000,B 3.00000000,C 170.00000000} C_DIS ; along\n\
-             LIN {X 40.000000,Y 40.000000,Z 3.000000,A 15.00000000,B 3.00000000,C 170.00000000}\nSLIN_REL {X 0,Y 0,Z 40,A 0,B 0,C 0}\n"
+            "LIN {X 40,Y 20,Z 3.125,A 15,B 3,C 170} C_DIS ; along\n\
+             LIN {X 40,Y 40,Z 3,A 15,B 3,C 170}\nSLIN_REL {X 0,Y 0,Z 40,A 0,B 0,C 0}\n"
         ),
         "{text}"
     );

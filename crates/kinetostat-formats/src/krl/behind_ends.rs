@@ -1,0 +1,80 @@
+//! What stands behind the ends of a motion: how its end is passed, and what is in force for it alone.
+
+use std::ops::Range;
+
+use crate::krl::lex::TokenFile;
+use crate::krl::state::Thing;
+use crate::krl::values::Reason;
+
+const ROUNDINGS: [(&str, Option<Thing>); 5] = [
+    ("C_DIS", Some(Thing::Distance)),
+    ("C_PTP", Some(Thing::Percent)),
+    ("C_VEL", Some(Thing::VelocityPercent)),
+    ("C_ORI", None),
+    ("C_SPL", Some(Thing::Distance)),
+];
+
+/// What stands behind the ends of a motion.
+pub(crate) struct Rest {
+    /// Place of the words of rounding.
+    pub zone: Option<Range<usize>>,
+    pub rounding: Option<Thing>,
+    /// What follows WITH.
+    pub with: Range<usize>,
+}
+
+/// What these tokens behind the ends say; why they say nothing.
+pub(crate) fn rest_of(file: &TokenFile<'_>, tokens: Range<usize>) -> Result<Rest, Reason> {
+    let mut rest = Rest {
+        zone: None,
+        rounding: None,
+        with: tokens.end..tokens.end,
+    };
+    let mut at = tokens.start;
+    while at < tokens.end {
+        let Some(name) = file.name(at) else {
+            // A comma between words of rounding.
+            if file.is(at, b',') && rest.zone.is_some() {
+                at += 1;
+                continue;
+            }
+            return Err(inline_form());
+        };
+        if let Some((_, thing)) = ROUNDINGS.iter().find(|(word, _)| name.is(word)) {
+            let span = file.span(&(at..at + 1));
+            let start = rest.zone.as_ref().map_or(span.start, |zone| zone.start);
+            if rest.zone.is_none() {
+                rest.rounding = *thing;
+            }
+            rest.zone = Some(start..span.end);
+            at += 1;
+        } else if name.is("WITH") {
+            rest.with = at + 1..tokens.end;
+            // Words of rounding may stand behind it.
+            if let Some(zone) = file.name(tokens.end - 1) {
+                let found = ROUNDINGS.iter().find(|(word, _)| zone.is(word));
+                if let (Some((_, thing)), true) = (found, rest.with.len() > 1) {
+                    rest.with.end -= 1;
+                    rest.rounding = *thing;
+                    rest.zone = Some(file.span(&(tokens.end - 1..tokens.end)));
+                }
+            }
+            return Ok(rest);
+        } else if name.is("CA") {
+            return Err((
+                "the angle CA lets the circle end elsewhere than at its end point".to_owned(),
+                "write the circle with the point at which it ends, without CA: a full turn as two of them",
+            ));
+        } else {
+            return Err(inline_form());
+        }
+    }
+    Ok(rest)
+}
+
+fn inline_form() -> Reason {
+    (
+        "behind the target stands what only the text of an inline form has: no controller runs that".to_owned(),
+        "give the file as the controller saves it, with the statements in its FOLDs",
+    )
+}

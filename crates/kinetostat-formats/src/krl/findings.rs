@@ -1,0 +1,51 @@
+//! What a person should know of motions that were taken.
+
+use std::collections::BTreeSet;
+
+use crate::model::frame::Frame;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::Finding;
+use crate::model::target::Target;
+
+/// Motions that stay as they are written because their ends are not known.
+pub(crate) fn left(motions: &[Motion]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for motion in motions {
+        let via = match &motion.kind {
+            MotionKind::Circular { via } => Some(via),
+            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
+        };
+        for target in via.into_iter().chain([&motion.target]) {
+            if let Target::Unknown { reason } = target {
+                let message = format!("it stays as it is written: {reason}");
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
+            }
+        }
+    }
+    findings
+}
+
+/// Names of frames that are not known, each once.
+pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
+    let mut named = BTreeSet::new();
+    let mut findings = Vec::new();
+    for motion in motions {
+        for frame in [&motion.tool, &motion.work_object] {
+            if let Frame::Unknown { reason } = &frame.frame
+                && named.insert(frame.name.clone())
+            {
+                let message = format!("where `{}` is, is not known: {reason}", frame.name);
+                findings.push(Finding {
+                    file: motion.file,
+                    line: motion.line,
+                    message,
+                });
+            }
+        }
+    }
+    findings
+}

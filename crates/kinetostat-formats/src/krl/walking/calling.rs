@@ -1,0 +1,111 @@
+//! Calls: of routines, of what is in none of the files, and of what interrupts.
+
+use std::ops::Range;
+
+use crate::error::excerpt;
+use crate::krl::calls::Call;
+use crate::krl::state::{State, Thing};
+use crate::krl::table::row;
+use crate::krl::walking::walker::{DEEPEST, Walker};
+use crate::model::motion::Runs;
+use crate::model::program::Finding;
+use crate::table::Treatment;
+use crate::text::name::Name;
+
+impl Walker<'_, '_> {
+    /// Notes a call of a routine; whether it can be followed.
+    pub(super) fn notes_call(
+        &mut self,
+        called: usize,
+        tokens: &Range<usize>,
+        state: State,
+    ) -> bool {
+        let now = self.now;
+        self.summaries[called].calls.push(Call {
+            from: now.routine,
+            at: state,
+            runs: now.runs,
+        });
+        if now.depth >= DEEPEST {
+            let reason = "calls and blocks are nested deeper than 200".to_owned();
+            self.refuse(
+                tokens,
+                (reason, "call what is deepest from the first routine"),
+            );
+            return false;
+        }
+        true
+    }
+
+    /// What is in force behind a call of a routine that was walked, or is.
+    pub(super) fn behind_call(&mut self, called: usize, state: State) -> State {
+        let summary = &mut self.summaries[called];
+        match summary.leaves {
+            Some(leaves) => leaves.in_call(state),
+            None => {
+                summary.recursive = true;
+                State::UNKNOWN
+            }
+        }
+    }
+
+    /// A call, at a token, of what is in none of these files.
+    pub(super) fn calls_outside(
+        &mut self,
+        (at, name): (usize, Name),
+        tokens: &Range<usize>,
+        state: State,
+    ) -> State {
+        match row(&name).map(|row| row.treatment) {
+            Some(Treatment::Refused { reason, remedy }) => {
+                self.refuse(tokens, (reason.to_owned(), remedy));
+                State::UNKNOWN
+            }
+            Some(_) => state,
+            None => {
+                if self.named.insert(name) {
+                    let file = self.file();
+                    let called = excerpt(file.word(at));
+                    self.findings.push(Finding {
+                        file: file.index,
+                        line: file.source.line_of(file.span(tokens).start),
+                        message: format!(
+                            "`{called}` is in none of these files: it is carried, and if it moves the tool, that is not seen"
+                        ),
+                    });
+                }
+                State::UNKNOWN
+            }
+        }
+    }
+
+    /// What `INTERRUPT DECL 3 WHEN condition DO routine()` and `TRIGGER WHEN PATH=0 DELAY=0 DO routine() PRIO=-1` call at any time.
+    pub(super) fn interrupting(&mut self, tokens: &Range<usize>) -> Vec<usize> {
+        let file = self.file();
+        let mut all = Vec::new();
+        for at in tokens.clone() {
+            let Some(name) = file.name(at).filter(|_| file.is(at + 1, b'(')) else {
+                continue;
+            };
+            let Some(called) = self.values.symbols.routine(self.now.routine, &name) else {
+                continue;
+            };
+            if self.touched.routines[called].has(Thing::Place) {
+                self.refuse(
+                    tokens,
+                    (
+                        format!("`{}` moves the tool at any time", excerpt(file.word(at))),
+                        "take the interrupt into a program of its own",
+                    ),
+                );
+            }
+            self.summaries[called].calls.push(Call {
+                from: self.now.routine,
+                at: State::UNKNOWN,
+                runs: Runs::Repeatedly,
+            });
+            all.push(called);
+        }
+        all
+    }
+}

@@ -1,0 +1,104 @@
+//! Motions, and the spline blocks in which they may stand.
+
+use std::ops::Range;
+
+use crate::krl::motion::{Statement as MotionStatement, follow, with};
+use crate::krl::state::{Slot, State, Thing};
+use crate::krl::table::MotionRow;
+use crate::krl::walking::walker::Walker;
+use crate::model::motion::Zone;
+
+impl Walker<'_, '_> {
+    /// `SPLINE WITH $VEL.CP=0.2` and `ENDSPLINE C_SPL`: what the first puts in force, the second takes back.
+    pub(super) fn spline_word(&mut self, tokens: &Range<usize>, mut state: State) -> State {
+        let file = self.file();
+        let begins = file
+            .name(tokens.start)
+            .is_some_and(|name| name.is("SPLINE"));
+        match (begins, self.now.spline.take()) {
+            (true, None) => {
+                self.now.spline = Some(state);
+                let is_with = file
+                    .name(tokens.start + 1)
+                    .is_some_and(|name| name.is("WITH"));
+                if is_with && tokens.len() > 1 {
+                    let routine = self.now.routine;
+                    let to = (self.values, &mut self.settings, routine);
+                    if let Err(reason) = with(to, &(tokens.start + 2..tokens.end), &mut state) {
+                        self.refuse(tokens, reason);
+                    }
+                }
+                state
+            }
+            (false, Some(mut before)) => {
+                before.set(Thing::Place, state.get(Thing::Place));
+                before
+            }
+            (_, open) => {
+                self.now.spline = open;
+                let reason = "a spline block begins in another one, or ends without a beginning";
+                self.refuse(
+                    tokens,
+                    (
+                        reason.to_owned(),
+                        "write SPLINE, its segments, and ENDSPLINE",
+                    ),
+                );
+                state
+            }
+        }
+    }
+
+    /// Notes a motion with what is in force as it runs.
+    pub(super) fn moves(
+        &mut self,
+        row: &'static MotionRow,
+        tokens: &Range<usize>,
+        mut state: State,
+    ) -> State {
+        let in_spline = self.now.spline.is_some();
+        if in_spline && !matches!(row.name, "SLIN" | "SCIRC") {
+            self.refuse(
+                tokens,
+                (
+                    "it is no segment of a spline block".to_owned(),
+                    "write SLIN or SCIRC, or write it behind ENDSPLINE",
+                ),
+            );
+            state.set(Thing::Place, Slot::Unknown);
+            return state;
+        }
+        let statement = MotionStatement {
+            row,
+            routine: self.now.routine,
+            tokens,
+        };
+        let followed = follow(
+            &statement,
+            self.values,
+            self.targets,
+            &mut self.settings,
+            state,
+            self.unknown,
+        );
+        match followed {
+            Ok(mut followed) => {
+                followed.motion.runs = self.now.runs;
+                if in_spline {
+                    // Segments pass their ends, and only their own WITH states a speed.
+                    followed.own_speed = true;
+                    if followed.motion.zone == Zone::Exact {
+                        followed.motion.zone = Zone::Unstated;
+                    }
+                }
+                self.motions.push(followed);
+                state.set(Thing::Place, Slot::Is(self.motions.len() - 1));
+            }
+            Err(reason) => {
+                self.refuse(tokens, reason);
+                state.set(Thing::Place, Slot::Unknown);
+            }
+        }
+        state
+    }
+}

@@ -1,0 +1,63 @@
+//! Statements that put something in force, and those of which the table says what is done.
+
+use std::ops::Range;
+
+use crate::krl::settings::Setter;
+use crate::krl::state::State;
+use crate::krl::table::row;
+use crate::krl::walking::walker::Walker;
+use crate::table::Treatment;
+use crate::text::name::Name;
+
+impl Walker<'_, '_> {
+    /// Assignments and BAS: whether the statement is one.
+    pub(super) fn puts_in_force(
+        &mut self,
+        name: &Name,
+        tokens: &Range<usize>,
+        state: &mut State,
+    ) -> bool {
+        let routine = self.now.routine;
+        let equals = self.file().assign(tokens);
+        let mut setter = Setter {
+            values: self.values,
+            settings: &mut self.settings,
+            routine,
+        };
+        let done = match equals {
+            Some(equals) => setter.assign(tokens, equals, state),
+            None if name.is("BAS") => setter.bas(tokens, state),
+            None => return false,
+        };
+        if let Err(reason) = done {
+            self.refuse(tokens, reason);
+        }
+        true
+    }
+
+    /// All other statements.
+    pub(super) fn by_table(&mut self, name: &Name, tokens: &Range<usize>, state: State) -> State {
+        match row(name).map(|row| row.treatment) {
+            Some(Treatment::Refused { reason, remedy }) => {
+                self.refuse(tokens, (reason.to_owned(), remedy));
+                State::UNKNOWN
+            }
+            Some(Treatment::Carried) => state,
+            _ => {
+                self.unknown_statement(tokens);
+                State::UNKNOWN
+            }
+        }
+    }
+
+    /// Refuses what is no statement.
+    pub(super) fn unknown_statement(&mut self, tokens: &Range<usize>) {
+        self.refuse(
+            tokens,
+            (
+                "it is no statement of KRL that is known here".to_owned(),
+                "remove it, or take it into a program of its own",
+            ),
+        );
+    }
+}

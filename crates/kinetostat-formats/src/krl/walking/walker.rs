@@ -1,0 +1,95 @@
+//! What a walk knows, and what it found so far.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::error::{ProgramError, note};
+use crate::krl::calls::Summary;
+use crate::krl::lex::TokenFile;
+use crate::krl::motion::Followed;
+use crate::krl::state::{Settings, State};
+use crate::krl::targets::Targets;
+use crate::krl::touched::Touched;
+use crate::krl::values::{Reason, Values};
+use crate::model::motion::Runs;
+use crate::model::program::Finding;
+use crate::options::UnknownTargets;
+use crate::text::name::Name;
+
+/// Deepest nesting of calls and blocks together.
+pub(super) const DEEPEST: usize = 200;
+
+/// The routine that is walked.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Now {
+    pub routine: usize,
+    /// Of the statement in its routine.
+    pub runs: Runs,
+    /// Where a RETURN left it.
+    pub left: Option<State>,
+    /// What was in force before the spline block that is open.
+    pub spline: Option<State>,
+    pub depth: usize,
+}
+
+/// Where the walk is, and what it found.
+pub(crate) struct Walker<'w, 'p> {
+    pub values: &'w Values<'p>,
+    pub targets: &'w mut Targets,
+    pub settings: Settings,
+    pub unknown: UnknownTargets,
+    pub faults: &'w mut Vec<ProgramError>,
+    pub touched: Touched,
+    pub motions: Vec<Followed>,
+    pub findings: Vec<Finding>,
+    pub summaries: Vec<Summary>,
+    /// Callers behind what they call.
+    pub finished: Vec<usize>,
+    /// Routines that were named in a finding.
+    pub(super) named: BTreeSet<Name>,
+    pub(super) now: Now,
+}
+
+impl<'w, 'p> Walker<'w, 'p> {
+    pub(crate) fn new(
+        values: &'w Values<'p>,
+        targets: &'w mut Targets,
+        unknown: UnknownTargets,
+        faults: &'w mut Vec<ProgramError>,
+    ) -> Self {
+        Self {
+            touched: Touched::of(values),
+            summaries: vec![Summary::default(); values.symbols.routines.len()],
+            values,
+            targets,
+            settings: Settings::default(),
+            unknown,
+            faults,
+            motions: Vec::new(),
+            findings: Vec::new(),
+            finished: Vec::new(),
+            named: BTreeSet::new(),
+            now: Now {
+                routine: 0,
+                runs: Runs::Once,
+                left: None,
+                spline: None,
+                depth: 0,
+            },
+        }
+    }
+
+    /// The file of the routine that is walked.
+    pub(super) fn file(&self) -> &'p TokenFile<'p> {
+        self.values.file(self.now.routine)
+    }
+
+    /// Notes what is refused.
+    pub(super) fn refuse(&mut self, tokens: &Range<usize>, (reason, remedy): Reason) {
+        let file = self.file();
+        let span = file.span(tokens);
+        note(self.faults, || {
+            ProgramError::at(file.source, span, reason, remedy)
+        });
+    }
+}

@@ -1,0 +1,166 @@
+//! What else speaks of a point that has become another: the FOLD around its motion, and the data of the point.
+//!
+//! Source: inline forms as the pendant of KSS 5.x and 8.x writes them. A point `XP1` is shown as `P1`, and `FP1` is its data.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use crate::krl::folds::folds_of;
+use crate::krl::lex::{Line, TokenFile};
+use crate::model::program::RobotProgram;
+use crate::text::edits::Edits;
+use crate::writing::syntax::Renamed;
+
+/// Statement, and place of the name behind its F, of each FDAT of a file.
+type PointData = BTreeMap<Vec<u8>, (Range<usize>, Range<usize>)>;
+
+/// The text of the fold around each statement, its names of the point's data, and a copy of these data.
+pub(super) fn rename_in_folds(program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
+    let files: Vec<TokenFile<'_>> = (program.files.iter().enumerate())
+        .map(|(index, source)| TokenFile::of(index, source))
+        .collect();
+    let folds: Vec<Vec<Option<usize>>> = files.iter().map(folds_of).collect();
+    let data: Vec<PointData> = files.iter().map(point_data).collect();
+    let (mut copied, mut changed) = (BTreeSet::new(), BTreeSet::new());
+    for Renamed {
+        home,
+        file,
+        place,
+        name,
+    } in names
+    {
+        let tokens = &files[*file];
+        let (Some(old), Some(new)) = (point(tokens.source.part(place)), point(name)) else {
+            continue;
+        };
+        let Some(line) = line_of(tokens, place.start) else {
+            continue;
+        };
+        let shows = |line: usize| {
+            words(tokens, line).any(|word| tokens.source.part(&word).eq_ignore_ascii_case(old))
+        };
+        // The fold of parameters is inside the fold of the motion.
+        let Some(top) = folds[*file][line].filter(|top| shows(*top)) else {
+            continue;
+        };
+        let mut upper = [b"F", old].concat();
+        upper.make_ascii_uppercase();
+        let of_point = data[*home].get(&upper);
+        let shown = (top..line).flat_map(|line| shown_at(tokens, line, old));
+        let mut places: Vec<Range<usize>> = shown.collect();
+        if of_point.is_some() {
+            places.extend((top..=line).flat_map(|line| data_at(tokens, line, old)));
+        }
+        for place in places {
+            if changed.insert((*file, place.start)) {
+                edits[*file].replace(place, new);
+            }
+        }
+        if let Some(data) = of_point
+            && copied.insert((*home, name.clone()))
+        {
+            copy_data(&files[*home], data, new, &mut edits[*home]);
+        }
+    }
+}
+
+/// The line with tokens in which a place is.
+fn line_of(file: &TokenFile<'_>, place: usize) -> Option<usize> {
+    let starts = |line: &Line| {
+        let first = file.tokens.get(line.tokens.start);
+        first.map_or(usize::MAX, |token| token.bytes().start)
+    };
+    let behind = file.lines.partition_point(|line| starts(line) <= place);
+    behind.checked_sub(1)
+}
+
+/// Writes the data of a point once more, for another one.
+fn copy_data(
+    file: &TokenFile<'_>,
+    (statement, letters): &(Range<usize>, Range<usize>),
+    new: &[u8],
+    edits: &mut Edits,
+) {
+    let source = file.source;
+    let mut copy = Edits::default();
+    copy.replace(letters.clone(), new);
+    let mut text = copy
+        .applied_to_part(source.bytes(), statement)
+        .unwrap_or_default();
+    text.extend_from_slice(source.line_ending());
+    text.extend_from_slice(source.indentation(statement.start));
+    edits.replace(statement.start..statement.start, text);
+}
+
+/// The data of points that a file declares.
+fn point_data(file: &TokenFile<'_>) -> PointData {
+    let mut all = BTreeMap::new();
+    for line in &file.lines {
+        let is_word = |at: usize, word: &[u8]| file.word(at).eq_ignore_ascii_case(word);
+        let mut tokens = line.tokens.clone();
+        let of_type = tokens.find(|at| !is_word(*at, b"DECL") && !is_word(*at, b"GLOBAL"));
+        let of_type = of_type.filter(|at| is_word(*at, b"FDAT"));
+        // One of several names of a statement is not copied.
+        let alone = file.find(line.tokens.clone(), b',').is_none();
+        if let Some(name) = of_type
+            .map(|at| at + 1)
+            .filter(|name| alone && *name < line.tokens.end)
+        {
+            let place = file.tokens[name].bytes();
+            let upper = file.word(name).to_ascii_uppercase();
+            all.insert(upper, (file.span(&line.tokens), place.start + 1..place.end));
+        }
+    }
+    all
+}
+
+/// The name of a point as the pendant shows it: without the X before it.
+fn point(name: &[u8]) -> Option<&[u8]> {
+    let (first, rest) = name.split_first()?;
+    (first.eq_ignore_ascii_case(&b'X') && !rest.is_empty()).then_some(rest)
+}
+
+/// Words of a comment with their places.
+fn words<'f>(file: &'f TokenFile<'_>, line: usize) -> impl Iterator<Item = Range<usize>> + use<'f> {
+    let comment = file.lines[line].comment.clone().unwrap_or(0..0);
+    let bytes = file.source.bytes();
+    let is_part =
+        |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$') || *byte >= 0x80;
+    let mut at = comment.start;
+    std::iter::from_fn(move || {
+        while at < comment.end && !is_part(&bytes[at]) {
+            at += 1;
+        }
+        let start = at;
+        while at < comment.end && is_part(&bytes[at]) {
+            at += 1;
+        }
+        (at > start).then_some(start..at)
+    })
+}
+
+/// Where the comment of a line shows a point.
+fn shown_at<'f>(
+    file: &'f TokenFile<'_>,
+    line: usize,
+    old: &'f [u8],
+) -> impl Iterator<Item = Range<usize>> + use<'f> {
+    let bytes = file.source.bytes();
+    words(file, line).filter(move |word| bytes[word.clone()].eq_ignore_ascii_case(old))
+}
+
+/// Where a statement names the data of a point (`FDAT_ACT=FP1`, `$TOOL=STOOL2(FP1)`): what stands behind the F.
+fn data_at<'f>(
+    file: &'f TokenFile<'_>,
+    line: usize,
+    old: &'f [u8],
+) -> impl Iterator<Item = Range<usize>> + use<'f> {
+    let bytes = file.source.bytes();
+    let tokens = &file.tokens[file.lines[line].tokens.clone()];
+    let places = tokens.iter().map(|token| token.bytes());
+    places.filter_map(move |place| {
+        let (first, rest) = bytes[place.clone()].split_first()?;
+        let is_data = first.eq_ignore_ascii_case(&b'F') && rest.eq_ignore_ascii_case(old);
+        is_data.then(|| place.start + 1..place.end)
+    })
+}

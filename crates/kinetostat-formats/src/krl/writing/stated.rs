@@ -1,0 +1,227 @@
+//! Ends that keep of before what they do not state (`LIN {Z 20}`), and steps from where the tool is (`LIN_REL {X 10}`): where what was
+//! before becomes another, or they themselves, they state it.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use crate::error::WriteError;
+use crate::krl::kept::kept_angles;
+use crate::krl::reader::read_krl;
+use crate::krl::writing::steps::{MEMBERS, state_step, step_of, trimmed};
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::RobotProgram;
+use crate::model::site::{PartialText, PoseText, TargetSite};
+use crate::model::target::PoseTarget;
+use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
+use crate::text::edits::Edits;
+use crate::text::source::SourceFile;
+use crate::writing::piece::Piece;
+
+/// Places nearer than this are one, mm.
+const SAME_MM: f64 = 1e-9;
+
+/// Orientations nearer than this are one, rad.
+const SAME_RAD: f64 = 1e-9;
+
+/// The program with all ends stated that corrections change; none where it is as it must be.
+pub(super) fn with_stated_ends(
+    program: &RobotProgram,
+    pieces: &[Piece],
+) -> Result<Option<RobotProgram>, WriteError> {
+    let mut of_motion: BTreeMap<usize, Vec<&Piece>> = BTreeMap::new();
+    for piece in pieces {
+        of_motion.entry(piece.motion).or_default().push(piece);
+    }
+    let mut stating = Stating {
+        program,
+        of_motion,
+        edits: program.files.iter().map(|_| Edits::default()).collect(),
+        first: None,
+    };
+    for index in 0..program.motions.len() {
+        stating.motion(index);
+    }
+    let Some(first) = stating.first else {
+        return Ok(None);
+    };
+    let files = program.files.iter().zip(stating.edits);
+    let files: Option<Vec<SourceFile>> = files
+        .map(|(file, edits)| {
+            let bytes = edits.applied_to(file.bytes())?;
+            Some(SourceFile::new(file.name(), bytes))
+        })
+        .collect();
+    let reading = ReadOptions {
+        unknown_targets: UnknownTargets::LeftAsWritten,
+        external_axes: ExternalAxes::Carried,
+        ..ReadOptions::default()
+    };
+    let again = files.and_then(|files| read_krl(files, &reading).ok());
+    let again = again.filter(|again| again.motions.len() == program.motions.len());
+    again.map(Some).ok_or_else(|| WriteError::Motion {
+        file: program.files[first.file].name().to_owned(),
+        line: first.line,
+        reason: "what its end keeps of before could not be stated".to_owned(),
+        remedy: "write all of X, Y, Z, A, B and C".to_owned(),
+    })
+}
+
+struct Stating<'a> {
+    program: &'a RobotProgram,
+    of_motion: BTreeMap<usize, Vec<&'a Piece>>,
+    edits: Vec<Edits>,
+    /// The first motion with an end that is stated.
+    first: Option<&'a Motion>,
+}
+
+/// An end and what is stated of it.
+struct Open<'a> {
+    text: PartialText,
+    pose: &'a PoseTarget,
+}
+
+impl<'a> Stating<'a> {
+    fn of(&self, motion: usize) -> &[&'a Piece] {
+        self.of_motion.get(&motion).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a piece turns the tool out of the orientation that its motion ends with.
+    fn turns(&self, motion: usize) -> bool {
+        let end = self.program.motions.get(motion);
+        let end = end.and_then(|motion| motion.target.pose());
+        end.is_some_and(|end| {
+            let turned = |piece: &&Piece| {
+                let to = piece.orientation;
+                to.is_some_and(|to| to.angle_to(&end.orientation) > SAME_RAD)
+            };
+            self.of(motion).iter().any(turned)
+        })
+    }
+
+    fn motion(&mut self, index: usize) {
+        let motion = &self.program.motions[index];
+        let own = !self.of(index).is_empty();
+        let from = motion.follows.filter(|from| !self.of(*from).is_empty());
+        if !own && from.is_none() {
+            return;
+        }
+        if let (Some(straight), Some(pose)) = (step_of(self.program, motion), motion.target.pose())
+        {
+            state_step(self.program, motion, (straight, pose), &mut self.edits);
+            self.first.get_or_insert(motion);
+            return;
+        }
+        let turned = self.turns(index) || from.is_some_and(|from| self.turns(from));
+        if let Some(pose) = motion.target.pose()
+            && let Some(text) = open_text(self.program, motion, &motion.site.target)
+        {
+            self.state(index, &Open { text, pose }, own, turned);
+        }
+        // How the tool stands on the way is said by the ends.
+        if let (MotionKind::Circular { via }, Some((_, site))) = (&motion.kind, &motion.site.via)
+            && let Some(pose) = via.pose()
+            && let Some(text) = open_text(self.program, motion, site)
+        {
+            self.state(index, &Open { text, pose }, own, false);
+        }
+    }
+
+    /// Writes those members of an end that are not stated and must be.
+    fn state(&mut self, index: usize, open: &Open<'_>, own: bool, turned: bool) {
+        let motion = &self.program.motions[index];
+        let stated = open.text.numbers.each_ref().map(Option::is_some);
+        let before = motion
+            .follows
+            .and_then(|from| self.program.motions.get(from));
+        let before = before.and_then(|before| before.target.pose());
+        let angles = kept_angles(&before.unwrap_or(open.pose).orientation);
+        let kept = self.place_before(motion).unwrap_or(open.pose.position_mm);
+        // A corrected end has all numbers of its place; of its angles all or none.
+        let some_angles = stated[3..].contains(&true);
+        let needed = |member: usize| match (member < 3, own) {
+            (true, true) => true,
+            (true, false) => {
+                let away = kept[member] - open.pose.position_mm[member];
+                away.is_nan() || away.abs() > SAME_MM
+            }
+            (false, _) => turned || own && some_angles,
+        };
+        let mut added: [Option<String>; 6] = Default::default();
+        for member in 0..6 {
+            if !stated[member] && needed(member) {
+                added[member] = Some(match member < 3 {
+                    true => trimmed(format!("{:.6}", open.pose.position_mm[member])),
+                    false => trimmed(format!("{:.8}", angles[member - 3])),
+                });
+            }
+        }
+        if added.iter().all(Option::is_none) {
+            return;
+        }
+        let home = &self.program.files[open.text.file];
+        let own_edits = insertions(home, &open.text, &added);
+        let edits = &mut self.edits[motion.file];
+        match open.text.place == open.text.whole && open.text.file == motion.file {
+            true => edits.append(own_edits),
+            // What is declared elsewhere is written in the statement: others may keep something else.
+            false => {
+                let literal = own_edits.applied_to_part(home.bytes(), &open.text.whole);
+                edits.replace(open.text.place.clone(), literal.unwrap_or_default());
+            }
+        }
+        self.first.get_or_insert(motion);
+    }
+
+    /// Where the motion before a motion ends when it is corrected, mm.
+    fn place_before(&self, motion: &Motion) -> Option<Vector3<f64>> {
+        let from = motion.follows?;
+        let corrected = self.of(from).last().map(|piece| piece.position_mm);
+        let written = self.program.motions.get(from)?.target.pose();
+        corrected.or_else(|| written.map(|pose| pose.position_mm))
+    }
+}
+
+/// What is written of an end that leaves something open; none where it states all, or stands elsewhere.
+fn open_text(program: &RobotProgram, motion: &Motion, site: &TargetSite) -> Option<PartialText> {
+    let of = |text: &PoseText, place: &Range<usize>| {
+        let [x, y, z] = text.position.clone();
+        text.orientation.is_empty().then(|| PartialText {
+            file: text.file,
+            whole: text.whole.clone(),
+            place: place.clone(),
+            numbers: [Some(x), Some(y), Some(z), None, None, None],
+        })
+    };
+    match site {
+        TargetSite::Literal(text) if text.file == motion.file => of(text, &text.whole),
+        TargetSite::Declared { declaration, name } => {
+            of(&program.declarations.get(*declaration)?.text, name)
+        }
+        TargetSite::Partial(text) => Some((**text).clone()),
+        _ => None,
+    }
+}
+
+/// The missing members where they belong by their order.
+fn insertions(home: &SourceFile, text: &PartialText, added: &[Option<String>; 6]) -> Edits {
+    let mut edits = Edits::default();
+    let stated = |range: Range<usize>| text.numbers[range].iter().flatten();
+    for (member, value) in added.iter().enumerate() {
+        let Some(value) = value else {
+            continue;
+        };
+        let name = MEMBERS[member];
+        if let Some(before) = stated(0..member).next_back() {
+            let at = before.span.end;
+            edits.replace(at..at, format!(",{name} {value}"));
+        } else if let Some(behind) = stated(member..6).next() {
+            // Before the letter of that member and the blanks behind it.
+            let upto = &home.bytes()[..behind.span.start];
+            let at = upto.trim_ascii_end().len().saturating_sub(1);
+            edits.replace(at..at, format!("{name} {value},"));
+        }
+    }
+    edits
+}

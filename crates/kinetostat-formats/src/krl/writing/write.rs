@@ -1,0 +1,159 @@
+//! What the writer must know of KRL.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::error::WriteError;
+use crate::krl::lex::{Kind, TokenFile};
+use crate::krl::table::{MotionRow, motion_row};
+use crate::krl::writing::renamed::rename_in_folds;
+use crate::krl::writing::stated::with_stated_ends;
+use crate::model::motion::{Motion, Zone};
+use crate::model::program::RobotProgram;
+use crate::options::{ExactStops, WriteOptions};
+use crate::text::edits::Edits;
+use crate::text::name::Name;
+use crate::writing::motions::write_with;
+use crate::writing::piece::Piece;
+use crate::writing::syntax::{PieceLiterals, Renamed, Syntax};
+
+/// Most characters of a name.
+const LONGEST: usize = 24;
+
+/// KRL.
+struct KrlSyntax;
+
+/// The files of a program with pieces in place of its motions.
+pub(crate) fn write_krl(
+    program: &RobotProgram,
+    pieces: &[Piece],
+    options: &WriteOptions,
+) -> Result<Vec<(String, Vec<u8>)>, WriteError> {
+    let stated = with_stated_ends(program, pieces)?;
+    write_with(
+        stated.as_ref().unwrap_or(program),
+        pieces,
+        options,
+        &KrlSyntax,
+    )
+}
+
+/// The row of the word with which a motion begins.
+fn row_of(program: &RobotProgram, motion: &Motion) -> Option<&'static MotionRow> {
+    let word = program.files.get(motion.file)?.part(&motion.site.keyword);
+    motion_row(&Name::of(word)?)
+}
+
+impl Syntax for KrlSyntax {
+    fn names(&self, program: &RobotProgram) -> BTreeSet<Vec<u8>> {
+        let mut names = BTreeSet::new();
+        for (index, source) in program.files.iter().enumerate() {
+            let file = TokenFile::of(index, source);
+            for token in &file.tokens {
+                if token.kind == Kind::Word {
+                    names.insert(source.part(&token.bytes()).to_ascii_uppercase());
+                }
+            }
+        }
+        names
+    }
+
+    fn free_name(
+        &self,
+        near: &[u8],
+        number: &mut usize,
+        taken: &mut BTreeSet<Vec<u8>>,
+    ) -> Option<Vec<u8>> {
+        // Of so many names one is free.
+        for _ in 0..=2 * taken.len() + 2 {
+            let end = format!("_{number}");
+            *number += 1;
+            let kept = near.len().min(LONGEST.checked_sub(end.len())?);
+            let name = [&near[..kept], end.as_bytes()].concat();
+            let upper = name.to_ascii_uppercase();
+            // A point of an inline form has its data beside it: XP1 and FP1.
+            let data = [b"F", upper.get(1..).unwrap_or_default()].concat();
+            if !taken.contains(&data) && taken.insert(upper) {
+                return Some(name);
+            }
+        }
+        None
+    }
+
+    fn writes_circles(&self) -> bool {
+        true
+    }
+
+    fn piece(
+        &self,
+        program: &RobotProgram,
+        motion: &Motion,
+        literals: &PieceLiterals,
+        speed: Option<&[u8]>,
+        options: &WriteOptions,
+    ) -> Option<Vec<u8>> {
+        let file = program.files.get(motion.file)?;
+        let row = row_of(program, motion)?;
+        let site = &motion.site;
+        let mut edits = Edits::default();
+        if let Some(speed) = speed {
+            edits.replace(motion.span.start..motion.span.start, speed);
+        }
+        let straight = row.straight?;
+        match (&literals.via, &site.via) {
+            (Some((span, via)), _) => edits.replace(span.clone(), via.clone()),
+            (None, via) => {
+                let written = file.part(&site.keyword);
+                replace_word(written, straight, &site.keyword, &mut edits);
+                if let Some((span, _)) = via {
+                    edits.replace(span.clone(), "");
+                }
+            }
+        }
+        edits.replace(site.target_span.clone(), literals.end.clone());
+        if (motion.zone, options.exact_stops) == (Zone::Exact, ExactStops::AtEnd) {
+            let end = site.target_span.end;
+            edits.replace(end..end, format!(" {}", row.pass));
+        }
+        edits.applied_to_part(file.bytes(), &motion.span)
+    }
+
+    fn straighten(&self, program: &RobotProgram, motion: &Motion, edits: &mut Edits) {
+        let site = &motion.site;
+        let word = row_of(program, motion).and_then(|row| row.straight);
+        if let (Some(word), Some((span, _))) = (word, &site.via) {
+            let written = program.files[motion.file].part(&site.keyword);
+            replace_word(written, word, &site.keyword, edits);
+            edits.replace(span.clone(), "");
+        }
+    }
+
+    fn restored_speed(&self, program: &RobotProgram, motion: &Motion) -> Option<(usize, Vec<u8>)> {
+        let file = program.files.get(motion.file)?;
+        let site = motion.site.speed.as_ref()?;
+        let metres_per_s = motion.speed.mm_per_s? / 1000.0;
+        let rest = file.bytes().get(motion.span.end..)?;
+        let to_end = rest
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .unwrap_or(rest.len());
+        let kept = rest[..to_end]
+            .strip_suffix(b"\r")
+            .map_or(to_end, <[u8]>::len);
+        let mut text = file.line_ending().to_vec();
+        text.extend_from_slice(file.indentation(motion.span.start));
+        text.extend_from_slice(format!("{}{metres_per_s}", site.before).as_bytes());
+        Some((motion.span.end + kept, text))
+    }
+
+    fn renamed(&self, program: &RobotProgram, names: &[Renamed], edits: &mut [Edits]) {
+        rename_in_folds(program, names, edits);
+    }
+}
+
+/// A word of the same letters stays as it is written.
+fn replace_word(written: &[u8], word: &str, span: &Range<usize>, edits: &mut Edits) {
+    if !written.eq_ignore_ascii_case(word.as_bytes()) {
+        edits.replace(span.clone(), word);
+    }
+}
