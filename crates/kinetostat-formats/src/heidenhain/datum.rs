@@ -75,6 +75,11 @@ impl Datum {
         (self.matrix() * way).normalize()
     }
 
+    /// A direction of the preset as it is programmed, of length 1.
+    pub(crate) fn programmed_direction(&self, way: &Vector3<f64>) -> Vector3<f64> {
+        (self.matrix().transpose() * way).normalize()
+    }
+
     /// -1 where the sense of arcs turns over.
     pub(crate) fn sense(&self) -> f64 {
         self.matrix().determinant().signum()

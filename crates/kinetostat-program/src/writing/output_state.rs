@@ -69,6 +69,12 @@ pub(crate) struct OutputMove {
 }
 
 impl OutputMove {
+    /// Where equal ways of the path are on an arc or a circle, see [`crate::WrittenArc::slip`].
+    pub fn slip(&self) -> Option<[f64; 2]> {
+        let circle = self.circle.map(|circle| circle.slip);
+        circle.or(self.arc.map(|arc| arc.slip))
+    }
+
     /// Largest correction between the ends of an arc or a circle, mm.
     pub fn largest_inside_mm(&self) -> f64 {
         let circle = self.circle.map(|circle| circle.largest_correction_mm);

@@ -90,6 +90,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
             unit_mm: 1.0,
             state: State::new(),
             pole_from: None,
+            poles: [0; 2],
             remarked: BTreeSet::new(),
         };
         reader.file();

@@ -21,6 +21,8 @@ pub(crate) struct Reader<'r> {
     pub unit_mm: f64,
     pub state: State,
     pub pole_from: Option<usize>,
+    /// See [`crate::heidenhain::reading::found::PoleThere`].
+    pub poles: [usize; 2],
     /// Functions of the machine's builder that were remarked on.
     pub remarked: BTreeSet<u32>,
 }

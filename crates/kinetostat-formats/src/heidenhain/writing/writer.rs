@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::writing::poles::OwnPole;
 use crate::heidenhain::writing::words::Stated;
 use crate::model::program::RobotProgram;
 use crate::options::WriteOptions;
@@ -24,6 +25,10 @@ pub(crate) struct Writer<'w> {
     pub off: Vector3<f64>,
     /// The feed that the written blocks leave behind, where it is another one.
     pub feed: Option<f64>,
+    /// A pole of the writer's own that is in force, or would be behind CC blocks that need one from before.
+    pub pole: Option<OwnPole>,
+    /// How the tool stands, where it stands otherwise than in the program; in the preset's axes.
+    pub axis: Option<Vector3<f64>>,
     /// A polar block was written by X and Y: those behind it have no last radius.
     pub polar_broken: bool,
     /// Whether the written blocks are elsewhere at the end of each motion.
@@ -36,7 +41,8 @@ pub(crate) struct Writer<'w> {
 /// Least difference of places that counts, mm.
 pub(crate) const SAME_MM: f64 = 1e-9;
 
-pub(crate) const ABOUT_CENTRE: &str = "an arc with other ends is none about its written centre";
+pub(crate) const ABOUT_CENTRE: &str =
+    "a piece goes through a place between its ends, and circles are written about centres";
 
 impl Writer<'_> {
     /// Half of the last digit, mm.

@@ -1,5 +1,6 @@
 //! Heidenhain conversational programs.
 
+mod arcs;
 mod broken;
 mod corrections;
 mod expanding;
@@ -7,6 +8,7 @@ mod paths;
 mod properties;
 mod random;
 mod real;
+mod tool_axes;
 mod zero_change;
 
 use kinetostat_formats::*;
