@@ -102,6 +102,11 @@ pub(crate) enum Change {
     Refused(&'static str),
 }
 
+/// Whether the holes of a cycle are written flat.
+pub(crate) fn is_followed(cycle: u32) -> bool {
+    matches!(cycle, 1 | 200 | 201 | 203)
+}
+
 /// The number of an axis.
 pub(crate) fn axis_of(word: &Word) -> Option<(usize, bool)> {
     match word.letters.letters() {

@@ -44,6 +44,8 @@ pub(crate) struct State {
     pub directed: bool,
     /// The surface normal that the last motion stated, as programmed.
     pub normal: Option<Vector3<f64>>,
+    /// The last cycle that was defined for a call.
+    pub cycle: Option<u32>,
     /// M89 is on.
     pub calls: bool,
     /// The path is moved aside by the tool's radius.
@@ -69,6 +71,7 @@ impl State {
             last: None,
             axis: Vector3::z(),
             directed: false,
+            cycle: None,
             normal: None,
             calls: false,
             aside: false,

@@ -374,6 +374,8 @@ impl Reader<'_> {
             end,
             machine: words.purpose == Purpose::Machine,
             steps: state.steps,
+            normal: state.normal,
+            corner: words.corner.clone(),
         };
         self.out.motions.push(motion);
         self.out.written.push(written);

@@ -12,6 +12,7 @@ mod apt;
 mod axes_alone;
 mod chance;
 mod circles;
+mod corners;
 mod fields;
 mod harness;
 mod heidenhain;

@@ -2,8 +2,9 @@
 //!
 //! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`drill`])
 //! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
-//! [`cycles`] and [`path_block`] what is drilled. The way in is [`flat`].
+//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded. The way in is [`flat`].
 
+pub(crate) mod corners;
 pub(crate) mod cycles;
 pub(crate) mod drill;
 pub(crate) mod expression;

@@ -6,6 +6,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Datum;
 use crate::heidenhain::ends::Shape;
+use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
 use crate::model::motion::Motion;
 use crate::model::program::Finding;
 
@@ -51,4 +52,8 @@ pub(crate) struct Found {
     pub motions: Vec<Motion>,
     /// Of each motion.
     pub ways: Vec<Way>,
+    /// Rounded corners, in the order in which they run.
+    pub corners: Vec<Result<Rounded, Unrounded>>,
+    /// Behind the first of them, LP blocks that count on a radius or an angle of before: where they end, mm, and the unit, mm.
+    pub polar: Vec<(Block, Vector2<f64>, f64)>,
 }

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::apt::places::frame_use;
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::datum::is_followed;
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::reading::found::{PoleThere, Way};
 use crate::heidenhain::reading::walker::Reader;
@@ -53,12 +54,20 @@ impl Reader<'_> {
         end: [Option<f64>; 3],
     ) {
         let reason = "a cycle is called: from here the control drills or mills by itself";
+        let other = self.state.cycle.filter(|cycle| !is_followed(*cycle));
         if self.options.unknown_targets == UnknownTargets::Refused {
-            self.fault(
-                span,
-                reason,
-                "write drilling cycles flat first (--expand), or leave such motions as written by an option",
-            );
+            match other {
+                Some(cycle) => self.fault(
+                    span,
+                    format!("cycle {cycle} is called: the control drills or mills by itself, and what this cycle does is not followed"),
+                    "let the CAM system write its motions as L and C blocks, or leave such motions as written by an option",
+                ),
+                None => self.fault(
+                    span,
+                    reason,
+                    "write drilling cycles flat first (--expand), or leave such motions as written by an option",
+                ),
+            }
         } else {
             self.unknown(block, words, span, reason, Carried::IfLeft);
             self.ends_at(end);

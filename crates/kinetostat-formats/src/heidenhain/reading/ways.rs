@@ -169,6 +169,9 @@ impl Reader<'_> {
             (target, TargetSite::Literal(text)),
             (went.shape, went.end, rapid),
         );
+        if self.has_corners && !is_arc {
+            self.line_went((block, words), (start, place), rapid);
+        }
         self.state.place = went.end;
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct Block {
 impl Writer<'_> {
     /// A piece as an arc, from a place in the programmed axes, which is that of its end then; none where it is straight, or where
     /// the digits say no arc.
-    pub(crate) fn arc(
+    pub(crate) fn arc_block(
         &mut self,
         motion: &Motion,
         way: &Way,
@@ -58,13 +58,13 @@ impl Writer<'_> {
         let rises = (wanted.z - z).abs() > half;
         let (centre, end, keyword, own) = match rises {
             false => (
-                arc.circle()?,
+                arc.printed_circle()?,
                 Vector3::new(arc.to.x, arc.to.y, z),
                 "C",
                 format!(" {} {} {turn}", to[0], to[1]),
             ),
             true => {
-                let turned = arc.helix()?;
+                let turned = arc.printed_helix()?;
                 let sign = match signs && turned.degrees > 0.0 {
                     true => "+",
                     false => "",

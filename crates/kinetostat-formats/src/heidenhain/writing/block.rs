@@ -89,7 +89,7 @@ impl Writer<'_> {
                 }
             }
         }
-        let stood = self.direction(motion, way, words, piece, &mut edits);
+        let stood = self.write_tool_axis(motion, way, words, piece, &mut edits);
         let keyword = match stood.is_some() {
             true => "LN",
             false => "L",
@@ -105,7 +105,7 @@ impl Writer<'_> {
         }
         if part != Part::Only && part != Part::Last {
             let share = share_of(way, &wanted, order);
-            self.normal(motion, way, words, share, &mut edits);
+            self.write_normal(motion, way, words, share, &mut edits);
         }
         if !straight {
             edits.replace(words[0].span.clone(), keyword);

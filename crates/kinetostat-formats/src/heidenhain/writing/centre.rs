@@ -38,13 +38,13 @@ pub(crate) struct Turned {
 
 impl ToPrint {
     /// The angle between the ends about a place, with its sign, rad.
-    fn angle(&self, centre: &Vector2<f64>) -> f64 {
+    fn angle_about(&self, centre: &Vector2<f64>) -> f64 {
         let (a, b) = (self.from - centre, self.to - centre);
         let along = self.sense * a.perp(&b).atan2(a.dot(&b));
         self.sense * along.rem_euclid(std::f64::consts::TAU)
     }
 
-    fn near(&self, wanted: Vector2<f64>) -> impl Iterator<Item = Vector2<f64>> {
+    fn centres_near(&self, wanted: Vector2<f64>) -> impl Iterator<Item = Vector2<f64>> {
         let digit = self.digit_mm;
         let numbers = wanted.map(|value| (value / digit).round());
         let range = -NEIGHBOURS..=NEIGHBOURS;
@@ -57,7 +57,7 @@ impl ToPrint {
     }
 
     /// How far an arc from the start by an angle about a centre is from the wanted circle, between its ends.
-    fn moved(&self, centre: &Vector2<f64>, angle: f64, last_radius: f64) -> f64 {
+    fn moved_mm(&self, centre: &Vector2<f64>, angle: f64, last_radius: f64) -> f64 {
         let arm = self.from - centre;
         let first_radius = arm.norm();
         let radius = 0.5 * ((self.from - self.centre).norm() + (self.to - self.centre).norm());
@@ -77,7 +77,7 @@ impl ToPrint {
     }
 
     /// The best of some centres: with the least error among those that move the arc little, else that which moves it least.
-    fn best<T>(&self, found: impl Iterator<Item = (f64, f64, T)>) -> Option<T> {
+    fn best_centre<T>(&self, found: impl Iterator<Item = (f64, f64, T)>) -> Option<T> {
         let most = MOVED_DIGITS * self.digit_mm;
         let nanometres = |mm: f64| (mm * 1e6).round();
         let mut best: Option<((i32, f64, f64), T)> = None;
@@ -97,19 +97,19 @@ impl ToPrint {
     }
 
     /// The centre of a circle.
-    pub(crate) fn circle(&self) -> Option<Vector2<f64>> {
-        self.best(self.near(self.centre).map(|centre| {
+    pub(crate) fn printed_circle(&self) -> Option<Vector2<f64>> {
+        self.best_centre(self.centres_near(self.centre).map(|centre| {
             let last = (self.to - centre).norm();
             let error = (last - (self.from - centre).norm()).abs();
-            let moved = self.moved(&centre, self.angle(&centre), last);
+            let moved = self.moved_mm(&centre, self.angle_about(&centre), last);
             (moved, error, centre)
         }))
     }
 
     /// A helix: its angle as printed, and the centre about which it ends where it should.
-    pub(crate) fn helix(&self) -> Option<Turned> {
+    pub(crate) fn printed_helix(&self) -> Option<Turned> {
         let fine = 10.0_f64.powi(ANGLE_DECIMALS as i32);
-        let degrees = (self.angle(&self.centre).to_degrees() * fine).round() / fine;
+        let degrees = (self.angle_about(&self.centre).to_degrees() * fine).round() / fine;
         let angle = degrees.to_radians();
         let chord = self.to - self.from;
         let left = Vector2::new(-chord.y, chord.x);
@@ -117,10 +117,10 @@ impl ToPrint {
         if !wanted.iter().all(|value| value.is_finite()) {
             return None;
         }
-        self.best(self.near(wanted).map(|centre| {
+        self.best_centre(self.centres_near(wanted).map(|centre| {
             let arm = self.from - centre;
             let end = centre + Rotation2::new(angle) * arm;
-            let moved = self.moved(&centre, angle, arm.norm());
+            let moved = self.moved_mm(&centre, angle, arm.norm());
             let turned = Turned {
                 centre,
                 degrees,

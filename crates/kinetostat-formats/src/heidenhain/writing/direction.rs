@@ -38,7 +38,7 @@ fn words_of(words: &[Word], names: [&str; 3]) -> Option<[usize; 3]> {
 
 impl Writer<'_> {
     /// How the tool is to stand at the end of a piece, and how it stands there in the program; in the preset's axes.
-    fn axes(motion: &Motion, piece: &Piece) -> Option<[Vector3<f64>; 2]> {
+    fn tool_axes(motion: &Motion, piece: &Piece) -> Option<[Vector3<f64>; 2]> {
         let own = motion.target.pose()?.orientation * Vector3::z();
         let wanted = piece.orientation.map(|turn| turn * Vector3::z());
         Some([wanted.unwrap_or(own), own])
@@ -46,7 +46,7 @@ impl Writer<'_> {
 
     /// Whether the direction of a piece can be written.
     pub(crate) fn can_stand(motion: &Motion, piece: &Piece, way: &Way) -> Result<(), Reason> {
-        let turned = Self::axes(motion, piece).map_or(0.0, |[wanted, own]| wanted.angle(&own));
+        let turned = Self::tool_axes(motion, piece).map_or(0.0, |[wanted, own]| wanted.angle(&own));
         match turned > SAME_RAD && !way.directed {
             true => Err((
                 "no block up to here states a direction of the tool (TX, TY, TZ) that could be corrected"
@@ -59,12 +59,12 @@ impl Writer<'_> {
 
     /// Whether the tool stands at the end of a block that states no direction as it is to stand there.
     pub(crate) fn stands_already(&self, motion: &Motion, piece: &Piece) -> bool {
-        Self::axes(motion, piece)
+        Self::tool_axes(motion, piece)
             .is_none_or(|[wanted, own]| wanted.angle(&self.axis.unwrap_or(own)) <= SAME_WRITTEN)
     }
 
     /// Writes the direction of the tool in the words of a block; the words that are needed where it has none.
-    pub(crate) fn direction(
+    pub(crate) fn write_tool_axis(
         &mut self,
         motion: &Motion,
         way: &Way,
@@ -72,7 +72,7 @@ impl Writer<'_> {
         piece: &Piece,
         edits: &mut Edits,
     ) -> Option<String> {
-        let [wanted, own] = Self::axes(motion, piece)?;
+        let [wanted, own] = Self::tool_axes(motion, piece)?;
         let file = &self.program.files[motion.file];
         let digits = self.options.quaternion_decimals;
         let inner = way.datum.programmed_direction(&wanted);
@@ -104,7 +104,7 @@ impl Writer<'_> {
     }
 
     /// Writes the surface normal of a piece that ends at a share of its block.
-    pub(crate) fn normal(
+    pub(crate) fn write_normal(
         &self,
         motion: &Motion,
         way: &Way,

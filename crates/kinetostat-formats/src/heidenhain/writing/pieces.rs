@@ -59,7 +59,7 @@ impl Writer<'_> {
             };
             let order = (index + 1) as f64 / (before.len() + 1) as f64;
             let Block { before, edits } =
-                self.written(motion, way, &words, (piece, part, order), &mut place);
+                self.as_block(motion, way, &words, (piece, part, order), &mut place);
             inserted.extend(self.line_before(motion, way, before));
             let text = edits.applied_to_part(file.bytes(), &motion.span);
             let text = text.ok_or_else(|| {
@@ -78,7 +78,7 @@ impl Writer<'_> {
             false => Part::Last,
         };
         let Block { before, edits } =
-            self.written(motion, way, &words, (last, part, 1.0), &mut place);
+            self.as_block(motion, way, &words, (last, part, 1.0), &mut place);
         inserted.extend(self.line_before(motion, way, before));
         let [x, y, z] =
             [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
@@ -100,7 +100,7 @@ impl Writer<'_> {
 
 impl Writer<'_> {
     /// A piece as a block: an arc, or straight.
-    fn written(
+    fn as_block(
         &mut self,
         motion: &Motion,
         way: &Way,
@@ -108,7 +108,7 @@ impl Writer<'_> {
         (piece, part, order): (&Piece, Part, f64),
         place: &mut [Option<f64>; 3],
     ) -> Block {
-        let arc = self.arc(motion, way, words, (piece, part), place);
+        let arc = self.arc_block(motion, way, words, (piece, part), place);
         arc.unwrap_or_else(|| Block {
             before: None,
             edits: self.block(motion, way, words, (piece, part, order), place),

@@ -4,17 +4,8 @@ use nalgebra::Vector2;
 
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::word_text;
-use crate::heidenhain::writing::writer::Writer;
+use crate::heidenhain::writing::writer::{OwnPole, Writer};
 use crate::model::motion::Motion;
-
-/// A pole of the writer's own.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct OwnPole {
-    /// In the programmed axes, mm.
-    pub at: Vector2<f64>,
-    /// How many CC blocks of the program ran before it.
-    pub count: usize,
-}
 
 /// Poles nearer than this are one, mm.
 const SAME_POLE_MM: f64 = 1e-9;

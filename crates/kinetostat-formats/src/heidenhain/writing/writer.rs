@@ -1,9 +1,8 @@
 //! What the writer knows on its way through the motions.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::heidenhain::reading::found::Way;
-use crate::heidenhain::writing::poles::OwnPole;
 use crate::heidenhain::writing::words::Stated;
 use crate::model::program::RobotProgram;
 use crate::options::WriteOptions;
@@ -11,6 +10,15 @@ use crate::text::edits::Edits;
 
 /// Why a motion cannot be written, and what to do.
 pub(crate) type Reason = (String, &'static str);
+
+/// A pole of the writer's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OwnPole {
+    /// In the programmed axes, mm.
+    pub at: Vector2<f64>,
+    /// How many CC blocks of the program ran before it.
+    pub count: usize,
+}
 
 /// The walk over the motions.
 pub(crate) struct Writer<'w> {

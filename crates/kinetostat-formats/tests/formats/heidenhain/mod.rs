@@ -2,6 +2,7 @@
 
 mod arcs;
 mod broken;
+mod broken_forms;
 mod corrections;
 mod expanding;
 mod paths;
