@@ -47,7 +47,7 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             FLAT,
             "RND R2\nL X+10\nL Y+10",
             4,
-            "the block before it is no straight line whose start and end are known",
+            "the tool rises or sinks along a line at the corner",
         ),
         (FLAT, "L X+10\nM8\nRND R2\nL Y+10", 6, BETWEEN),
         (
@@ -164,8 +164,8 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
         ),
         (
             FLAT,
-            "CYCL DEF 252 CIRCULAR POCKET Q215=+0\nCYCL CALL",
-            5,
+            "CYCL DEF 252 CIRCULAR POCKET ~\n Q215=+0\nCYCL CALL",
+            6,
             "cycle 252 is called, and what it does is not followed",
         ),
         (
@@ -189,9 +189,9 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
         // Circles and tool axes.
         (
             AS_IT_IS,
-            "CC X+10 Y+0\nC X+10.5 Y+10 DR+",
+            "CC X+10 Y+0\nC X+10.7 Y+10 DR+",
             5,
-            "the circle has radius 10.0000 mm at its start and 10.0125 mm",
+            "the circle has radius 10.0000 mm at its start and 10.0245 mm",
         ),
         (
             AS_IT_IS,
