@@ -13,6 +13,9 @@ use crate::model::motion::Motion;
 use crate::text::edits::Edits;
 use crate::writing::piece::Piece;
 
+/// Largest coordinate that the control takes, in its unit.
+const FARTHEST: f64 = 99_999.999;
+
 /// A piece as it is written: what stands before its block, and the changes of the block.
 pub(crate) struct Block {
     pub before: Option<String>,
@@ -78,6 +81,9 @@ impl Writer<'_> {
                 )
             }
         };
+        if centre.amax() > FARTHEST * way.unit_mm {
+            return None;
+        }
         let mut edits = Edits::default();
         edits.replace(words[0].span.clone(), keyword);
         edits.replace(words[0].span.end..words[0].span.end, own);

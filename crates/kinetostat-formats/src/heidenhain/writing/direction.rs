@@ -51,7 +51,7 @@ impl Writer<'_> {
             true => Err((
                 "no block up to here states a direction of the tool (TX, TY, TZ) that could be corrected"
                     .to_owned(),
-                "let the CAM system write LN blocks with TX, TY, TZ, or correct places alone (position)",
+                "let the CAM system write LN blocks with TX, TY, TZ, or correct places alone (leave out --correct pose)",
             )),
             false => Ok(()),
         }

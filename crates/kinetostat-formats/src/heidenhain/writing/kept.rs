@@ -65,7 +65,7 @@ impl Writer<'_> {
                 return Err((
                     "the direction of the tool is corrected up to here, and an arc does not state it"
                         .to_owned(),
-                    "correct places alone (position), or write the arc as lines",
+                    "correct places alone (leave out --correct pose), or write the arc as lines",
                 ));
             }
             // A digit that was not worth stating again bends no arc.

@@ -32,7 +32,7 @@ impl Writer<'_> {
                 return Err((
                     "the direction of the tool is corrected up to here, and an arc does not state it"
                         .to_owned(),
-                    "correct places alone (position), or write the arc as lines",
+                    "correct places alone (leave out --correct pose), or write the arc as lines",
                 ));
             }
         }
@@ -59,7 +59,7 @@ impl Writer<'_> {
             };
             let order = (index + 1) as f64 / (before.len() + 1) as f64;
             let Block { before, edits } =
-                self.as_block(motion, way, &words, (piece, part, order), &mut place);
+                self.as_block(motion, way, &words, (piece, part, order), &mut place)?;
             inserted.extend(self.line_before(motion, way, before));
             let text = edits.applied_to_part(file.bytes(), &motion.span);
             let text = text.ok_or_else(|| {
@@ -78,7 +78,7 @@ impl Writer<'_> {
             false => Part::Last,
         };
         let Block { before, edits } =
-            self.as_block(motion, way, &words, (last, part, 1.0), &mut place);
+            self.as_block(motion, way, &words, (last, part, 1.0), &mut place)?;
         inserted.extend(self.line_before(motion, way, before));
         let [x, y, z] =
             [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
@@ -107,11 +107,20 @@ impl Writer<'_> {
         words: &[Word],
         (piece, part, order): (&Piece, Part, f64),
         place: &mut [Option<f64>; 3],
-    ) -> Block {
+    ) -> Result<Block, Reason> {
+        if piece.centre_mm.is_none() {
+            return Ok(Block {
+                before: None,
+                edits: self.block(motion, way, words, (piece, part, order), place),
+            });
+        }
         let arc = self.arc_block(motion, way, words, (piece, part), place);
-        arc.unwrap_or_else(|| Block {
-            before: None,
-            edits: self.block(motion, way, words, (piece, part, order), place),
+        arc.ok_or_else(|| {
+            (
+                "its corrected arc has no centre in the range and the digits of the control"
+                    .to_owned(),
+                "let arcs be written as lines (--arcs lines)",
+            )
         })
     }
 

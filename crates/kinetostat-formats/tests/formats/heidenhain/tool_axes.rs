@@ -156,7 +156,8 @@ fn where_no_direction_is_stated_the_reason_is_named() {
     let text = BLADE.replace("6 L X+100\n", "6 CC X+100 Y+0\n7 C X+120 Y+0 DR+\n");
     let error = corrected(&text, &Bent { turns: 1e-3 }).unwrap_err();
     assert!(
-        error.contains("line 8: ") && error.contains("correct places alone (position)"),
+        error.contains("line 8: ")
+            && error.contains("correct places alone (leave out --correct pose)"),
         "{error}"
     );
 }
