@@ -24,6 +24,14 @@ fn shift(place: &Vector3<f64>, tilt: f64) -> Vector3<f64> {
 }
 
 fn corrected(text: &str, tilt: f64, writing: &PathWriteOptions) -> (String, Corrected) {
+    corrected_by(text, &move |place| shift(place, tilt), writing)
+}
+
+fn corrected_by(
+    text: &str,
+    by: &(dyn Fn(&Vector3<f64>) -> Vector3<f64> + Sync),
+    writing: &PathWriteOptions,
+) -> (String, Corrected) {
     let program = program(text);
     let (options, making) = (ReadOptions::default(), PathOptions::default());
     let path = path_of(&program, &making).unwrap();
@@ -34,7 +42,7 @@ fn corrected(text: &str, tilt: f64, writing: &PathWriteOptions) -> (String, Corr
         making: &making,
         writing: &WriteOptions::default(),
     };
-    let field = move |request: &Request| Ok(shift(&request.position_mm, tilt));
+    let field = move |request: &Request| Ok(by(&request.position_mm));
     let written = robot.write(&field, writing, &Unwatched).unwrap();
     robot.verify(&written, writing).unwrap();
     verify_against_field(&path.path, &written, &field, writing, &Unwatched).unwrap();
@@ -223,4 +231,42 @@ fn centres_are_refused_where_they_say_nothing() {
         error.to_string().contains("only Heidenhain programs"),
         "{error}"
     );
+}
+
+#[test]
+fn shifted_mirrored_turned_scaled_and_inch_circles_are_corrected_as_they_are_programmed() {
+    // The part leans and is a little too large.
+    let by = |place: &Vector3<f64>| {
+        Vector3::new(
+            1e-3 * place.x + 0.02,
+            1e-3 * place.y,
+            2e-4 * place.x - 3e-4 * place.y,
+        )
+    };
+    let mut writing = PathWriteOptions::default();
+    writing.header = None;
+    for setup in [
+        "",
+        "CYCL DEF 7.1 X+30\n",
+        "CYCL DEF 8.1 X\n",
+        "CYCL DEF 8.1 X Y\n",
+        "CYCL DEF 8.1 Z\n",
+        "CYCL DEF 10.1 ROT+30\n",
+        "CYCL DEF 11.1 SCL 0.5\n",
+    ] {
+        for unit in ["MM", "INCH"] {
+            let text = format!(
+                "BEGIN PGM A {unit}\n{setup}L X+9 Y+0 Z-1 FMAX\nCC X+0 Y+0\nC X+0 Y+9 DR+ F400\nCR X+6 Y+15 R+6 DR-\nCT X+12 Y+9\n\
+                 CC X+12 Y+12\nCP IPA+270 IZ-2 DR+\nC X+12 Y+9 DR-\nL Z+9 FMAX\nEND PGM A {unit}\n"
+            );
+            let (output, written) = corrected_by(&text, &by, &writing);
+            let round = written.pieces.iter().filter(|piece| piece.circle.is_some());
+            let (round, all) = (round.count(), written.pieces.len());
+            assert!(
+                round >= 5 && all <= 2 + 4 * 5 + round,
+                "{round} of {all}: {output}"
+            );
+            assert!(output.matches(" DR").count() == round, "{output}");
+        }
+    }
 }
