@@ -121,6 +121,8 @@ fn line(random: &mut Random, wild: bool) -> Line {
         words.clear();
     }
     let mut unknown = false;
+    // A motion to a place of the machine (G28, G30, G53) is carried as it stands: it has no pieces.
+    let mut unknown_beside = false;
     let mut codes: Vec<(String, bool)> = Vec::new();
     let mut used = Vec::new();
     let mut numbers: Vec<u32> = Vec::new();
@@ -156,15 +158,11 @@ fn line(random: &mut Random, wild: bool) -> Line {
         let text = spelled(random, letter, tenths);
         let known = match letter {
             'G' => READ.contains(&tenths),
-            _ => {
-                tenths % 10 == 0
-                    && (!moves
-                        || BEFORE.contains(&code)
-                        || AFTER.contains(&code)
-                        || [6, 19].contains(&code))
-            }
+            _ => tenths % 10 == 0,
         };
         unknown |= !known;
+        let has_moment = BEFORE.contains(&code) || AFTER.contains(&code) || [6, 19].contains(&code);
+        unknown_beside |= letter == 'M' && moves && !has_moment;
         if letter == 'M' {
             if tenths % 10 == 0 {
                 numbers.push(code);
@@ -174,9 +172,10 @@ fn line(random: &mut Random, wild: bool) -> Line {
         let at = random.below(words.len() + 1);
         words.insert(at, text);
     }
+    let is_carried = used.iter().any(|tenths| [280, 300, 530].contains(tenths));
     Line {
         text: words.join(" "),
-        unknown,
+        unknown: unknown || unknown_beside && !is_carried,
         codes,
     }
 }
