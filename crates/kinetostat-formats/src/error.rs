@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
+use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
 /// What is refused in a program: where, what stands there, why, and what to do.
@@ -41,6 +42,22 @@ impl ProgramError {
             reason: reason.into(),
             remedy: remedy.into(),
         }
+    }
+}
+
+impl ProgramError {
+    /// Of a place of a flat program, at the line of the files that it is from.
+    pub(crate) fn of_flat(
+        flat: &FlatText,
+        files: &[SourceFile],
+        at: usize,
+        (reason, remedy): (String, &str),
+    ) -> Self {
+        let line = flat.file.line_of(at);
+        let origin = flat.origins.get(line.saturating_sub(1)).copied();
+        let (from, line) = origin.unwrap_or((0, line));
+        let source = files.get(from).unwrap_or(&flat.file);
+        Self::at(source, source.range_of(line), reason, remedy)
     }
 }
 

@@ -38,6 +38,7 @@
 //! ```
 
 mod apt;
+mod corner;
 mod document;
 mod error;
 mod heidenhain;

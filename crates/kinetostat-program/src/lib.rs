@@ -94,6 +94,7 @@ pub use writing::accounting::Accounting;
 pub use writing::jump::Turn;
 pub use writing::options::{Arcs, Circles, WriteOptions};
 pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
+pub use writing::planned_arc::PlannedArc;
 pub use writing::write::write_corrected;
 pub use writing::written::{Corrected, Piece};
 pub use writing::written_arc::WrittenArc;

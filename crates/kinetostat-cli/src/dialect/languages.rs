@@ -73,14 +73,14 @@ pub(crate) const LANGUAGES: [Language; 8] = [
         name: "siemens",
         title: "Siemens SINUMERIK 840D",
         endings: endings_of(Format::Siemens),
-        written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become circles through a place (CIP), which may lean, or G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls and drilling cycles are run once and written flat (--expand).",
+        written: "Written: numbers in place, the first piece in its block and further ones in blocks behind it, without numbers: N numbers need be neither unique nor complete. Arcs that are corrected become circles through a place (CIP), which may lean, or G1; codes, feeds and places that stay in force are stated again where they would be others; steps (G91, IC) become X=AC(). Blocks of at most 512 characters; file names have at most 24. Programs with jumps, loops, calls, drilling cycles, rounded and broken corners (RND, CHF, CHR) are run once and written flat (--expand).",
         words: Words::Statements(SIEMENS_STATEMENTS),
     },
     Language {
         name: "heidenhain",
         title: "Heidenhain conversational programs of TNC 426 to TNC 640",
         endings: endings_of(Format::Heidenhain),
-        written: "Written: numbers in place with the file's signs, at most 4 decimals in mm and 5 in inches, as the control takes them (from -99999.9999 to 99999.9999); a coordinate that a block took over from a corrected one is stated. Further blocks stand before the block, with its feed and radius compensation; a function acts on the first or the last of them as it acts on a block. Circles and polar blocks that are corrected become L blocks. Where a file numbers its blocks and gets further ones, all are numbered again. Programs with labels, Q parameters, jumps and drilling cycles are written flat first: at most 5 million blocks.",
+        written: "Written: numbers in place with the file's signs, at most 4 decimals in mm and 5 in inches, as the control takes them (from -99999.9999 to 99999.9999); a coordinate that a block took over from a corrected one is stated. Further blocks stand before the block, with its feed and radius compensation; a function acts on the first or the last of them as it acts on a block. Circles that are corrected become circles about centres of their own (CC and C), helices where they rise (CP with IPA and IZ), or L blocks where neither follows; the program's pole is stated again where a block counts from it. Polar lines become L blocks. LN blocks are divided with surface normals and tool directions between those of the program; a corrected direction is stated (TX, TY, TZ) as long as it differs. Where a file numbers its blocks and gets further ones, all are numbered again. Programs with labels, Q parameters, jumps, drilling cycles and rounded corners (RND, an arc of its own then) are written flat first (--expand): at most 5 million blocks.",
         words: Words::Statements(HEIDENHAIN_STATEMENTS),
     },
 ];

@@ -75,6 +75,11 @@ impl Datum {
         (self.matrix() * way).normalize()
     }
 
+    /// A direction of the preset as it is programmed, of length 1.
+    pub(crate) fn programmed_direction(&self, way: &Vector3<f64>) -> Vector3<f64> {
+        (self.matrix().transpose() * way).normalize()
+    }
+
     /// -1 where the sense of arcs turns over.
     pub(crate) fn sense(&self) -> f64 {
         self.matrix().determinant().signum()
@@ -95,6 +100,11 @@ pub(crate) enum Change {
     /// Nothing changes.
     Kept,
     Refused(&'static str),
+}
+
+/// Whether the holes of a cycle are written flat.
+pub(crate) fn is_followed(cycle: u32) -> bool {
+    matches!(cycle, 1 | 200 | 201 | 203)
 }
 
 /// The number of an axis.

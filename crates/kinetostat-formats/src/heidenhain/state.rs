@@ -40,6 +40,12 @@ pub(crate) struct State {
     pub last: Option<usize>,
     /// Axis of the tool in the programmed axes.
     pub axis: Vector3<f64>,
+    /// A direction of the tool was stated.
+    pub directed: bool,
+    /// The surface normal that the last motion stated, as programmed.
+    pub normal: Option<Vector3<f64>>,
+    /// The last cycle that was defined for a call.
+    pub cycle: Option<u32>,
     /// M89 is on.
     pub calls: bool,
     /// The path is moved aside by the tool's radius.
@@ -64,6 +70,9 @@ impl State {
             datum: Datum::none(),
             last: None,
             axis: Vector3::z(),
+            directed: false,
+            cycle: None,
+            normal: None,
             calls: false,
             aside: false,
         }

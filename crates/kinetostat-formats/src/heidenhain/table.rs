@@ -13,8 +13,12 @@ const AXES: &str = "HEIDENHAIN, conversational programming: multiple-axis machin
 const MISCELLANEOUS: &str = "HEIDENHAIN, conversational programming: miscellaneous functions";
 
 const ROUNDED: Treatment = Refused {
-    reason: "the control rounds or breaks the corner between two blocks",
-    remedy: "let the CAM system write arcs and lines",
+    reason: "the control rounds the corner between two blocks",
+    remedy: "write the program flat first (--expand): the arc becomes a block of its own",
+};
+const CHAMFERED: Treatment = Refused {
+    reason: "the control breaks the corner, and its manuals say of the number both that it is the length of the chamfer and that of its sides",
+    remedy: "let the CAM system write the corner as L blocks",
 };
 const APPROACH: Treatment = Refused {
     reason: "the control makes the way to or from a contour by itself",
@@ -52,7 +56,7 @@ pub const HEIDENHAIN_STATEMENTS: &[StatementRow] = &[
     line("CT", Understood, PATHS),
     line("CTP", Understood, PATHS),
     line("RND", ROUNDED, PATHS),
-    line("CHF", ROUNDED, PATHS),
+    line("CHF", CHAMFERED, PATHS),
     line("APPR", APPROACH, PATHS),
     line("DEP", APPROACH, PATHS),
     line("FPOL", CONTOUR, PATHS),

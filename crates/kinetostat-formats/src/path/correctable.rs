@@ -142,6 +142,9 @@ impl Correctable<'_> {
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
+                centre_mm: piece
+                    .arc
+                    .map(|arc| (to_own * nalgebra::Point3::from(arc.centre_mm)).coords),
                 via_orientation: halfway(piece.orientation).map(|o| to_own.rotation * o),
                 speed_factor: match same_speed(piece.speed_factor) {
                     true => 1.0,
@@ -168,6 +171,11 @@ impl Correctable<'_> {
         let of = |number: &usize| {
             let motion = &self.program.motions[*number];
             let site = motion.site.via.as_ref().map(|(_, site)| site);
+            let about = self.program.language == Language::Heidenhain
+                && matches!(motion.kind, MotionKind::Arc { .. });
+            if about {
+                return Circles::AboutAxis;
+            }
             let written = match self.program.language {
                 Language::Rapid | Language::Krl | Language::FanucLs => {
                     site.is_some_and(|site| !matches!(site, TargetSite::Fixed(_)))
@@ -208,8 +216,8 @@ impl Correctable<'_> {
                     position_mm: m.end,
                     orientation: stands(m),
                     line: m.line,
-                    circle: match (&m.curve, piece.via_mm) {
-                        (Curve::Arc(arc), Some(_)) => Some(*arc),
+                    circle: match (&m.curve, piece.via_mm.is_some() || piece.arc.is_some()) {
+                        (Curve::Arc(arc), true) => Some(*arc),
                         _ => None,
                     },
                 })

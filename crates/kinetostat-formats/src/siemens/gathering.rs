@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
+use crate::corner::Cut;
 use crate::siemens::axes_beside::OTHER_AXES;
 use crate::siemens::block::{Block, How, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::state::Feed;
 use crate::siemens::table::row;
 use crate::siemens::values::{Value, whole};
-use crate::siemens::walker::Reader;
+use crate::siemens::walker::{Corners, Reader};
 use crate::siemens::words::{Group, Purpose, Words, coordinate, coordinate_of};
 
 impl Reader<'_> {
@@ -182,6 +183,19 @@ impl Reader<'_> {
                     "AR" => words.opening = Some((item.span.clone(), value)),
                     _ => words.in_plane = Some(value),
                 }
+            }
+            "RND" | "CHF" | "CHR" if self.corners == Corners::Followed => {
+                let Some(value) = self.number(&item.span, value) else {
+                    return;
+                };
+                let size = value * self.state.unit_mm;
+                let cut = match name {
+                    "RND" => Cut::Rounded(size),
+                    "CHF" => Cut::Length(size),
+                    _ => Cut::Sides(size),
+                };
+                self.out.corner_words.push(item.span.clone());
+                words.corner = Some((item.span.clone(), cut));
             }
             "S" | "H" => {}
             _ if numbered && matches!(first, b'S' | b'H' | b'M') => {}

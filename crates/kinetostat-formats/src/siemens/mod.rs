@@ -1,7 +1,7 @@
 //! SINUMERIK 840D: part programs and subprograms as text.
 //!
 //! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`], [`codes`], [`axes_beside`]) and what blocks do
-//! ([`motion`], [`arcs`], [`frames`]) along a program that runs straight on ([`scan`]). Programs with jumps, loops, calls and
+//! ([`motion`], [`made_motion`], [`circle`], [`arcs`], [`frames`]) along a program that runs straight on ([`scan`]). Programs with jumps, loops, calls and
 //! drilling cycles are run once and written flat ([`flat`]); what is corrected is written by [`writing`]. What each word is taken for stands in [`table`].
 //!
 //! Source: Siemens, SINUMERIK 840D sl / 828D, Programming Manuals Fundamentals, Job Planning and Cycles, and public programs.
@@ -9,6 +9,7 @@
 pub(crate) mod arcs;
 mod axes_beside;
 pub(crate) mod block;
+mod circle;
 mod codes;
 pub(crate) mod declarations;
 pub(crate) mod expression;
@@ -16,6 +17,7 @@ mod files;
 pub(crate) mod flat;
 pub(crate) mod frames;
 mod gathering;
+mod made_motion;
 mod motion;
 mod place;
 pub(crate) mod reader;

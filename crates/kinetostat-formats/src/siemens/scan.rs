@@ -13,12 +13,17 @@ use crate::siemens::state::State;
 use crate::siemens::table::row;
 use crate::siemens::tokens::Token;
 use crate::siemens::values::Variables;
-use crate::siemens::walker::{Reader, Scan};
+use crate::siemens::walker::{Corners, Reader, Scan};
 use crate::table::Treatment;
 use crate::text::source::SourceFile;
 
 /// Reads all files, each for itself.
 pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
+    scan_with(files, options, Corners::Refused)
+}
+
+/// The same, with corners that are refused or followed.
+pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Corners) -> Scan {
     let mut out = Scan::default();
     let frames = options.frames.iter();
     let frames: BTreeMap<String, Isometry3<f64>> = frames
@@ -37,6 +42,7 @@ pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
             index,
             state: State::new(),
             variables: Variables::default(),
+            corners,
         };
         for line in 1..=file.line_count() {
             if reader.state.ended {

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
 use crate::model::program::Finding;
@@ -25,6 +26,8 @@ pub(crate) struct Scan {
     pub faults: Vec<ProgramError>,
     /// Motions under ORIAXES.
     pub even_axes: BTreeSet<usize>,
+    /// Words RND, CHF and CHR, where corners are followed.
+    pub corner_words: Vec<Range<usize>>,
 }
 
 /// How a motion is written, for the writer.
@@ -60,6 +63,19 @@ pub(crate) struct Written {
     pub machine: bool,
     /// G91 is in force.
     pub steps: bool,
+    /// Axis across the plane: 2 for G17.
+    pub normal: usize,
+    /// What its corner to the next motion becomes, where corners are followed.
+    pub corner: Option<(Range<usize>, Cut)>,
+}
+
+/// What becomes of RND, CHF and CHR.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Corners {
+    /// They are refused: motions end at the corners.
+    Refused,
+    /// They are noted beside the motions.
+    Followed,
 }
 
 /// The walk over one file.
@@ -72,6 +88,7 @@ pub(crate) struct Reader<'r> {
     pub state: State,
     pub variables: Variables,
     pub changes_by_m6: bool,
+    pub corners: Corners,
 }
 
 impl Reader<'_> {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use crate::corner::Cut;
 use crate::siemens::arcs::{FromStart, Stated};
 use crate::siemens::block::{How, Item, What};
 use crate::siemens::frames::Change;
@@ -39,6 +40,8 @@ pub(crate) struct Words {
     /// CR and AR.
     pub radius: Option<(Range<usize>, f64)>,
     pub opening: Option<(Range<usize>, f64)>,
+    /// RND, CHF, CHR, where corners are followed.
+    pub corner: Option<(Range<usize>, Cut)>,
     /// A3, B3, C3.
     pub direction: [Option<(Range<usize>, f64)>; 3],
     /// A2, B2, C2, degrees.

@@ -401,6 +401,12 @@ pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
                 .chain(&piece.via_orientation)
                 .all(|q| q.coords.iter().all(|part| part.is_finite()))
     };
+    if pieces.iter().any(|piece| piece.centre_mm.is_some()) {
+        return Err((
+            "a piece goes about a centre, and only Heidenhain programs are written so",
+            "give it a place between its ends, or make it straight",
+        ));
+    }
     match pieces.iter().all(finite) {
         true => Ok(()),
         false => Err((

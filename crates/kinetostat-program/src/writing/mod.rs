@@ -20,6 +20,7 @@ pub(crate) mod options;
 pub(crate) mod output_state;
 pub(crate) mod piece_account;
 pub(crate) mod plan;
+pub(crate) mod planned_arc;
 pub(crate) mod queries;
 pub(crate) mod rotary_words;
 pub(crate) mod short_blocks;

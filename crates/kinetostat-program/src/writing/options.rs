@@ -23,6 +23,8 @@ pub enum Circles {
     Straight,
     /// By circles through a place between their ends, which may lean.
     ThroughPlace,
+    /// By arcs about a stated centre in the plane of the arc, which may rise evenly.
+    AboutAxis,
 }
 
 /// How a corrected program is written.
@@ -33,7 +35,8 @@ pub struct WriteOptions {
     /// Default 0.0005.
     pub tolerance_mm: f64,
     /// What becomes of arcs, where the language has any that follow: in G-code those about the axis of the plane, in RAPID, KRL,
-    /// FANUC TP and SINUMERIK programs circles through places. APT and Heidenhain programs get straight pieces in any case.
+    /// FANUC TP and SINUMERIK programs circles through places, in Heidenhain programs arcs and helices about centres. APT programs
+    /// get straight pieces in any case.
     pub arcs: Arcs,
     /// Smallest jump of the correction (between blocks, where the load turns with the direction of
     /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the

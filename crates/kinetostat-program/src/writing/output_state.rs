@@ -69,6 +69,12 @@ pub(crate) struct OutputMove {
 }
 
 impl OutputMove {
+    /// Where equal ways of the path are on an arc or a circle, see [`crate::WrittenArc::slip`].
+    pub fn slip(&self) -> Option<[f64; 2]> {
+        let circle = self.circle.map(|circle| circle.slip);
+        circle.or(self.arc.map(|arc| arc.slip))
+    }
+
     /// A move in one straight piece.
     pub fn whole(target: Vector3<f64>, tilt: Vector3<f64>, corrected: bool) -> Self {
         Self {

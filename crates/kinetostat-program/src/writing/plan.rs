@@ -18,6 +18,7 @@ use crate::writing::node::is_divided;
 use crate::writing::options::{Arcs, Circles, WriteOptions};
 use crate::writing::output_state::OutputMove;
 use crate::writing::piece_account::{AsWritten, PieceAccount};
+use crate::writing::planned_arc::PlannedArc;
 use crate::writing::steps::Steps;
 use crate::writing::written::Corrected;
 use crate::writing::written_circle::WrittenCircle;
@@ -31,6 +32,9 @@ pub struct PlannedPiece {
     pub position_mm: Vector3<f64>,
     /// A place between its ends, mm, through which it passes on a circle; `None` where it is straight.
     pub via_mm: Option<Vector3<f64>>,
+    /// The arc on which it goes there, for a language that states centres ([`Circles::AboutAxis`]); `None` where it is straight or
+    /// goes through a place.
+    pub arc: Option<PlannedArc>,
     /// Orientation of the tool there, part axes from tool axes; `None` in a program of positions.
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Its speed over that of the program, so that the speed along the part stays the same; at most
@@ -58,7 +62,7 @@ pub struct WrittenEnd {
     pub orientation: Option<UnitQuaternion<f64>>,
     /// Line of the output, counted from 1.
     pub line: usize,
-    /// The circle on which the piece goes there, as it was read again; `None` where it is straight.
+    /// The circle or the arc on which the piece goes there, as it was read again; `None` where it is straight.
     pub circle: Option<Arc>,
 }
 
@@ -96,7 +100,7 @@ impl<'a> Plan<'a> {
     }
 
     /// As [`Plan::new`]; the arcs among the moves for which `circles` (one entry for each move, straight where there is none) says
-    /// so become circles through a place, if [`WriteOptions::arcs`] asks for arcs.
+    /// so become circles through a place, or arcs about the same axis, if [`WriteOptions::arcs`] asks for arcs.
     ///
     /// ```
     /// use kinetostat_program::*;
@@ -126,6 +130,7 @@ impl<'a> Plan<'a> {
         options.check()?;
         let fitted = |index: usize| match (options.arcs, circles.get(index)) {
             (Arcs::Fit, Some(Circles::ThroughPlace)) => Fitted::Circles,
+            (Arcs::Fit, Some(Circles::AboutAxis)) => Fitted::Arcs,
             _ => Fitted::Nothing,
         };
         let division = divide(path, field, (options, &fitted), monitor)?;
@@ -219,11 +224,8 @@ impl<'a> Plan<'a> {
                     arc: None,
                     circle: end
                         .circle
-                        .zip(step.circle)
-                        .map(|(curve, fitted)| WrittenCircle {
-                            curve,
-                            slip: fitted.slip,
-                        }),
+                        .zip(step.slip())
+                        .map(|(curve, slip)| WrittenCircle { curve, slip }),
                     kept_arc: plan.kept && motion.curve != Curve::Line,
                     feed: motion.feed.map(|feed| Feed {
                         value: feed.value * factor,
@@ -261,6 +263,10 @@ fn pieces(
 ) -> Vec<PlannedPiece> {
     let mut list = Vec::with_capacity(steps.len());
     for step in steps {
+        let arc = match &motion.curve {
+            Curve::Arc(own) => step.arc.map(|fitted| PlannedArc::new(own, &fitted)),
+            Curve::Line => None,
+        };
         let part_mm = motion.length_between_mm(step.share_from, step.share_to);
         let per_minute = motion.feed.is_none_or(|f| f.mode != FeedMode::InverseTime);
         let measured = motion.kind == MoveKind::Feed
@@ -271,8 +277,9 @@ fn pieces(
             && part_mm > 0.0;
         let raised = match measured {
             true => {
-                let chord = || (step.target - from).norm();
-                step.circle.map_or_else(chord, |circle| circle.length_mm) / part_mm
+                let circle = step.circle.map(|circle| circle.length_mm);
+                let length = circle.or(arc.map(|arc| arc.length_mm(&from, &step.target)));
+                length.unwrap_or_else(|| (step.target - from).norm()) / part_mm
             }
             false => 1.0,
         };
@@ -284,6 +291,7 @@ fn pieces(
             share_to: step.share_to,
             position_mm: step.target,
             via_mm: step.circle.map(|circle| circle.via_mm),
+            arc,
             orientation: motion.orientation(step.share_to).map(|o| turn.turned(&o)),
             speed_factor: raised.min(options.max_feed_factor),
             speed_limited: raised > options.max_feed_factor,

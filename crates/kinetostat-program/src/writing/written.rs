@@ -36,7 +36,7 @@ pub struct Piece {
     pub kept_arc: bool,
     /// An arc that was fitted to the corrected curve of one; `None` for straight pieces and kept arcs.
     pub arc: Option<WrittenArc>,
-    /// A circle through a place that was fitted to the corrected curve of an arc.
+    /// A circle through a place, or in Heidenhain programs an arc about a stated centre, that was fitted to the corrected curve of an arc.
     pub circle: Option<WrittenCircle>,
     /// Its feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so the part is
     /// cut more slowly here than programmed.

@@ -6,7 +6,8 @@ use serde::Serialize;
 use crate::path::curve::Arc;
 use crate::writing::written_arc::slipped;
 
-/// A circle of the written program that passes through a place between its ends, as it was read again.
+/// A circle of the written program that passes through a place between its ends, or an arc about a stated centre, as it was read
+/// again.
 ///
 /// ```
 /// use kinetostat_program::{Arc, WrittenCircle};

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
+use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
 use crate::heidenhain::expand::run::Run;
 use crate::heidenhain::expand::values::Values;
@@ -15,7 +16,7 @@ use crate::text::source::SourceFile;
 const MOST_BLOCKS: usize = 5_000_000;
 
 /// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
-/// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1. Each line says where it is from. A program
+/// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners between two lines that are rounded (RND). Each line says where it is from. A program
 /// without anything of that comes back byte for byte.
 ///
 /// Coordinates that parameters say are written with 4 decimals in mm (5 in inches), as the control resolves them. Holes become
@@ -61,7 +62,7 @@ pub fn expand_within(
         return Err(equal);
     }
     if !main.needs() {
-        return Ok(unchanged(main.file));
+        return written_out(unchanged(main.file), &files, options);
     }
     let mut run = Run {
         options,
@@ -90,11 +91,12 @@ pub fn expand_within(
     outcome.map_err(|fault| vec![fault])?;
     let changed = output != main.file.bytes();
     let file = SourceFile::new(main.file.name(), output);
-    Ok(FlatText {
+    let flat = FlatText {
         file,
         origins,
         changed,
-    })
+    };
+    written_out(flat, &files, options)
 }
 
 fn unchanged(file: &SourceFile) -> FlatText {

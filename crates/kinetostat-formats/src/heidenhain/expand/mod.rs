@@ -1,13 +1,15 @@
 //! Programs that repeat, jump, count or drill by cycles: run once and written flat.
 //!
-//! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`drill`])
+//! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`hole`], [`drill`])
 //! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
-//! [`cycles`] and [`path_block`] what is drilled. The way in is [`flat`].
+//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded. The way in is [`flat`].
 
+pub(crate) mod corners;
 pub(crate) mod cycles;
 pub(crate) mod drill;
 pub(crate) mod expression;
 pub(crate) mod flat;
+pub(crate) mod hole;
 pub(crate) mod jumps;
 pub(crate) mod numbers;
 pub(crate) mod parameters;

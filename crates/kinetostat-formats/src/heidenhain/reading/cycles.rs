@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::{Bend, Change, change};
-use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::reading::walker::{Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
 
 impl Reader<'_> {
@@ -27,6 +27,11 @@ impl Reader<'_> {
         let mut parts = text.splitn(2, ['.', ',']);
         let mut part = || parts.next().and_then(|text| text.parse::<u32>().ok());
         let (cycle, part) = (part().unwrap_or(0), part().unwrap_or(0));
+        if matches!(cycle, 1..=6 | 12 | 15..=18 | 21..=25 | 27..=29 | 200..=219 | 222..=290)
+            && cycle != 247
+        {
+            self.state.cycle = Some(cycle);
+        }
         match (cycle, part) {
             (7 | 8 | 10 | 11, _) => {
                 let change = change(cycle, part, &words[2..], self.unit_mm);
@@ -38,11 +43,7 @@ impl Reader<'_> {
                     _ => word.value().unwrap_or(0.0) != 0.0,
                 };
                 if words[2..].iter().any(tilts) {
-                    self.fault(
-                        span,
-                        "it tilts the plane in which the places are",
-                        "write the program in the axes of the part, or divide it there",
-                    );
+                    self.fault(span, TILTED, TILTED_REMEDY);
                 }
             }
             (247, _) => {

@@ -1,9 +1,12 @@
 //! What a program says: its motions, how each is programmed, what is wrong.
 
+use nalgebra::{Vector2, Vector3};
+
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Datum;
 use crate::heidenhain::ends::Shape;
+use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
 use crate::model::motion::Motion;
 use crate::model::program::Finding;
 
@@ -19,8 +22,27 @@ pub(crate) struct Way {
     pub unit_mm: f64,
     /// In force, as programmed; none in rapid traverse or where it is not known.
     pub feed: Option<f64>,
+    /// Sense of its arc in the programmed axes, 1 anticlockwise; 0 of what is straight.
+    pub turns: f64,
+    /// Surface normals at its start and its end, where blocks state them, as programmed.
+    pub normals: [Option<Vector3<f64>>; 2],
+    pub pole: PoleThere,
+    /// A block up to here stated the direction of the tool.
+    pub directed: bool,
     /// The motion at whose end the pole was set from where the tool was.
     pub pole_from: Option<usize>,
+}
+
+/// The pole at a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PoleThere {
+    /// In force, in the programmed axes, mm.
+    pub at: Option<Vector2<f64>>,
+    /// The block counts from it.
+    pub used: bool,
+    /// How many CC blocks ran before, in all and up to the last that needs no pole from before.
+    pub count: usize,
+    pub whole: usize,
 }
 
 /// What a program says.
@@ -30,4 +52,8 @@ pub(crate) struct Found {
     pub motions: Vec<Motion>,
     /// Of each motion.
     pub ways: Vec<Way>,
+    /// Rounded corners, in the order in which they run.
+    pub corners: Vec<Result<Rounded, Unrounded>>,
+    /// Behind the first of them, LP blocks that count on a radius or an angle of before: where they end, mm, and the unit, mm.
+    pub polar: Vec<(Block, Vector2<f64>, f64)>,
 }

@@ -2,10 +2,13 @@
 
 use std::ops::Range;
 
+use nalgebra::Vector3;
+
 use crate::apt::places::frame_use;
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::datum::is_followed;
 use crate::heidenhain::ends::Shape;
-use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::reading::found::{PoleThere, Way};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
@@ -21,6 +24,16 @@ const LEAVE: &str =
 pub(crate) enum Carried {
     Yes,
     IfLeft,
+}
+
+/// The surface normal that a block states.
+fn normal_of(words: &[Word]) -> Option<Vector3<f64>> {
+    if !words[0].is("LN") {
+        return None;
+    }
+    let component = |name: &str| words.iter().find(|word| word.is(name))?.value();
+    let normal = Vector3::new(component("NX")?, component("NY")?, component("NZ")?);
+    normal.try_normalize(1e-6)
 }
 
 impl Reader<'_> {
@@ -41,12 +54,20 @@ impl Reader<'_> {
         end: [Option<f64>; 3],
     ) {
         let reason = "a cycle is called: from here the control drills or mills by itself";
+        let other = self.state.cycle.filter(|cycle| !is_followed(*cycle));
         if self.options.unknown_targets == UnknownTargets::Refused {
-            self.fault(
-                span,
-                reason,
-                "write drilling cycles flat first (--expand), or leave such motions as written by an option",
-            );
+            match other {
+                Some(cycle) => self.fault(
+                    span,
+                    format!("cycle {cycle} is called: the control drills or mills by itself, and what this cycle does is not followed"),
+                    "let the CAM system write its motions as L and C blocks, or leave such motions as written by an option",
+                ),
+                None => self.fault(
+                    span,
+                    reason,
+                    "write drilling cycles flat first (--expand), or leave such motions as written by an option",
+                ),
+            }
         } else {
             self.unknown(block, words, span, reason, Carried::IfLeft);
             self.ends_at(end);
@@ -104,6 +125,13 @@ impl Reader<'_> {
             false => self.state.speed(self.unit_mm),
         };
         let known = speed.mm_per_s.is_some();
+        let turns = match &kind {
+            MotionKind::Arc { angle_rad, .. } => angle_rad.signum() * self.state.datum.sense(),
+            _ => 0.0,
+        };
+        let normal = normal_of(words);
+        let normals = [self.state.normal, normal];
+        self.state.normal = normal;
         let is_arc = matches!(kind, MotionKind::Arc { .. });
         let fixed = TargetSite::Fixed("an arc with other ends is none about its written centre");
         self.found.motions.push(Motion {
@@ -140,6 +168,15 @@ impl Reader<'_> {
             datum: self.state.datum,
             unit_mm: self.unit_mm,
             feed: self.state.feed.filter(|_| known),
+            turns,
+            directed: self.state.directed,
+            normals,
+            pole: PoleThere {
+                at: self.state.pole.map(|pole| pole.at),
+                used: matches!(words[0].letters.letters(), b"C" | b"CP" | b"CTP" | b"LP"),
+                count: self.poles[0],
+                whole: self.poles[1],
+            },
             pole_from: self.pole_from,
         });
         self.state.last = Some(self.found.motions.len() - 1);

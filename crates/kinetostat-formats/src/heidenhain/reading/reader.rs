@@ -7,6 +7,7 @@ use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::flow::{LABEL_TWICE, NAME_IT, Step, labels_of, order, step_of};
 use crate::heidenhain::reading::found::Found;
+use crate::heidenhain::reading::rounded::has_corners;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
 use crate::model::program::{Language, RobotProgram};
@@ -70,6 +71,8 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
         findings: Vec::new(),
         motions: Vec::new(),
         ways: Vec::new(),
+        corners: Vec::new(),
+        polar: Vec::new(),
     };
     let frames = options.frames.iter();
     let frames: Frames = frames
@@ -91,6 +94,10 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
             unit_mm: 1.0,
             state: State::new(),
             pole_from: None,
+            poles: [0; 2],
+            has_corners: has_corners(file.bytes()),
+            line: None,
+            corner: None,
             remarked: BTreeSet::new(),
         };
         reader.file();
@@ -162,6 +169,7 @@ impl Reader<'_> {
                 }
             }
         }
+        self.settle_corner(None);
         let ends = |block: &Block| {
             let is_end = bytes.get(block.text.start).map(u8::to_ascii_uppercase) == Some(b'E');
             is_end

@@ -107,6 +107,10 @@ impl Reader<'_> {
                 }
             }
         }
+        self.poles[0] += 1;
+        if words.len() == 1 || stated.iter().all(Option::is_some) {
+            self.poles[1] = self.poles[0];
+        }
         let x = stated[0].or(at.map(|at| at.x));
         let y = stated[1].or(at.map(|at| at.y));
         self.state.radius_mm = None;

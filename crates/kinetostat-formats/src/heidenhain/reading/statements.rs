@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::flow::label_name;
-use crate::heidenhain::reading::walker::{EXPAND, Reader};
+use crate::heidenhain::reading::walker::{EXPAND, Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::table::row;
 use crate::heidenhain::words::{Value, Word};
 use crate::table::Treatment;
@@ -17,7 +17,6 @@ impl Reader<'_> {
             return false;
         };
         let span = first.span.start..words[words.len() - 1].span.end;
-        let letters = first.letters;
         if block.skipped {
             self.fault(
                 &span,
@@ -25,33 +24,50 @@ impl Reader<'_> {
                 "take the sign `/` away, or the block out",
             );
         }
-        match letters.letters() {
-            b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP" | b"M" | b"F" => {
-                return self.path(block, &words, &span);
+        if self.has_corners {
+            if first.is("RND") {
+                self.note_corner(block, &words, &span);
+            } else {
+                self.line = None;
+                let ends = self.statement(block, &words, &span);
+                let line = self.line.clone();
+                self.settle_corner(line.as_ref());
+                return ends;
             }
-            b"STOP" => return self.path(block, &words, &span),
-            b"CC" => self.pole(&words, &span),
-            b"BEGIN" => self.begin(&words, &span),
+        }
+        self.statement(block, &words, &span)
+    }
+
+    /// By the word that it begins with.
+    fn statement(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
+        let first = &words[0];
+        match first.letters.letters() {
+            b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP" | b"M" | b"F" => {
+                return self.path(block, words, span);
+            }
+            b"STOP" => return self.path(block, words, span),
+            b"CC" => self.pole(words, span),
+            b"BEGIN" => self.begin(words, span),
             b"END" => return true,
-            b"TOOL" => self.tool(&words, &span),
-            b"CYCL" | b"CYCLE" => self.cycle(block, &words, &span),
-            b"TRANS" => self.trans(&words, &span),
-            b"PLANE" => self.plane(&words, &span),
-            b"FUNCTION" => self.function(&words, &span),
-            b"CALL" => self.call(&words, &span),
-            b"FN" => self.parameter_function(first, &span),
+            b"TOOL" => self.tool(words, span),
+            b"CYCL" | b"CYCLE" => self.cycle(block, words, span),
+            b"TRANS" => self.trans(words, span),
+            b"PLANE" => self.plane(words, span),
+            b"FUNCTION" => self.function(words, span),
+            b"CALL" => self.call(words, span),
+            b"FN" => self.parameter_function(first, span),
             b"X" | b"Y" | b"Z" | b"IX" | b"IY" | b"IZ" => {
                 self.fault(
-                    &span,
+                    span,
                     "the block has coordinates and no L",
                     "write L before them",
                 );
             }
             letters => match row(letters).map(|row| row.treatment) {
-                Some(Treatment::Refused { reason, remedy }) => self.fault(&span, reason, remedy),
+                Some(Treatment::Refused { reason, remedy }) => self.fault(span, reason, remedy),
                 Some(_) => {}
                 None => self.fault(
-                    &span,
+                    span,
                     "the statement is not known, and may move the tool",
                     "take it out, or make it a comment (;)",
                 ),
@@ -69,11 +85,7 @@ impl Reader<'_> {
                 .iter()
                 .any(|word| matches!(word.value, Value::Parameter { .. }))
         {
-            self.fault(
-                span,
-                "it tilts the plane in which the places are",
-                "write the program in the axes of the part, or divide it there",
-            );
+            self.fault(span, TILTED, TILTED_REMEDY);
         }
     }
 

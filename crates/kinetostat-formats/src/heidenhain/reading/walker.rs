@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::apt::places::Frames;
 use crate::error::{ProgramError, note};
 use crate::heidenhain::reading::found::Found;
+use crate::heidenhain::reading::rounded::{Line, Pending};
 use crate::heidenhain::state::State;
 use crate::model::program::Finding;
 use crate::options::ReadOptions;
@@ -21,12 +22,22 @@ pub(crate) struct Reader<'r> {
     pub unit_mm: f64,
     pub state: State,
     pub pole_from: Option<usize>,
+    /// See [`crate::heidenhain::reading::found::PoleThere`].
+    pub poles: [usize; 2],
+    /// The file may hold rounded corners; the straight block just before; a corner that waits for its second line.
+    pub has_corners: bool,
+    pub line: Option<Line>,
+    pub corner: Option<Pending>,
     /// Functions of the machine's builder that were remarked on.
     pub remarked: BTreeSet<u32>,
 }
 
 /// What is to be done with what runs more than once or by parameters.
 pub(crate) const EXPAND: &str = "write the program flat first (--expand)";
+
+pub(crate) const TILTED: &str = "it tilts the plane in which the places are";
+
+pub(crate) const TILTED_REMEDY: &str = "let the CAM system write the places in the axes of the part, with LN blocks (TX, TY, TZ) where the tool leans, or give each plane as a program of its own";
 
 pub(crate) const BY_PARAMETER: &str = "a Q parameter says its value";
 

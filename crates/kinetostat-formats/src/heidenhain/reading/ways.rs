@@ -80,7 +80,7 @@ impl Reader<'_> {
         if let [Some(x), Some(y), Some(z)] = parsed.axis {
             let axis = Vector3::new(x, y, z);
             match OrientationText::Axis.rotation_of(axis.as_slice()) {
-                Some(_) => self.state.axis = axis,
+                Some(_) => (self.state.axis, self.state.directed) = (axis, true),
                 None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
             }
         }
@@ -169,6 +169,9 @@ impl Reader<'_> {
             (target, TargetSite::Literal(text)),
             (went.shape, went.end, rapid),
         );
+        if self.has_corners && !is_arc {
+            self.line_went((block, words), (start, place), rapid);
+        }
         self.state.place = went.end;
     }
 }

@@ -3,6 +3,7 @@
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
+use crate::heidenhain::writing::direction::share_of;
 use crate::heidenhain::writing::words::{
     Part, Stated, number_text, parsed, with_blanks, word_text, write_functions,
 };
@@ -18,7 +19,7 @@ impl Writer<'_> {
         motion: &Motion,
         way: &Way,
         words: &[Word],
-        (piece, part): (&Piece, Part),
+        (piece, part, order): (&Piece, Part, f64),
         place: &mut [Option<f64>; 3],
     ) -> Edits {
         let file = &self.program.files[motion.file];
@@ -88,8 +89,26 @@ impl Writer<'_> {
                 }
             }
         }
+        let stood = self.write_tool_axis(motion, way, words, piece, &mut edits);
+        let keyword = match stood.is_some() {
+            true => "LN",
+            false => "L",
+        };
+        if let Some(stood) = stood {
+            match straight {
+                true => edits.replace(behind..behind, stood),
+                false => new_words.push_str(&stood),
+            }
+            if straight && words[0].is("L") {
+                edits.replace(words[0].span.clone(), keyword);
+            }
+        }
+        if part != Part::Only && part != Part::Last {
+            let share = share_of(way, &wanted, order);
+            self.write_normal(motion, way, words, share, &mut edits);
+        }
         if !straight {
-            edits.replace(words[0].span.clone(), "L");
+            edits.replace(words[0].span.clone(), keyword);
             edits.replace(behind..behind, new_words);
             for at in &stated.places {
                 edits.replace(with_blanks(words, *at), "");

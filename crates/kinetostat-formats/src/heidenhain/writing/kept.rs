@@ -19,6 +19,10 @@ impl Writer<'_> {
         let words = words_of(file.bytes(), &motion.span);
         let stated = Stated::of(&words);
         let off = self.off;
+        self.restore_pole(motion, way);
+        if stated.directs {
+            self.axis = None;
+        }
         if way.shape == Shape::Unknown {
             return self.unknown(motion, way, &words, &stated);
         }
@@ -38,8 +42,9 @@ impl Writer<'_> {
                 "divide it into straight pieces, too, or write it with CC and C",
             ));
         }
+        let stands = self.axis.is_none();
         let needs_feed = self.feed.is_some() && stated.feed == FeedWord::None && way.feed.is_some();
-        if off == Vector3::zeros() && whole && !needs_feed {
+        if off == Vector3::zeros() && whole && stands && !needs_feed {
             if matches!(
                 stated.feed,
                 FeedWord::Number(..) | FeedWord::Auto | FeedWord::Other
@@ -48,7 +53,7 @@ impl Writer<'_> {
             }
             return Ok(());
         }
-        if off == Vector3::zeros() && whole {
+        if off == Vector3::zeros() && whole && stands {
             // The feed alone.
             let mut edits = Edits::default();
             self.write_feed(way, &words, 1.0, &mut edits);
@@ -56,6 +61,13 @@ impl Writer<'_> {
             return Ok(());
         }
         if matches!(way.shape, Shape::Arc | Shape::Tangential) {
+            if !stands {
+                return Err((
+                    "the direction of the tool is corrected up to here, and an arc does not state it"
+                        .to_owned(),
+                    "correct places alone (leave out --correct pose), or write the arc as lines",
+                ));
+            }
             // A digit that was not worth stating again bends no arc.
             if off.amax() <= 1.01 * self.half_mm(way) && !pole_off {
                 self.stated_again(way, &stated);

@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 
 use crate::heidenhain::reading::found::Way;
-use crate::heidenhain::words::words_of;
+use crate::heidenhain::words::{Word, words_of};
+use crate::heidenhain::writing::arc::Block;
 use crate::heidenhain::writing::words::{Part, When, functions_of};
 use crate::heidenhain::writing::writer::{ABOUT_CENTRE, Reason, SAME_MM, Writer};
 use crate::model::motion::Motion;
-use crate::model::target::PoseTarget;
 use crate::writing::motions::FARTHEST_MM;
 use crate::writing::piece::Piece;
 
@@ -19,12 +19,22 @@ impl Writer<'_> {
         last: &Piece,
         before: &[&Piece],
     ) -> Result<(), Reason> {
-        let end = motion.target.pose().ok_or((
-            "the motion has no place that could be corrected".to_owned(),
-            "leave its pieces out",
-        ))?;
+        if motion.target.pose().is_none() {
+            return Err((
+                "the motion has no place that could be corrected".to_owned(),
+                "leave its pieces out",
+            ));
+        }
         for piece in before.iter().copied().chain([last]) {
-            can_be_written(piece, end, way)?;
+            can_be_written(piece, way)?;
+            Self::can_stand(motion, piece, way)?;
+            if piece.centre_mm.is_some() && !self.stands_already(motion, piece) {
+                return Err((
+                    "the direction of the tool is corrected up to here, and an arc does not state it"
+                        .to_owned(),
+                    "correct places alone (leave out --correct pose), or write the arc as lines",
+                ));
+            }
         }
         let file = &self.program.files[motion.file];
         let words = words_of(file.bytes(), &motion.span);
@@ -47,7 +57,10 @@ impl Writer<'_> {
                 0 => Part::First,
                 _ => Part::Middle,
             };
-            let edits = self.block(motion, way, &words, (piece, part), &mut place);
+            let order = (index + 1) as f64 / (before.len() + 1) as f64;
+            let Block { before, edits } =
+                self.as_block(motion, way, &words, (piece, part, order), &mut place)?;
+            inserted.extend(self.line_before(motion, way, before));
             let text = edits.applied_to_part(file.bytes(), &motion.span);
             let text = text.ok_or_else(|| {
                 (
@@ -64,7 +77,9 @@ impl Writer<'_> {
             true => Part::Only,
             false => Part::Last,
         };
-        let edits = self.block(motion, way, &words, (last, part), &mut place);
+        let Block { before, edits } =
+            self.as_block(motion, way, &words, (last, part, 1.0), &mut place)?;
+        inserted.extend(self.line_before(motion, way, before));
         let [x, y, z] =
             [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
         let off = way.datum.preset(&Vector3::new(x, y, z)) - way.datum.shift_mm;
@@ -83,8 +98,45 @@ impl Writer<'_> {
     }
 }
 
+impl Writer<'_> {
+    /// A piece as a block: an arc, or straight.
+    fn as_block(
+        &mut self,
+        motion: &Motion,
+        way: &Way,
+        words: &[Word],
+        (piece, part, order): (&Piece, Part, f64),
+        place: &mut [Option<f64>; 3],
+    ) -> Result<Block, Reason> {
+        if piece.centre_mm.is_none() {
+            return Ok(Block {
+                before: None,
+                edits: self.block(motion, way, words, (piece, part, order), place),
+            });
+        }
+        let arc = self.arc_block(motion, way, words, (piece, part), place);
+        arc.ok_or_else(|| {
+            (
+                "its corrected arc has no centre in the range and the digits of the control"
+                    .to_owned(),
+                "let arcs be written as lines (--arcs lines)",
+            )
+        })
+    }
+
+    /// A line before a block, with what stands before that: number and blanks.
+    fn line_before(&self, motion: &Motion, way: &Way, text: Option<String>) -> Vec<u8> {
+        let Some(text) = text else {
+            return Vec::new();
+        };
+        let file = &self.program.files[motion.file];
+        let head = file.part(&(way.block.lines.start..motion.span.start));
+        [head, text.as_bytes(), file.line_ending()].concat()
+    }
+}
+
 /// Whether the writer can say a piece.
-fn can_be_written(piece: &Piece, end: &PoseTarget, way: &Way) -> Result<(), Reason> {
+fn can_be_written(piece: &Piece, way: &Way) -> Result<(), Reason> {
     let near = piece
         .position_mm
         .iter()
@@ -95,18 +147,28 @@ fn can_be_written(piece: &Piece, end: &PoseTarget, way: &Way) -> Result<(), Reas
             "mend the correction",
         ));
     }
-    let z = Vector3::z();
-    let turned = piece
-        .orientation
-        .map(|to| (to * z).angle(&(end.orientation * z)));
-    if turned.is_some_and(|angle| angle.is_nan() || angle > 1e-9) {
+    let is_number = |turn: nalgebra::UnitQuaternion<f64>| turn.coords.iter().all(|c| c.is_finite());
+    if !piece.orientation.is_none_or(is_number) {
         return Err((
-            "the tool's axis is not corrected in these programs".to_owned(),
-            "correct places alone",
+            "a piece has an orientation that is no number".to_owned(),
+            "mend the correction",
+        ));
+    }
+    let centred = piece
+        .centre_mm
+        .is_none_or(|centre| centre.iter().all(|value| value.abs() < FARTHEST_CENTRE_MM));
+    if !centred || piece.centre_mm.is_some() && way.turns == 0.0 {
+        return Err((
+            "a piece goes about a centre, and its motion is no arc, or the centre is no place"
+                .to_owned(),
+            "make it straight",
         ));
     }
     if piece.via_mm.is_some() {
-        return Err((ABOUT_CENTRE.to_owned(), "give it straight pieces"));
+        return Err((
+            ABOUT_CENTRE.to_owned(),
+            "give it a centre, or make it straight",
+        ));
     }
     if piece.speed_factor != 1.0 && way.feed.is_none() {
         return Err((
@@ -116,3 +178,6 @@ fn can_be_written(piece: &Piece, end: &PoseTarget, way: &Way) -> Result<(), Reas
     }
     Ok(())
 }
+
+/// Farther than any centre of an arc that is written, mm.
+const FARTHEST_CENTRE_MM: f64 = 1e7;

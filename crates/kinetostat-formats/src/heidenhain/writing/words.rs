@@ -81,6 +81,8 @@ pub(crate) struct Stated {
     /// Words that say where it ends.
     pub places: Vec<usize>,
     pub feed: FeedWord,
+    /// The direction of the tool.
+    pub directs: bool,
 }
 
 impl Stated {
@@ -91,12 +93,14 @@ impl Stated {
                 absolute: parsed.axes.map(|axis| axis.is_some_and(|axis| !axis.step)),
                 places: parsed.places,
                 feed: parsed.feed,
+                directs: parsed.axis.iter().all(Option::is_some),
             },
             Err(_) => Self {
                 word: [None; 3],
                 absolute: [false; 3],
                 places: Vec::new(),
                 feed: FeedWord::None,
+                directs: false,
             },
         }
     }
@@ -158,6 +162,11 @@ pub(crate) fn feed_text(feed: f64) -> String {
 
 /// A word of an axis.
 pub(crate) fn word_text(axis: usize, value: f64, decimals: usize, signs: bool) -> String {
+    stands(["X", "Y", "Z"][axis], value, decimals, signs)
+}
+
+/// A word with its number.
+pub(crate) fn stands(name: &str, value: f64, decimals: usize, signs: bool) -> String {
     let digits = decimals.min(12);
     let text = format!("{value:+.digits$}");
     let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
@@ -167,5 +176,5 @@ pub(crate) fn word_text(axis: usize, value: f64, decimals: usize, signs: bool) -
         (false, true) => "+",
         (false, false) => "",
     };
-    format!("{}{sign}{unsigned}", ["X", "Y", "Z"][axis])
+    format!("{name}{sign}{unsigned}")
 }

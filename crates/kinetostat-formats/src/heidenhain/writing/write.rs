@@ -3,7 +3,8 @@
 //! What a block does not say stays as it was: where one block is corrected, those behind it must say again what they took over.
 //! So all motions are gone through in their order, with the place and the feed that the written blocks leave behind. A piece
 //! of a motion is a block before it, with its feed and radius compensation; functions that act at the beginning of the block go to the
-//! first piece, those that act at the end stay. Arcs and polar blocks that change become `L` blocks. If a file that numbers
+//! first piece, those that act at the end stay. Arcs that change become arcs about centres of their own (`CC` and `C`, or `CP` where
+//! they rise), or `L` blocks, polar blocks become `L` blocks. If a file that numbers
 //! its blocks gets further ones, all are numbered again.
 
 use std::collections::BTreeMap;
@@ -59,6 +60,8 @@ pub(crate) fn write_heidenhain(
         off: Vector3::zeros(),
         feed: None,
         polar_broken: false,
+        pole: None,
+        axis: None,
         off_at: Vec::with_capacity(program.motions.len()),
         changed: Vec::with_capacity(program.motions.len()),
         file: 0,
@@ -116,6 +119,8 @@ impl Writer<'_> {
             self.off = Vector3::zeros();
             self.feed = None;
             self.polar_broken = false;
+            self.pole = None;
+            self.axis = None;
         }
         self.changed
             .push(!pieces.is_empty() || self.off != Vector3::zeros());

@@ -1,6 +1,6 @@
 //! What the writer knows on its way through the motions.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::Stated;
@@ -10,6 +10,15 @@ use crate::text::edits::Edits;
 
 /// Why a motion cannot be written, and what to do.
 pub(crate) type Reason = (String, &'static str);
+
+/// A pole of the writer's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OwnPole {
+    /// In the programmed axes, mm.
+    pub at: Vector2<f64>,
+    /// How many CC blocks of the program ran before it.
+    pub count: usize,
+}
 
 /// The walk over the motions.
 pub(crate) struct Writer<'w> {
@@ -24,6 +33,10 @@ pub(crate) struct Writer<'w> {
     pub off: Vector3<f64>,
     /// The feed that the written blocks leave behind, where it is another one.
     pub feed: Option<f64>,
+    /// A pole of the writer's own that is in force, or would be behind CC blocks that need one from before.
+    pub pole: Option<OwnPole>,
+    /// How the tool stands, where it stands otherwise than in the program; in the preset's axes.
+    pub axis: Option<Vector3<f64>>,
     /// A polar block was written by X and Y: those behind it have no last radius.
     pub polar_broken: bool,
     /// Whether the written blocks are elsewhere at the end of each motion.
@@ -36,7 +49,8 @@ pub(crate) struct Writer<'w> {
 /// Least difference of places that counts, mm.
 pub(crate) const SAME_MM: f64 = 1e-9;
 
-pub(crate) const ABOUT_CENTRE: &str = "an arc with other ends is none about its written centre";
+pub(crate) const ABOUT_CENTRE: &str =
+    "a piece goes through a place between its ends, and circles are written about centres";
 
 impl Writer<'_> {
     /// Half of the last digit, mm.

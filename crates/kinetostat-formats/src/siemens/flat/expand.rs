@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::error::ProgramError;
 use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;
+use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::run::MOST_STEPS;
 use crate::siemens::flat::runner::Runner;
@@ -20,8 +21,8 @@ const FLOW: [&str; 26] = [
     "MCALL", "CYCLE81", "CYCLE82", "CYCLE83", "L", "P",
 ];
 
-/// Runs a SINUMERIK program once and writes it flat: without jumps, loops, subprograms, variables and the drilling cycles CYCLE81,
-/// CYCLE82 and CYCLE83. The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
+/// Runs a SINUMERIK program once and writes it flat: without jumps, loops, subprograms, variables, the drilling cycles CYCLE81,
+/// CYCLE82 and CYCLE83, and corners between two lines that are rounded or broken (RND, CHF, CHR). The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
 /// names. What needs none of that comes back byte for byte.
 ///
 /// Expressions become numbers with up to six decimals; frames (TRANS, ROT) and all else stay as they are. At most 5 million
@@ -69,11 +70,12 @@ pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, 
         if !faults.is_empty() {
             return Err(faults);
         }
-        return Ok(FlatText {
+        let flat = FlatText {
             file: file.clone(),
             origins: (1..=file.line_count()).map(|line| (main, line)).collect(),
             changed: false,
-        });
+        };
+        return written_out(flat, files);
     }
     let units: Vec<Unit> = (files.iter().enumerate())
         .map(|(index, file)| Unit::of(file, index, &mut faults))
@@ -83,11 +85,14 @@ pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, 
     }
     let runner = Runner::new(files, &units, names, main);
     match runner.run(most_steps) {
-        Ok((bytes, origins)) => Ok(FlatText {
-            file: SourceFile::new(file.name(), bytes),
-            origins,
-            changed: true,
-        }),
+        Ok((bytes, origins)) => {
+            let flat = FlatText {
+                file: SourceFile::new(file.name(), bytes),
+                origins,
+                changed: true,
+            };
+            written_out(flat, files)
+        }
         Err(fault) => Err(vec![*fault]),
     }
 }

@@ -1,10 +1,11 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
 //! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`print`] writes the blocks with numbers in place of
-//! expressions, [`holes`] the blocks of drilling cycles.
+//! expressions, [`holes`] the blocks of drilling cycles, [`corners`] those of rounded and broken corners.
 
 mod calls;
 mod control;
+mod corners;
 mod drilling;
 mod expand;
 mod holes;

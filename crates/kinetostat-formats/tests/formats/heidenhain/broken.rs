@@ -41,9 +41,12 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ("L X+5 FMAX M99", "a cycle is called"),
         (
             "RND R5",
-            "the control rounds or breaks the corner between two blocks; let the CAM system write arcs and lines",
+            "the control rounds the corner between two blocks; write the program flat first (--expand): the arc becomes a block of its own",
         ),
-        ("CHF 2", "the control rounds or breaks the corner"),
+        (
+            "CHF 2",
+            "the control breaks the corner, and its manuals say of the number both",
+        ),
         (
             "APPR LT X+10 Y+20 LEN10 RR F300",
             "the control makes the way to or from a contour by itself; let the CAM system write it as L and C blocks",

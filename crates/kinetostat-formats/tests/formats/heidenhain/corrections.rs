@@ -134,7 +134,7 @@ fn arcs_are_not_bent_by_their_start() {
     assert!(refused(&[start]).contains("line 6: the arc begins at a place that changes"));
     let mut through = Piece::to(2, Vector3::new(0.0, 10.0, 5.0));
     through.via_mm = Some(Vector3::new(7.0, 7.0, 5.0));
-    assert!(refused(&[through]).contains("none about its written centre"));
+    assert!(refused(&[through]).contains("circles are written about centres"));
     let tangential = super::program(&text("L X+10 F100\nCT X+20 Y+10\n"));
     let pieces = [
         Piece::to(1, Vector3::new(5.0, 0.1, 5.0)),
@@ -219,7 +219,7 @@ fn what_cannot_be_written_is_said() {
     assert!(refused(Piece::to(2, Vector3::repeat(f64::NAN))).contains("no finite place"));
     let mut turned = lifted(&program, 3, 0.0);
     turned.orientation = Some(nalgebra::UnitQuaternion::from_euler_angles(0.1, 0.0, 0.0));
-    assert!(refused(turned).contains("the tool's axis is not corrected"));
+    assert!(refused(turned).contains("states a direction of the tool"));
     let mut rapid = lifted(&program, 2, 0.0);
     rapid.speed_factor = 0.5;
     assert!(refused(rapid).contains("its speed cannot be changed"));

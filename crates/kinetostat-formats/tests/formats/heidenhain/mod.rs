@@ -1,12 +1,15 @@
 //! Heidenhain conversational programs.
 
+mod arcs;
 mod broken;
+mod broken_forms;
 mod corrections;
 mod expanding;
 mod paths;
 mod properties;
 mod random;
 mod real;
+mod tool_axes;
 mod zero_change;
 
 use kinetostat_formats::*;

@@ -44,7 +44,7 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
         ),
         (
             "G1 X5 RND=2",
-            "it adds to the contour what no coordinates say",
+            "the control rounds or breaks the corner to the next block; let the corner be written as a block of its own: --expand",
         ),
         (
             "G1 AP=30 RP=10",

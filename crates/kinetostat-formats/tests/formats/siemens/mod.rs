@@ -1,6 +1,7 @@
 //! SINUMERIK 840D.
 
 mod broken;
+mod broken_forms;
 mod corrections;
 mod flat;
 mod frames;

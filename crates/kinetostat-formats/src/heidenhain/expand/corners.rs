@@ -1,0 +1,163 @@
+//! Rounded corners written out: the line before ends where the arc begins, the block RND becomes the arc, and the line behind
+//! states its own end.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::Vector2;
+
+use crate::error::ProgramError;
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::path_words::FeedWord;
+use crate::heidenhain::reading::reader::interpret;
+use crate::heidenhain::reading::rounded::{Rounded, has_corners};
+use crate::heidenhain::writing::words::{Stated, feed_text, stands, with_blanks, word_text};
+use crate::options::{CutterCompensation, ReadOptions, UnknownTargets};
+use crate::text::edits::Edits;
+use crate::text::flat::FlatText;
+use crate::text::source::SourceFile;
+
+/// What to do where a corner is not followed.
+const REMEDY: &str = "let the CAM system write the corner as an arc (CR or C) between its lines";
+
+/// What a line is to end at, and the feed that it has to state.
+#[derive(Default)]
+struct Wanted {
+    end: Option<(Vector2<f64>, f64)>,
+    feed: Option<f64>,
+}
+
+/// A flat program without RND.
+///
+/// # Errors
+/// Corners that are not followed, by file and line of the program as given.
+pub(crate) fn written_out(
+    flat: FlatText,
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, Vec<ProgramError>> {
+    if !has_corners(flat.file.bytes()) {
+        return Ok(flat);
+    }
+    let reading = ReadOptions {
+        unknown_targets: UnknownTargets::LeftAsWritten,
+        cutter_compensation: CutterCompensation::CentrePath,
+        ..options.clone()
+    };
+    let file = [flat.file.clone()];
+    let found = interpret(&file, &reading);
+    if found.corners.is_empty() {
+        return Ok(flat);
+    }
+    let (mut corners, mut faults) = (Vec::new(), Vec::new());
+    for corner in found.corners {
+        match corner {
+            Ok(corner) => corners.push(corner),
+            Err((span, why)) => {
+                let reason = format!("the corner is not followed by what is known here: {why}");
+                let why = (reason, REMEDY);
+                faults.push(ProgramError::of_flat(&flat, files, span.start, why));
+            }
+        }
+    }
+    if !faults.is_empty() {
+        faults.dedup();
+        return Err(faults);
+    }
+    let edits = edits_of(&flat.file, &corners, &found.polar);
+    let bytes = edits.applied_to(flat.file.bytes()).ok_or_else(|| {
+        let none = "its words overlap";
+        vec![ProgramError::at(&flat.file, 0..0, none, REMEDY)]
+    })?;
+    Ok(FlatText {
+        file: SourceFile::new(flat.file.name(), bytes),
+        origins: flat.origins,
+        changed: true,
+    })
+}
+
+/// The changes of a flat text; `polar` holds the LP blocks that count on a radius or an angle of before, with their ends.
+fn edits_of(file: &SourceFile, corners: &[Rounded], polar: &[(Block, Vector2<f64>, f64)]) -> Edits {
+    let mut edits = Edits::default();
+    let mut lines: BTreeMap<usize, (Block, Wanted)> = BTreeMap::new();
+    let mut touched = BTreeSet::new();
+    for corner in corners {
+        let [before, own, behind] = &corner.blocks;
+        let mut line = |block: &Block| -> usize {
+            lines
+                .entry(block.lines.start)
+                .or_insert_with(|| (block.clone(), Wanted::default()));
+            block.lines.start
+        };
+        let (before, behind) = (line(before), line(behind));
+        let [first, second] = corner.corner.ends;
+        if let Some((_, wanted)) = lines.get_mut(&before) {
+            wanted.end = Some((first, corner.unit_mm));
+        }
+        if let Some((_, wanted)) = lines.get_mut(&behind) {
+            wanted.end = Some((corner.to, corner.unit_mm));
+            wanted.feed = corner.feed.and(corner.feed_behind);
+        }
+        edits.replace(own.text.clone(), arc(corner, second));
+        touched.extend([before, behind]);
+    }
+    // A polar block behind one that is not polar any more has no radius of before.
+    let first = touched.first().copied().unwrap_or(0);
+    for (block, end, unit_mm) in polar.iter().filter(|(block, ..)| block.lines.start > first) {
+        let entry = lines.entry(block.lines.start);
+        let (_, wanted) = entry.or_insert_with(|| (block.clone(), Wanted::default()));
+        wanted.end.get_or_insert((*end, *unit_mm));
+    }
+    for (block, wanted) in lines.values() {
+        line_ends(file, block, wanted, &mut edits);
+    }
+    edits
+}
+
+fn decimals(unit_mm: f64) -> usize {
+    match unit_mm == 1.0 {
+        true => 4,
+        false => 5,
+    }
+}
+
+/// The arc in place of RND.
+fn arc(corner: &Rounded, end: Vector2<f64>) -> String {
+    let digits = decimals(corner.unit_mm);
+    let [x, y] = [0, 1].map(|axis| word_text(axis, end[axis] / corner.unit_mm, digits, true));
+    let radius = stands("R", corner.radius, digits, true);
+    let turn = match corner.corner.sense < 0.0 {
+        true => "DR-",
+        false => "DR+",
+    };
+    match corner.feed {
+        Some(feed) => format!("CR {x} {y} {radius} {turn} F{}", feed_text(feed)),
+        None => format!("CR {x} {y} {radius} {turn}"),
+    }
+}
+
+/// A line with another end.
+fn line_ends(file: &SourceFile, block: &Block, wanted: &Wanted, edits: &mut Edits) {
+    let words = block.words(file.bytes());
+    let (Some((end, unit_mm)), Some(first)) = (wanted.end, words.first()) else {
+        return;
+    };
+    let stated = Stated::of(&words);
+    let digits = decimals(unit_mm);
+    let keeps_height = |at: &&usize| words[**at].is("Z") || words[**at].is("IZ");
+    for at in stated.places.iter().filter(|at| !keeps_height(at)) {
+        edits.replace(with_blanks(&words, *at), "");
+    }
+    let texts = [0, 1].map(|axis| word_text(axis, end[axis] / unit_mm, digits, true));
+    if first.is("LP") {
+        edits.replace(first.span.clone(), "L");
+    }
+    let at = first.span.end;
+    edits.replace(at..at, format!(" {} {}", texts[0], texts[1]));
+    if let (Some(feed), FeedWord::None) = (wanted.feed, stated.feed) {
+        // Before the functions.
+        let functions = words.iter().position(|word| word.is("M"));
+        let behind = functions.unwrap_or(words.len()).saturating_sub(1);
+        let at = words[behind].span.end;
+        edits.replace(at..at, format!(" F{}", feed_text(feed)));
+    }
+}

@@ -1,0 +1,116 @@
+//! Rounded corners (RND): between which lines they are, and what they become where the program is written flat.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use crate::corner::{Corner, Cut};
+use crate::heidenhain::blocks::Block;
+use crate::heidenhain::reading::rounded::{Line, Pending, Rounded};
+use crate::heidenhain::reading::walker::Reader;
+use crate::heidenhain::words::Word;
+
+/// Heights nearer than this are one, mm.
+const SAME_MM: f64 = 1e-9;
+
+impl Reader<'_> {
+    /// A block RND: what it rounds shows behind the next block.
+    pub(crate) fn note_corner(&mut self, block: &Block, words: &[Word], span: &Range<usize>) {
+        self.settle_corner(None);
+        let word = words[1..].iter().find(|word| word.is("R"));
+        let radius = words[0].value().or(word.and_then(Word::value));
+        let feed = words.iter().find(|word| word.is("F"));
+        let known = |word: &Word| {
+            (word.is("R") || word.is("F") || word.is("RND")) && word.value().is_some()
+        };
+        let plain = words[1..].iter().all(known);
+        self.corner = Some(Pending {
+            line: self.line.take(),
+            block: block.clone(),
+            span: span.clone(),
+            radius: radius.filter(|_| plain),
+            feed: feed.and_then(Word::value),
+        });
+    }
+
+    /// A straight block that was followed: the line before a corner, or the one behind.
+    pub(crate) fn line_went(
+        &mut self,
+        (block, words): (&Block, &[Word]),
+        (start, to): ([Option<f64>; 3], Vector3<f64>),
+        rapid: bool,
+    ) {
+        if words[0].is("LP") && !self.found.corners.is_empty() {
+            let polar = (block.clone(), to.xy(), self.unit_mm);
+            self.found.polar.push(polar);
+        }
+        let [Some(x), Some(y), Some(z)] = start else {
+            return;
+        };
+        if !(words[0].is("L") || words[0].is("LP")) {
+            return;
+        }
+        self.line = Some(Line {
+            block: block.clone(),
+            from: Vector3::new(x, y, z),
+            to,
+            rapid,
+            unit_mm: self.unit_mm,
+            feed: self.state.feed,
+        });
+    }
+
+    /// What a corner that waits for its second line becomes; none where no line came.
+    pub(crate) fn settle_corner(&mut self, behind: Option<&Line>) {
+        let Some(pending) = self.corner.take() else {
+            return;
+        };
+        let span = pending.span.clone();
+        match rounded(&pending, behind) {
+            Ok(rounded) => {
+                if let Some(line) = &mut self.line {
+                    let [_, second] = rounded.corner.ends;
+                    line.from = Vector3::new(second.x, second.y, line.from.z);
+                }
+                self.found.corners.push(Ok(rounded));
+            }
+            Err(why) => self.found.corners.push(Err((span, why))),
+        }
+    }
+}
+
+fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> {
+    let radius = pending
+        .radius
+        .ok_or_else(|| "its radius is not stated as a number".to_owned())?;
+    let before = pending.line.as_ref().ok_or_else(|| {
+        "the block before it is no straight line whose start and end are known".to_owned()
+    })?;
+    let behind = behind
+        .ok_or_else(|| "the block behind it is no straight line whose end is known".to_owned())?;
+    let heights = [before.from.z, before.to.z, behind.to.z];
+    if heights.iter().any(|z| (z - heights[0]).abs() > SAME_MM) {
+        return Err("the tool rises or sinks along a line at the corner".to_owned());
+    }
+    if before.rapid || behind.rapid {
+        return Err("a line at the corner is in rapid traverse (FMAX)".to_owned());
+    }
+    if pending.feed.is_some() && before.feed.is_none() {
+        return Err("the feed behind it is not known as a number".to_owned());
+    }
+    let places = [before.from, before.to, behind.to].map(|place| place.xy());
+    let unit_mm = before.unit_mm;
+    Ok(Rounded {
+        blocks: [
+            before.block.clone(),
+            pending.block.clone(),
+            behind.block.clone(),
+        ],
+        corner: Corner::cut(places, Cut::Rounded(radius * unit_mm))?,
+        radius,
+        feed: pending.feed,
+        feed_behind: before.feed,
+        to: places[2],
+        unit_mm,
+    })
+}

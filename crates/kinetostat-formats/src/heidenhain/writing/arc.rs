@@ -1,0 +1,102 @@
+//! A block that becomes an arc about a centre of its own: CC before it, and C or, where it rises, CP.
+
+use nalgebra::{Vector2, Vector3};
+
+use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::words::Word;
+use crate::heidenhain::writing::centre::{ANGLE_DECIMALS, ToPrint};
+use crate::heidenhain::writing::words::{
+    Part, Stated, parsed, with_blanks, word_text, write_functions,
+};
+use crate::heidenhain::writing::writer::Writer;
+use crate::model::motion::Motion;
+use crate::text::edits::Edits;
+use crate::writing::piece::Piece;
+
+/// Largest coordinate that the control takes, in its unit.
+const FARTHEST: f64 = 99_999.999;
+
+/// A piece as it is written: what stands before its block, and the changes of the block.
+pub(crate) struct Block {
+    pub before: Option<String>,
+    pub edits: Edits,
+}
+
+impl Writer<'_> {
+    /// A piece as an arc, from a place in the programmed axes, which is that of its end then; none where it is straight, or where
+    /// the digits say no arc.
+    pub(crate) fn arc_block(
+        &mut self,
+        motion: &Motion,
+        way: &Way,
+        words: &[Word],
+        (piece, part): (&Piece, Part),
+        place: &mut [Option<f64>; 3],
+    ) -> Option<Block> {
+        let centre = way.datum.programmed(&piece.centre_mm?);
+        let wanted = way.datum.programmed(&piece.position_mm);
+        let (Some(x), Some(y), Some(z)) = (place[0], place[1], place[2]) else {
+            return None;
+        };
+        let (decimals, half) = (self.decimals(way), self.half_mm(way));
+        let signs = self.signs[motion.file];
+        let text = |axis: usize, mm: f64| word_text(axis, mm / way.unit_mm, decimals, signs);
+        let says = |text: &str| {
+            let digits = text.get(1..).unwrap_or_default();
+            parsed(digits.as_bytes()).map(|value| value * way.unit_mm)
+        };
+        let to = [text(0, wanted.x), text(1, wanted.y)];
+        let arc = ToPrint {
+            from: Vector2::new(x, y),
+            to: Vector2::new(says(&to[0])?, says(&to[1])?),
+            centre: centre.xy(),
+            sense: way.turns,
+            digit_mm: 2.0 * half,
+        };
+        let turn = match way.turns < 0.0 {
+            true => "DR-",
+            false => "DR+",
+        };
+        let rise = text(2, wanted.z - z);
+        let rises = (wanted.z - z).abs() > half;
+        let (centre, end, keyword, own) = match rises {
+            false => (
+                arc.printed_circle()?,
+                Vector3::new(arc.to.x, arc.to.y, z),
+                "C",
+                format!(" {} {} {turn}", to[0], to[1]),
+            ),
+            true => {
+                let turned = arc.printed_helix()?;
+                let sign = match signs && turned.degrees > 0.0 {
+                    true => "+",
+                    false => "",
+                };
+                let digits = ANGLE_DECIMALS;
+                (
+                    turned.centre,
+                    Vector3::new(turned.end.x, turned.end.y, z + says(&rise)?),
+                    "CP",
+                    format!(" IPA{sign}{:.digits$} I{rise} {turn}", turned.degrees),
+                )
+            }
+        };
+        if centre.amax() > FARTHEST * way.unit_mm {
+            return None;
+        }
+        let mut edits = Edits::default();
+        edits.replace(words[0].span.clone(), keyword);
+        edits.replace(words[0].span.end..words[0].span.end, own);
+        for at in &Stated::of(words).places {
+            edits.replace(with_blanks(words, *at), "");
+        }
+        write_functions(words, part, &mut edits);
+        self.write_feed(way, words, piece.speed_factor, &mut edits);
+        *place = [Some(end.x), Some(end.y), Some(end.z)];
+        let before = self.own_pole(way, centre).then(|| {
+            let [x, y] = [text(0, centre.x), text(1, centre.y)];
+            format!("CC {x} {y}")
+        });
+        Some(Block { before, edits })
+    }
+}

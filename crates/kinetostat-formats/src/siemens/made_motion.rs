@@ -1,0 +1,242 @@
+//! The motions that blocks make, with how each is written.
+
+use std::ops::Range;
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+
+use crate::model::frame::{Frame, FrameUse};
+use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::orientation::OrientationText;
+use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
+use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::options::UnknownTargets;
+use crate::siemens::block::Block;
+use crate::siemens::state::{Code, FeedMode};
+use crate::siemens::walker::{Reader, Written};
+use crate::siemens::words::{Purpose, Words};
+use crate::text::number::{NumberText, Width};
+
+/// What a motion is, where its end is known.
+pub(crate) struct Known {
+    pub kind: MotionKind,
+    pub end: Vector3<f64>,
+}
+
+impl Reader<'_> {
+    /// A pose at a place in the frame's axes.
+    pub(crate) fn pose(&self, place: Vector3<f64>) -> PoseTarget {
+        let orientation = (self.state.direction)
+            .and_then(|axis| OrientationText::Axis.rotation_of(axis.as_slice()));
+        PoseTarget {
+            position_mm: (self.state.frame * Point3::from(place)).coords,
+            orientation: orientation.unwrap_or_else(UnitQuaternion::identity),
+            configuration: Configuration::default(),
+            external: Vec::new(),
+        }
+    }
+
+    /// A motion whose end or way is not known: rapids stay as they are written, others are refused or left.
+    pub(crate) fn unknown(
+        &mut self,
+        block: &Block,
+        words: &Words,
+        stated: (bool, bool),
+        end: [Option<f64>; 3],
+        reason: &str,
+    ) {
+        let stays = self.state.code == Code::Rapid
+            || words.purpose == Purpose::Machine
+            || self.options.unknown_targets == UnknownTargets::LeftAsWritten;
+        if !stays {
+            // Once: what follows comes from it.
+            if !self.state.lost {
+                self.fault(
+                    &block.span,
+                    reason,
+                    "state X, Y and Z before the cut, or leave such motions as written by an option",
+                );
+            }
+            self.state.place = end;
+            return;
+        }
+        if words.purpose != Purpose::Machine && self.state.code != Code::Rapid {
+            self.finding(&block.span, format!("it stays as it is written: {reason}"));
+        }
+        self.push(block, words, stated, None, end, reason);
+    }
+
+    pub(crate) fn push(
+        &mut self,
+        block: &Block,
+        words: &Words,
+        (code_stated, feed_stated): (bool, bool),
+        known: Option<Known>,
+        end: [Option<f64>; 3],
+        reason: &str,
+    ) {
+        let (state, file) = (&self.state, self.file);
+        let start_known = state.known_place().is_some();
+        let rapid = state.code == Code::Rapid;
+        let feed = state.feed.clone().filter(|_| !rapid);
+        let per_minute = state.feed_mode == FeedMode::PerMinute;
+        let mm_per_s = (feed.as_ref().filter(|_| per_minute))
+            .map(|feed| feed.value * state.feed_unit_mm / 60.0);
+        let speed = Speed {
+            mm_per_s,
+            text: match rapid {
+                true => "G0".to_owned(),
+                false => feed
+                    .as_ref()
+                    .map_or(String::new(), |feed| feed.text.clone()),
+            },
+        };
+        let anchor = behind_axes(block, words);
+        let (kind, target, site) = match known {
+            Some(Known { kind, end }) => {
+                let site = TargetSite::Literal(self.text(words, anchor, end));
+                let mut pose = self.pose(end);
+                // A turned frame leaves rounding where the tool stays: it is no way.
+                let before = state.last.filter(|_| start_known);
+                let before = before.and_then(|last| self.out.motions[last].target.pose());
+                if let Some(before) = before
+                    && (before.position_mm - pose.position_mm).norm() < SAME_MM
+                {
+                    pose.position_mm = before.position_mm;
+                }
+                (kind, Target::Pose(pose), site)
+            }
+            None => {
+                let target = Target::Unknown {
+                    reason: reason.to_owned(),
+                };
+                let site = TargetSite::Fixed("its end or its way is not known");
+                (MotionKind::Linear, target, site)
+            }
+        };
+        let keyword = words.code.clone().unwrap_or(block.words_at..block.words_at);
+        let exact = state.exact || words.exact;
+        let motion = Motion {
+            file: self.index,
+            line: file.line_of(block.span.start),
+            span: block.span.clone(),
+            kind,
+            target,
+            zone: match exact {
+                true => Zone::Exact,
+                false => Zone::Unstated,
+            },
+            tool: self.frame_use(&state.tool),
+            work_object: self.frame_use(&state.work_object),
+            runs: Runs::Once,
+            follows: state.last.filter(|_| start_known),
+            site: MotionSite {
+                keyword,
+                target_span: anchor..anchor,
+                target: site,
+                via: None,
+                speed: speed.mm_per_s.map(|_| SpeedSite {
+                    span: words
+                        .feed
+                        .as_ref()
+                        .map_or(anchor..anchor, |(f, _)| f.clone()),
+                    before: "F".to_owned(),
+                    after: String::new(),
+                }),
+                zone: None,
+                indivisible: None,
+            },
+            speed,
+        };
+        let written = Written {
+            line: block.line.clone(),
+            words_at: block.words_at,
+            axes: words.axes.clone(),
+            via: words.via.clone(),
+            arc_words: words.arc_words(),
+            direction_words: words.direction_words(),
+            at_end: words.at_end.clone(),
+            code: state.code,
+            code_word: words.code.clone(),
+            code_stated,
+            feed: state.feed.clone(),
+            feed_word: words.feed.clone(),
+            feed_stated,
+            frame: state.frame,
+            unit_mm: state.unit_mm,
+            start: state.place,
+            end,
+            machine: words.purpose == Purpose::Machine,
+            steps: state.steps,
+            normal: state.normal,
+            corner: words.corner.clone(),
+        };
+        if state.even_axes {
+            self.out.even_axes.insert(self.out.motions.len());
+        }
+        self.out.motions.push(motion);
+        self.out.written.push(written);
+        self.state.place = end;
+        self.state.last = Some(self.out.motions.len() - 1);
+        self.state.code_stated = false;
+        self.state.feed_stated = false;
+        if self.state.known_place().is_some() {
+            self.state.lost = false;
+        }
+    }
+
+    /// The numbers of an end, as far as they are written.
+    fn text(&self, words: &Words, anchor: usize, end: Vector3<f64>) -> PoseText {
+        let number = |axis: usize| NumberText {
+            span: words.axes[axis]
+                .as_ref()
+                .map_or(anchor..anchor, |word| word.number.clone()),
+            value: end[axis] / self.state.unit_mm,
+        };
+        let direction = self.state.direction;
+        let parts = |axis: Vector3<f64>| {
+            axis.iter()
+                .map(|value| NumberText {
+                    span: anchor..anchor,
+                    value: *value,
+                })
+                .collect()
+        };
+        PoseText {
+            file: self.index,
+            whole: anchor..anchor,
+            position: [number(0), number(1), number(2)],
+            orientation: direction.map(parts).unwrap_or_default(),
+            convention: match direction {
+                Some(_) => OrientationText::Axis,
+                None => OrientationText::Unstated,
+            },
+            width: Width::Free,
+        }
+    }
+
+    fn frame_use(&self, name: &str) -> FrameUse {
+        let stated = self.frames.get(&name.to_ascii_uppercase());
+        FrameUse {
+            name: name.to_owned(),
+            frame: match stated {
+                Some(frame) => Frame::Known(*frame),
+                None => Frame::Unknown {
+                    reason: "the program does not say it; state it in the options".to_owned(),
+                },
+            },
+        }
+    }
+}
+
+/// Places nearer than this are one, mm.
+const SAME_MM: f64 = 1e-9;
+
+/// Where words of places go that are not there: behind those that are, or behind the code.
+pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {
+    let last = |words: &mut dyn Iterator<Item = &Range<usize>>| words.map(|word| word.end).max();
+    let mut axes = words.axes.iter().flatten().map(|word| &word.word);
+    let mut code = words.code.iter();
+    last(&mut axes)
+        .or(last(&mut code))
+        .unwrap_or(block.words_at)
+}
