@@ -16,7 +16,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// write them.
 ///
 /// Places are those of `GOTO`, in mm; the tool's axis is the last one that was stated, and the turn about it is free: the
-/// orientation turns Z into the axis by the shortest way. Arcs are [`MotionKind::Arc`]. The work object is `MSYS` in the
+/// orientation turns Z into the axis by the shortest way. Arcs are [`MotionKind::Arc`](crate::MotionKind::Arc). The work object is `MSYS` in the
 /// part's axes; where the part is, the options say (`PART`), and where the tool is (`TOOL:5`). Holes of cycles, ends that
 /// only geometry states and helices of several turns are refused, or stay as written with
 /// [`crate::UnknownTargets::LeftAsWritten`].

@@ -11,6 +11,7 @@ pub(crate) mod corrected_curve;
 pub(crate) mod departure;
 pub(crate) mod dividing;
 pub(crate) mod emit;
+pub(crate) mod fitted_steps;
 pub(crate) mod fitting;
 pub(crate) mod header;
 pub(crate) mod jump;

@@ -262,6 +262,7 @@ impl<'a> PieceAccount<'a> {
             false => accounting.blocks_corrected += 1,
         }
         accounting.blocks_out += pieces;
+        self.short.note_count(motion, pieces);
         if pieces > 1 {
             accounting.blocks_split += 1;
             let new = &self.pieces[self.pieces.len() - pieces..];

@@ -1,6 +1,6 @@
 //! Blocks that are too short for the controller: which, and what to do.
 
-use crate::number::{at_most, smaller};
+use crate::number::{at_most, larger};
 use crate::path::moves::{FeedMode, Move, Warning};
 use crate::writing::options::WriteOptions;
 
@@ -10,9 +10,33 @@ const NAMED: usize = 5;
 /// Relative error of the arithmetic.
 const ARITHMETIC: f64 = 1e-9;
 
+/// How much longer than the shortest block, in last digits, a piece is before its ends are rounded.
+const ROUNDING_DIGITS: f64 = 2.0;
+
+/// The shortest block of a move that a controller takes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ShortestBlock {
+    /// Length as written, mm.
+    written_mm: f64,
+    /// Length of the part that the programmed feed covers in the time of a block, mm: pieces are as fast along the part.
+    on_part_mm: f64,
+}
+
+impl ShortestBlock {
+    /// Whether a piece of this length, in place of so much of the part, is long enough.
+    pub fn allows(&self, written_mm: f64, on_part_mm: f64) -> bool {
+        written_mm >= self.written_mm && on_part_mm >= self.on_part_mm
+    }
+
+    /// The longer of the two lengths, mm.
+    pub fn longer_mm(&self) -> f64 {
+        larger(self.written_mm, self.on_part_mm)
+    }
+}
+
 impl WriteOptions {
-    /// Shortest length that a block of this move is to have, in mm; none where no limit holds.
-    pub(crate) fn shortest_block_mm(&self, motion: &Move) -> Option<f64> {
+    /// The shortest block that this move is to have; none where no limit holds.
+    pub(crate) fn shortest_block(&self, motion: &Move) -> Option<ShortestBlock> {
         let seconds = self.max_blocks_per_s.map(f64::recip);
         let in_time = seconds.zip(motion.feed).and_then(|(seconds, feed)| {
             let mm_per_minute = match feed.mode {
@@ -22,11 +46,12 @@ impl WriteOptions {
             };
             Some(seconds * mm_per_minute? / 60.0)
         });
-        // The longer of the two, whichever are stated.
-        match (self.min_block_mm, in_time) {
-            (Some(a), Some(b)) => Some(crate::number::larger(a, b)),
-            (a, b) => a.or(b),
-        }
+        let rounding_mm = ROUNDING_DIGITS * self.last_digit_mm(motion.words.mm_per_unit);
+        let written = self.min_block_mm.map(|least| least + rounding_mm);
+        (written.is_some() || in_time.is_some()).then(|| ShortestBlock {
+            written_mm: written.unwrap_or(0.0),
+            on_part_mm: in_time.unwrap_or(0.0),
+        })
     }
 }
 
@@ -47,8 +72,17 @@ struct Found {
     named: Vec<usize>,
     lines: usize,
     last_line: usize,
-    /// Length and time of the shortest, and its line.
-    shortest: Option<(f64, Option<f64>, usize)>,
+    shortest: Option<Shortest>,
+}
+
+/// The shortest of them.
+#[derive(Debug, Clone, Copy)]
+struct Shortest {
+    length_mm: f64,
+    seconds: Option<f64>,
+    line: usize,
+    /// How many pieces its block has; none before all of them are written.
+    pieces: Option<usize>,
 }
 
 impl Found {
@@ -61,16 +95,33 @@ impl Found {
                 self.named.push(line);
             }
         }
-        let least = self
-            .shortest
-            .map_or(length_mm, |(least, ..)| smaller(length_mm, least));
-        if self.shortest.is_none_or(|(least, ..)| length_mm < least) {
-            self.shortest = Some((least, seconds, line));
+        // What is no number is no length either, and is shown.
+        let is_longer = |shortest: &Shortest| length_mm >= shortest.length_mm;
+        if !self.shortest.as_ref().is_some_and(is_longer) {
+            self.shortest = Some(Shortest {
+                length_mm,
+                seconds,
+                line,
+                pieces: None,
+            });
         }
     }
 
-    fn warning(&self, limit: &str, whose: Whose) -> Option<Warning> {
-        let (length_mm, seconds, line) = self.shortest?;
+    /// The block of this line has so many pieces.
+    fn end_block(&mut self, line: usize, count: usize) {
+        let own = self.shortest.as_mut().filter(|found| found.line == line);
+        if let Some(found) = own {
+            found.pieces = Some(count);
+        }
+    }
+
+    fn warning(&self, (limit, options): (&str, &WriteOptions), whose: Whose) -> Option<Warning> {
+        let Shortest {
+            length_mm,
+            seconds,
+            line,
+            pieces,
+        } = self.shortest?;
         let named: Vec<String> = self.named.iter().map(usize::to_string).collect();
         let more = match self.lines > self.named.len() {
             true => format!(" and {} more", self.lines - self.named.len()),
@@ -82,20 +133,28 @@ impl Found {
         let (what, remedy) = match whose {
             Whose::Piece => (
                 "written",
-                "widen the tolerance of the path, or that of corner steps, or cut more slowly there",
+                "widen the tolerance of the path, or that of corner steps",
             ),
             Whose::Input => (
                 match self.blocks {
                     1 => "of the input, carried as it is,",
                     _ => "of the input, carried as they are,",
                 },
-                "let the CAM system write longer ones (a wider tolerance of its chords), or cut more slowly there",
+                "let the CAM system write longer ones (a wider tolerance of its chords)",
             ),
+        };
+        let needs = pieces.map_or_else(String::new, |pieces| {
+            format!("the block here needs {pieces} pieces within the tolerances; ")
+        });
+        // A slower block is no longer one.
+        let slower = match options.max_blocks_per_s {
+            Some(_) => ", or cut more slowly there",
+            None => "",
         };
         Some(Warning {
             line,
             text: format!(
-                "{} block{} {what} on {} {}{more} {} shorter than the controller takes ({limit}), the shortest here with {} mm{time}: {remedy}",
+                "{} block{} {what} on {} {}{more} {} shorter than the controller takes ({limit}), the shortest here with {} mm{time}: {needs}{remedy}{slower}",
                 self.blocks,
                 if self.blocks == 1 { "" } else { "s" },
                 match named.len() {
@@ -143,6 +202,13 @@ impl ShortBlocks {
         }
     }
 
+    /// The block of a move has so many pieces, which were noted before.
+    pub fn note_count(&mut self, motion: &Move, count: usize) {
+        if count > 1 {
+            self.pieces.end_block(motion.line, count);
+        }
+    }
+
     /// What is to be said of them.
     pub fn warnings(&self, options: &WriteOptions) -> Vec<Warning> {
         let length = options.min_block_mm.map(|mm| format!("{mm} mm"));
@@ -152,8 +218,8 @@ impl ShortBlocks {
         let limit: Vec<String> = length.into_iter().chain(rate).collect();
         let limit = limit.join(", ");
         [
-            self.pieces.warning(&limit, Whose::Piece),
-            self.input.warning(&limit, Whose::Input),
+            self.pieces.warning((&limit, options), Whose::Piece),
+            self.input.warning((&limit, options), Whose::Input),
         ]
         .into_iter()
         .flatten()

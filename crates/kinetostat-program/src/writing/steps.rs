@@ -12,7 +12,8 @@ use crate::path::moves::{Move, Path};
 use crate::writing::corrected_curve::CorrectedCurve;
 use crate::writing::dividing::beginning::Fitted;
 use crate::writing::dividing::divide::Division;
-use crate::writing::fitting::stretch::{ArcForm, Fit, FittedPiece, Shape, Span};
+use crate::writing::fitted_steps::{curved_pieces, straight_pieces};
+use crate::writing::fitting::stretch::{ArcForm, Fit, Shape};
 use crate::writing::jump::{Jump, Turn};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
@@ -106,10 +107,9 @@ impl<'a> Steps<'a> {
                 };
                 match shape {
                     Some(shape) if known => {
-                        let steps = self.divided(motion, range.clone(), reached, Ends::OfJumps);
-                        self.fitted((move_index, shape), &steps, reached)?
+                        self.fitted((move_index, shape), range.clone(), reached)?
                     }
-                    _ if known => self.shared((move_index, range.clone()), reached),
+                    _ if known => self.straight((move_index, range.clone()), reached)?,
                     _ => self.divided(motion, range.clone(), reached, Ends::All),
                 }
             }
@@ -118,115 +118,44 @@ impl<'a> Steps<'a> {
         Ok((steps, range))
     }
 
-    /// Arcs in place of the long straight pieces between two jumps of the correction.
+    /// Pieces of a shape in place of the straight ones between two jumps of the correction.
     fn fitted(
-        &self,
+        &mut self,
         (move_index, shape): (usize, Shape<'_>),
-        steps: &[OutputMove],
+        range: Range<usize>,
         reached: Vector3<f64>,
     ) -> Result<Vec<OutputMove>, WriteError> {
+        let motion = &self.path.moves[move_index];
+        let spans = self.divided(motion, range, reached, Ends::OfJumps);
         let fit = Fit {
-            curve: CorrectedCurve::new(&self.path.moves[move_index], self.course(move_index)),
+            curve: CorrectedCurve::new(motion, self.course(move_index)),
             shape,
             options: self.options,
         };
-        let shortest_mm = self.options.shortest_block_mm(fit.curve.motion);
-        let mut all = Vec::with_capacity(steps.len());
-        let mut from = reached;
-        for step in steps {
-            if step.corner_step {
-                all.push(*step);
-            } else {
-                let span = Span {
-                    share: [step.share_from, step.share_to],
-                    ends: [from, step.target],
-                };
-                let pieces = fit.pieces(&span, shortest_mm.unwrap_or(0.0))?;
-                all.extend(self.in_place_of(step, pieces, &fit));
-            }
-            from = step.target;
-        }
-        Ok(all)
+        curved_pieces(&fit, &spans, reached)
     }
 
-    /// Straight pieces: where one is shorter than the controller takes, those between two jumps are made equally
-    /// long, if they follow the curve then and are long enough.
-    fn shared(
+    /// Straight pieces; where one is shorter than the controller takes, those between two jumps are shared out anew.
+    fn straight(
         &mut self,
         (move_index, range): (usize, Range<usize>),
         reached: Vector3<f64>,
-    ) -> Vec<OutputMove> {
+    ) -> Result<Vec<OutputMove>, WriteError> {
         let motion = &self.path.moves[move_index];
-        let shortest_mm = self.options.shortest_block_mm(motion).unwrap_or(0.0);
-        let length = |step: &OutputMove| motion.length_between_mm(step.share_from, step.share_to);
-        let short = |step: &OutputMove| !step.corner_step && length(step) < shortest_mm;
         let steps = self.divided(motion, range.clone(), reached, Ends::All);
         let turned = steps.iter().any(|step| step.tilt != Vector3::zeros());
-        if turned || !steps.iter().any(short) {
+        let shortest = self.options.shortest_block(motion);
+        let (Some(shortest), true) = (shortest, motion.has_length() && !turned) else {
             // A curve of places says nothing of the orientation between them.
-            return steps;
-        }
+            return Ok(steps);
+        };
         let spans = self.divided(motion, range, reached, Ends::OfJumps);
         let fit = Fit {
             curve: CorrectedCurve::new(motion, self.course(move_index)),
             shape: Shape::Straight,
             options: self.options,
         };
-        let mut all = Vec::with_capacity(steps.len());
-        let (mut from, mut rest) = (reached, steps.as_slice());
-        for step in &spans {
-            // The pieces as they were divided, behind as many steps of a jump.
-            let count = match step.corner_step {
-                true => 1,
-                false => rest.iter().take_while(|piece| !piece.corner_step).count(),
-            };
-            let (own, others) = rest.split_at(count.min(rest.len()));
-            rest = others;
-            let span = Span {
-                share: [step.share_from, step.share_to],
-                ends: [from, step.target],
-            };
-            from = step.target;
-            let equal = match (own.iter().any(short), &motion.curve) {
-                (true, Curve::Arc(_)) => fit.equal_and_long(&span, (count, shortest_mm)),
-                (true, Curve::Line) if length(step) >= shortest_mm * count as f64 => {
-                    fit.equal(&span, count)
-                }
-                _ => None,
-            };
-            match equal {
-                Some(equal) => all.extend(self.in_place_of(step, equal, &fit)),
-                None => all.extend_from_slice(own),
-            }
-        }
-        all
-    }
-
-    /// The pieces in place of a long one.
-    fn in_place_of(
-        &self,
-        step: &OutputMove,
-        pieces: Vec<FittedPiece>,
-        fit: &Fit<'_>,
-    ) -> Vec<OutputMove> {
-        let mut share_from = step.share_from;
-        let tilt = |share: f64| match fit.curve.turn(share) {
-            Some(turn) if share < step.share_to => {
-                let turn = Vector6::new(0.0, 0.0, 0.0, turn.x, turn.y, turn.z);
-                Correction::of_lengths(&turn, self.options.turn_lever_mm).turn
-            }
-            _ => step.tilt,
-        };
-        let pieces = pieces.into_iter().map(|piece| OutputMove {
-            share_from: std::mem::replace(&mut share_from, piece.share_to),
-            share_to: piece.share_to,
-            target: piece.target,
-            tilt: tilt(piece.share_to),
-            arc: piece.arc,
-            circle: piece.circle,
-            ..*step
-        });
-        pieces.collect()
+        straight_pieces(&fit, (&spans, &steps), reached, &shortest)
     }
 
     fn divided(

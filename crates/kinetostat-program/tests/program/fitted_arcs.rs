@@ -2,7 +2,7 @@
 
 // Helpers of tests, which clippy does not count as tests.
 use crate::arcs::cases;
-use crate::support::read_plainly;
+use crate::support::plain_reader::read_plainly;
 use crate::writing::{at_origin, bare, straight, written, written_with};
 use kinetostat_program::*;
 use kinetostat_testing::Worst;

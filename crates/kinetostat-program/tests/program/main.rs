@@ -20,6 +20,7 @@ mod fault_lists;
 mod fewest_arcs;
 mod fitted_arcs;
 mod internal;
+mod long_blocks;
 mod map;
 mod nc_files;
 mod properties;

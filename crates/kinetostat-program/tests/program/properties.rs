@@ -1,9 +1,11 @@
 //! The promises of a written program, over generated programs and random fields.
 
 // Helpers of tests, which clippy does not count as tests.
-use crate::support::{
-    Generated, MACHINE_ZERO, REFERENCES, START, Style, WORK, generate, op, read_plainly, style,
-};
+use crate::support::generator::generate;
+use crate::support::operations::{Op, Style, op, style};
+use crate::support::plain_reader::read_plainly;
+use crate::support::truth::Generated;
+use crate::support::{MACHINE_ZERO, REFERENCES, START, WORK};
 use kinetostat_program::*;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -298,7 +300,7 @@ fn check_plainly(generated: &Generated, path: &Path, written: &Corrected, waves:
     }
 }
 
-fn check_one(ops: &[crate::support::Op], style: &Style, waves: &Waves, machine_is_known: bool) {
+fn check_one(ops: &[Op], style: &Style, waves: &Waves, machine_is_known: bool) {
     let generated = generate(ops, style, machine_is_known);
     let program = Program::read(generated.text.as_bytes()).unwrap();
     assert_eq!(program.bytes(), generated.text.as_bytes());

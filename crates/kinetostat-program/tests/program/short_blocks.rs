@@ -26,7 +26,6 @@ fn what_is_left_over_is_shared_with_the_piece_before_it() {
         let path = interpret(&program, &at_origin()).unwrap();
         let (output, held) = written_with(&text, &bend, &at_origin(), &writing);
         verify_against_field(&path, &held, &bend, &writing, &Unwatched).unwrap();
-        assert_eq!(held.pieces.len(), free.pieces.len());
         let now = held.accounting.smallest_piece_mm.unwrap();
         let named = held
             .accounting
@@ -36,7 +35,10 @@ fn what_is_left_over_is_shared_with_the_piece_before_it() {
         // Either it is longer now, or the line is named.
         match now >= 1.05 * smallest {
             true => improved += 1,
-            false => assert_eq!(named.count(), 1, "{output}"),
+            false => {
+                assert_eq!(named.count(), 1, "{output}");
+                assert!(held.pieces.len() <= free.pieces.len());
+            }
         }
     }
     assert!(improved >= 8, "{improved}");
@@ -63,7 +65,7 @@ fn short_blocks_are_named_with_their_length_time_and_remedy() {
         said(Some(0.1), None),
         [
             "5: 2 blocks of the input, carried as they are, on the lines 4, 5 are shorter than the controller takes (0.1 mm), the shortest here with \
-             0.0100 mm, 0.100 ms: let the CAM system write longer ones (a wider tolerance of its chords), or cut more slowly there"
+             0.0100 mm, 0.100 ms: let the CAM system write longer ones (a wider tolerance of its chords)"
         ]
     );
     // 0.01 mm at 6000 mm/min take 0.1 ms, 0.02 mm 0.2 ms.
@@ -127,7 +129,7 @@ fn arcs_and_their_chords_are_longer_than_asked_or_their_line_is_named() {
             assert!(named.is_empty() && free.len() > 3, "{free:?}");
             let shortest = least(free.iter().copied());
             let mean = free.iter().sum::<f64>() / free.len() as f64;
-            for part in [0.1, 0.6, 1.2] {
+            for part in [0.1, 0.3, 0.6, 1.2] {
                 let shortest_mm = shortest + part * (mean - shortest);
                 for by_time in [false, true] {
                     let mut writing = writing.clone();
@@ -149,8 +151,8 @@ fn arcs_and_their_chords_are_longer_than_asked_or_their_line_is_named() {
         }
     }
     println!(
-        "longer than asked: {} of 12 with arcs, {} of 12 with chords",
+        "longer than asked: {} of 16 with arcs, {} of 16 with chords",
         held[0], held[1]
     );
-    assert!(held[0] >= 1 && held[1] >= 8, "{held:?}");
+    assert!(held[0] >= 8 && held[1] >= 12, "{held:?}");
 }

@@ -123,7 +123,7 @@ pub(crate) fn first_round(
         let motion = &path.moves[move_index];
         let fitted = all_fitted[move_index] != Fitted::Nothing;
         // The chords of an arc may become longer ones.
-        let shared = motion.curve != Curve::Line && options.shortest_block_mm(motion).is_some();
+        let shared = motion.curve != Curve::Line && options.shortest_block(motion).is_some();
         let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
         nodes.push(Node {
             before: begins,

@@ -83,7 +83,7 @@ pub(crate) fn divide(
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
         let motion = &path.moves[stretch.move_index];
-        options.shortest_block_mm(motion).is_some() || fitted[stretch.move_index] != Fitted::Nothing
+        options.shortest_block(motion).is_some() || fitted[stretch.move_index] != Fitted::Nothing
     });
     Ok(Division {
         nodes,

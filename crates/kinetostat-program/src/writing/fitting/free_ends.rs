@@ -6,6 +6,7 @@ use crate::number::{larger, smaller};
 use crate::path::curve::Arc;
 use crate::writing::fitting::search::farthest;
 use crate::writing::fitting::stretch::{Fit, FittedPiece, Shape, Span, Tube};
+use crate::writing::short_blocks::ShortestBlock;
 
 /// Parts of the longest piece at which the next one is tried to begin.
 const BEGINNINGS: [f64; 3] = [1.0, 0.86, 0.6];
@@ -34,13 +35,17 @@ struct Search<'a> {
     span: &'a Span,
     within_mm: f64,
     /// No piece is shorter than this.
-    shortest_block_mm: f64,
+    shortest: Option<&'a ShortestBlock>,
 }
 
 impl Fit<'_> {
-    /// As few arcs as these tolerances allow, none of them shorter than a length, and of those the ones that leave the curve
+    /// As few arcs as these tolerances allow, none of them shorter than a block may be, and of those the ones that leave the curve
     /// least; none where they are too many or where one would be straight.
-    pub fn free_ends(&self, span: &Span, shortest_block_mm: f64) -> Option<Vec<FittedPiece>> {
+    pub fn free_ends(
+        &self,
+        span: &Span,
+        shortest: Option<&ShortestBlock>,
+    ) -> Option<Vec<FittedPiece>> {
         let Shape::Arcs(arc, _) = self.shape else {
             return None;
         };
@@ -50,7 +55,7 @@ impl Fit<'_> {
             arc,
             span,
             within_mm,
-            shortest_block_mm,
+            shortest,
         };
         let mut best = search(most).pieces(MOST)?;
         let (mut low, mut high) = (0.5 * most, most);
@@ -112,7 +117,8 @@ impl Search<'_> {
         // What is left behind the piece is long enough as well, and not nothing.
         let [_, to] = self.span.share;
         let rest = larger(
-            MARGIN * self.shortest_block_mm / self.fit.curve.motion.length_mm(),
+            MARGIN * self.shortest.map_or(0.0, ShortestBlock::longer_mm)
+                / self.fit.curve.motion.length_mm(),
             self.fit.shortest(),
         );
         for part in BEGINNINGS {
@@ -196,6 +202,7 @@ impl Search<'_> {
     }
 
     fn is_long(&self, piece: &FittedPiece, last: &FittedPiece) -> bool {
-        piece.length_mm(&last.target, &self.arc.axis) >= self.shortest_block_mm
+        let is_long = |shortest| self.fit.is_long(last, piece, shortest);
+        self.shortest.is_none_or(is_long)
     }
 }

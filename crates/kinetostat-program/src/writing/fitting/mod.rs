@@ -16,11 +16,13 @@
 //! That such a broken line has as few pieces as it can have, if each is the longest that can be seen in the tube from where the
 //! one before was seen, is the theorem of Suri (A linear time algorithm for minimum link paths, 1986) and of Imai and Iri
 //! (An optimal algorithm for approximating a piecewise linear function, 1986). Where that does not do, the ends lie on the curve
-//! and each piece is as long as it can be ([`search`]). A straight piece is taken where no arc can be printed: one that is bent by
+//! and each piece is as long as it can be ([`search`]). Where a piece
+//! is shorter than the controller takes, others are looked for ([`long_pieces`]). A straight piece is taken where no arc can be printed: one that is bent by
 //! less than its digits, or too small for them.
 
 pub(crate) mod circle;
 pub(crate) mod fit;
 pub(crate) mod free_ends;
+pub(crate) mod long_pieces;
 pub(crate) mod search;
 pub(crate) mod stretch;
