@@ -40,6 +40,7 @@
 mod apt;
 mod document;
 mod error;
+mod file_form;
 mod heidenhain;
 #[doc(hidden)]
 pub mod internal;
@@ -61,6 +62,7 @@ pub use apt::reader::read_apt;
 pub use apt::table::APT_STATEMENTS;
 pub use document::{called_files, expand, read, write};
 pub use error::{ProgramError, WriteError};
+pub use file_form::FileForm;
 pub use heidenhain::expand::flat::expand_heidenhain;
 pub use heidenhain::reading::reader::read_heidenhain;
 pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
@@ -72,6 +74,7 @@ pub use ls::table::LS_STATEMENTS;
 pub use making::compare::Kept;
 pub use making::events::{EventKind, SourceEvent, events_of_gcode};
 pub use making::fault::{MakeError, MakeFinding};
+pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_table};
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
 pub use making::of_robot::make_of_robot;
@@ -94,7 +97,7 @@ pub use path::of_program::{RobotPath, path_of};
 pub use path::options::PathOptions;
 pub use path::tools::tool_number;
 #[cfg(feature = "parquet")]
-pub use poses::parquet::text::{parquet_of_table, table_of_parquet};
+pub use poses::parquet::text::{ParquetFile, parquet_of_table, table_of_parquet};
 pub use poses::reader::read_poses;
 pub use poses::table::POSES_STATEMENTS;
 pub use rapid::reader::read_rapid;

@@ -9,7 +9,7 @@ use kinetostat_model::Model;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::convert::free_turn::{free_turn, in_metres};
-use crate::convert::made::{as_converted, made};
+use crate::convert::made::made;
 use crate::convert::template_file::TemplateFile;
 use crate::job::arguments::ProgramArgs;
 use crate::job::free_turn::FreeTurn;
@@ -20,6 +20,7 @@ use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings;
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
+use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
@@ -40,44 +41,26 @@ pub(crate) struct Converted {
     pub(crate) findings: Vec<Warning>,
 }
 
-/// The language of a robot that a run is to write.
-fn language_of_robot(language: MakeLanguage) -> Answer<Language> {
-    match language {
-        MakeLanguage::Krl => Ok(Language::Krl),
-        MakeLanguage::Rapid => Ok(Language::Rapid),
-        MakeLanguage::FanucLs => Ok(Language::FanucLs),
-        other => Err(Failure::input(format!(
-            "compensate --to writes programs of robots: krl, rapid, ls. For {} convert the program first (`kinetostat convert --to {} --out part.{}`), and compensate what that writes",
-            other.title(),
-            match other {
-                MakeLanguage::Gcode => "gcode",
-                _ => other.ending(),
-            },
-            other.ending()
-        ))),
-    }
-}
-
 /// The run over the program in another language; `machine` is that of the source.
 pub(crate) fn for_run(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    (mut setting, mut template, language): (Setting, TemplateFile, MakeLanguage),
+    (mut setting, mut template, word): (Setting, TemplateFile, RobotWord),
     (model, machine): (&Model, &MachineSetup),
 ) -> Answer<Converted> {
-    let of_robot = language_of_robot(language)?;
+    let (of_robot, language) = (word.of_robot(), word.language());
     if machine.placement.scale != 1.0 {
         return Err(Failure::input(
             "the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
         ));
     }
-    if job.is_some_and(|j| !j.job.tools.is_empty()) {
-        return Err(Failure::input(
-            "with --to the tools of a program stand in the template ([[tools]] with in_program, number and pose), not under [[tools]] in the job file",
-        ));
-    }
     let read = read_program(&setting)?;
     let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
+    if states_orientation && job.is_some_and(|j| !j.job.tools.is_empty()) {
+        return Err(Failure::input(
+            "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
+        ));
+    }
     if !states_orientation {
         complete(&mut template.template, job, flags, machine)?;
     }
@@ -118,7 +101,6 @@ pub(crate) fn for_run(
     setting.program = bytes;
     setting.flat = Some(flat);
     setting.expansion_warnings.clear();
-    setting.targets.beside.clear();
     setting.robot = Some(RobotSource {
         language: of_robot,
         files: vec![file],
@@ -127,11 +109,8 @@ pub(crate) fn for_run(
         parquet: None,
         reading: Reading::new(),
     });
-    // What --expand would call its flat program has the ending of the source.
-    let is_named = flags.expansion.flat_program.is_some()
-        || job.is_some_and(|j| j.job.output.flat_program.is_some());
-    let target = setting.targets.flat.take().filter(|_| is_named);
-    setting.write_flat_to(target.or_else(|| setting.targets.program.as_deref().map(as_converted)));
+    let target = setting.targets.flat.take();
+    setting.write_flat_to(target);
     Ok(Converted {
         setting,
         turn,
@@ -170,6 +149,9 @@ fn complete(
         &placement.base_from_part,
     )?;
     template.base.pose = Some(base);
+    if job.is_some_and(|j| !j.job.tools.is_empty()) {
+        numbered_tools(template, machine)?;
+    }
     if template.tools.is_empty() {
         let given = machine.bounds.tools.first();
         let of_job = given.map_or_else(Pose::identity, |given| given.pose);
@@ -191,6 +173,27 @@ fn complete(
         Some(own) => own,
         None => in_part,
     });
+    Ok(())
+}
+
+/// The tools of a job under `[[tools]]`: each is one of the template, with the number that it has in the program.
+fn numbered_tools(template: &mut Template, machine: &MachineSetup) -> Answer<()> {
+    for given in &machine.bounds.tools {
+        let Some(number) = given.number else { continue };
+        let tool = template.tools.entry(number).or_default();
+        let pose = one_of(
+            (
+                &format!("in_program = {number} under [[tools]]"),
+                tool.frame.pose.as_ref(),
+            ),
+            (&format!("number = {number} under [[tools]]"), true),
+            &given.pose,
+        )?;
+        tool.frame.pose = Some(pose);
+        if tool.frame.number.is_none() && tool.frame.name.is_none() {
+            tool.frame.number = Some(number);
+        }
+    }
     Ok(())
 }
 
@@ -244,7 +247,8 @@ fn refuse_fast_feeds(setting: &Setting, read: &ReadProgram<'_>, template: &Templ
 /// Where work object and tools are, which not every language declares; mm.
 struct Stated {
     base: Option<Isometry3<f64>>,
-    tools: Vec<Option<Isometry3<f64>>>,
+    /// With the numbers that they have in the made program, where they are stated.
+    tools: Vec<(Option<u32>, Option<Isometry3<f64>>)>,
 }
 
 impl Stated {
@@ -252,13 +256,13 @@ impl Stated {
         let robot = read.robot().map(|robot| &robot.path);
         let of_source = |frame: &FrameUse| frame.known().copied();
         let tools: Vec<_> = match (template.tool.frame.pose, robot) {
-            _ if !template.tools.is_empty() => template
-                .tools
-                .values()
-                .map(|tool| tool.frame.pose)
+            _ if !template.tools.is_empty() => (template.tools.iter())
+                .map(|(number, tool)| (Some(tool.frame.number.unwrap_or(*number)), tool.frame.pose))
                 .collect(),
-            (Some(pose), _) => vec![Some(pose)],
-            (None, Some(robot)) => robot.tools.iter().map(of_source).collect(),
+            (Some(pose), _) => vec![(None, Some(pose))],
+            (None, Some(robot)) => (robot.tools.iter())
+                .map(|tool| (None, of_source(tool)))
+                .collect(),
             (None, None) => Vec::new(),
         };
         let of_robot = || robot.and_then(|robot| robot.work_object.as_ref().and_then(of_source));
@@ -289,7 +293,16 @@ impl Stated {
                 names.push(&tool.name);
             }
         }
-        for (name, pose) in names.iter().zip(&self.tools) {
+        for (index, name) in names.iter().enumerate() {
+            let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+            let number = digits.trim_end_matches(']').parse().ok();
+            let numbered = self
+                .tools
+                .iter()
+                .find(|tool| tool.0.is_some() && tool.0 == number);
+            let Some((_, pose)) = numbered.or_else(|| self.tools.get(index)) else {
+                continue;
+            };
             let is_open = (program.motions.iter())
                 .any(|motion| motion.tool.name == *name && motion.tool.known().is_none());
             if let (Some(pose), true) = (pose, is_open) {

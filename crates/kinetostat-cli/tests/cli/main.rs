@@ -23,6 +23,7 @@ mod cut_end_to_end;
 mod cut_refused;
 mod demo;
 mod draw;
+mod endings;
 mod engagement;
 mod engagement_of_program;
 mod expand;

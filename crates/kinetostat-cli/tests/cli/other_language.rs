@@ -161,9 +161,15 @@ fn what_cannot_be_written_so_is_said() {
             "has no words for the turn of a tool",
         ),
         (JOB, CELL, "--turn-plot turn.svg", "give --free-turn, too"),
-        (JOB, CELL, "--to gcode", "convert the program first"),
-        (JOB, CELL, "--to csv", "convert the program first"),
-        (JOB, CELL, "--to krl --out part.txt", "end in .src"),
+        (JOB, CELL, "--to gcode", "[possible values: krl, rapid, ls]"),
+        (JOB, CELL, "--to csv", "[possible values: krl, rapid, ls]"),
+        (JOB, CELL, "--to krl --out new.nc", "name it 'new.src'"),
+        (
+            JOB,
+            CELL,
+            "--to krl --flat-program flat.ngc --expand",
+            "and the flat program is KRL: name it 'flat.src'",
+        ),
         (
             JOB,
             &twice,

@@ -8,7 +8,7 @@ use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
 use crate::poses::carrier::Carrier;
-use crate::poses::csv::read_table;
+use crate::poses::csv::{parquet_row, read_table};
 use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
@@ -78,7 +78,14 @@ pub fn read_poses(
                 .push(ProgramError::at(file, 0..4, PARQUET_REASON, PARQUET_REMEDY));
             continue;
         }
+        let before = reader.faults.len();
         reader.file(index, file);
+        for fault in &mut reader.faults[before..] {
+            // Such a file has no lines that a person could look up.
+            if let Some(row) = parquet_row(file, &fault.span) {
+                fault.reason += &format!(" (row {row}, the first is 0)");
+            }
+        }
     }
     let Reader {
         mut faults,
