@@ -122,8 +122,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
     }
-    outputs.fill(&run, &setting)?;
-    outputs.fill_turn(turn.as_ref())?;
+    outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);

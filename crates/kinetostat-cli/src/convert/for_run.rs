@@ -4,7 +4,7 @@ use kinetostat::Pose;
 use kinetostat_formats::{
     FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
 };
-use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+use kinetostat_machining::{FlatProgram, Unwatched, Warning, WarningCode};
 use kinetostat_model::Model;
 use nalgebra::{Isometry3, Vector3};
 
@@ -12,6 +12,7 @@ use crate::convert::free_turn::{free_turn, in_metres};
 use crate::convert::made::made;
 use crate::convert::template_file::TemplateFile;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cut::along::{refuse_what_breaks_the_tool, warnings_of_moves};
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::MachineSetup;
@@ -22,6 +23,7 @@ use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
 use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
+use crate::program::solve::forces_of;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
@@ -74,6 +76,11 @@ pub(crate) fn for_run(
         FreeTurnWord::AsStated => None,
     };
     refuse_fast_feeds(&setting, &read, &template.template)?;
+    let forces = forces_of(machine, &setting, read.path(), &Unwatched)?;
+    if forces.is_some() {
+        refuse_leaning_tool(&template.template)?;
+        refuse_what_breaks_the_tool(forces.as_ref(), &setting)?;
+    }
     let made = made((&setting, &template), &read, turn.as_ref(), language)?;
     let [(_, bytes)] = made.files.as_slice() else {
         return Err(Failure::input(format!(
@@ -95,7 +102,12 @@ pub(crate) fn for_run(
     let file = SourceFile::new(setting.program_name.as_str(), bytes.as_slice());
     let stated = Stated::of(&read, &template.template);
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
-    let findings = findings(&setting, &made);
+    let of_cut = warnings_of_moves(forces.as_ref());
+    let mut findings = findings(&setting, &made);
+    findings.extend(of_cut.into_iter().map(|warning| match &setting.flat {
+        Some(flat) => warning.with_sources(flat),
+        None => warning.of_file(setting.program_name.clone()),
+    }));
     let flat = flat(&setting, &made, language, &file);
     drop(read);
     setting.program = bytes;
@@ -111,6 +123,24 @@ pub(crate) fn for_run(
     });
     let target = setting.targets.flat.take();
     setting.write_flat_to(target);
+    if let Some(mut forces) = forces {
+        // Their lines are those of the source: said above.
+        forces.findings.clear();
+        let read = read_program(&setting)?;
+        let motions = read.robot().map(|robot| robot.path.motions.clone());
+        let parts = motions.into_iter().flatten();
+        let parts: Option<Vec<_>> = parts
+            .map(|motion| made.parts.get(motion).copied())
+            .collect();
+        let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
+        let Some(parts) = parts else {
+            return Err(Failure::input(
+                "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
+            ));
+        };
+        drop(read);
+        setting.forces = Some(forces.on_parts(&parts));
+    }
     Ok(Converted {
         setting,
         turn,
@@ -220,6 +250,19 @@ fn twice(of_template: &str, of_job: &str) -> Failure {
     Failure::input(format!(
         "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
     ))
+}
+
+/// Forces of the cut are those of a tool that stands upright in the part.
+fn refuse_leaning_tool(template: &Template) -> Answer<()> {
+    let turn = template.tool_orientation.unwrap_or_default();
+    let leans = (turn * up(template)).angle(&Vector3::z());
+    match leans.to_degrees() < 0.1 {
+        true => Ok(()),
+        false => Err(Failure::input(format!(
+            "the tool leans by {} deg from z of the part, and forces that are computed from the cut or measured are those of a tool along z: correct tool_orientation, or state the force under [load]",
+            short(leans.to_degrees())
+        ))),
+    }
 }
 
 /// Speeds tell cuts from rapids in a program of a robot.

@@ -17,6 +17,7 @@ mod text;
 use std::path::Path;
 
 use kinetostat_formats::{Language, Template};
+use kinetostat_report::turns_svg;
 
 use crate::convert::arguments::ConvertArgs;
 use crate::convert::free_turn::free_turn;
@@ -124,7 +125,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         claimed.fill(flat, &setting.program)?;
     }
     if let (Some(plot), Some(turned)) = (plot, &turned) {
-        claimed.fill(plot, turned.picture.as_bytes())?;
+        claimed.fill(plot, turns_svg(&turned.choice).as_bytes())?;
     }
     let mut text = text::answer(&setting, &read, &made, &template, (&args.out, args.to));
     for sentence in said {

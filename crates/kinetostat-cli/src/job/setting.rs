@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat_formats::FileForm;
-use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
+use kinetostat_machining::{FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{Arcs, ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
@@ -56,6 +56,8 @@ pub(crate) struct Setting {
     pub(crate) targets: OutputPaths,
     /// What becomes of the turn of a round tool.
     pub(crate) free_turn: FreeTurnWord,
+    /// Forces of the cut that were found along the program before it was converted.
+    pub(crate) forces: Option<ForceAlongPath>,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
@@ -234,6 +236,7 @@ pub(crate) fn setting(
         stated,
         targets,
         free_turn,
+        forces: None,
         inputs,
     };
     setting.write_flat_to(target);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use kinetostat_machining::Run;
 use kinetostat_model::Model;
+use kinetostat_report::{html_of_run_and_turns, turns_svg};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
@@ -97,16 +98,16 @@ impl RunOutputs {
             .collect()
     }
 
-    /// Writes the picture of the turn that was chosen.
-    pub(crate) fn fill_turn(&mut self, turn: Option<&FreeTurn>) -> Answer<()> {
-        match (self.turn_plot, turn) {
-            (Some(index), Some(turn)) => self.files.fill(index, turn.picture.as_bytes()),
-            _ => Ok(()),
+    /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
+    pub(crate) fn fill(
+        &mut self,
+        run: &Run,
+        setting: &Setting,
+        turn: Option<&FreeTurn>,
+    ) -> Answer<()> {
+        if let (Some(index), Some(turn)) = (self.turn_plot, turn) {
+            self.files.fill(index, turns_svg(&turn.choice).as_bytes())?;
         }
-    }
-
-    /// Writes a run beside its targets; nothing is in place yet.
-    pub(crate) fn fill(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
         if let Some(index) = self.flat {
             self.files.fill(index, &setting.program)?;
         }
@@ -134,7 +135,7 @@ impl RunOutputs {
             outputs.complete(index)?;
         }
         if let Some(index) = self.report {
-            let page = kinetostat_report::html_of_run(run)
+            let page = html_of_run_and_turns(run, turn.map(|turn| &turn.choice))
                 .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
             self.files.fill(index, page.as_bytes())?;
         }

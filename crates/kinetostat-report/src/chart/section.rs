@@ -105,6 +105,17 @@ impl Section {
             .document(SIZE, &self.title, &style)
     }
 
+    /// The same as an element for a page, which has the style of plots and [`Self::filled_style`].
+    pub(crate) fn filled_element(&self) -> String {
+        self.draw(SIZE.1, Shape::Filled)
+            .inline("plot", SIZE, &self.title)
+    }
+
+    /// What the cells and lines of such an element need beside the style of plots.
+    pub(crate) fn filled_style() -> String {
+        [Self::style(), BOLD].concat()
+    }
+
     /// What its cells and lines need beside the style of plots.
     pub(crate) fn style() -> &'static str {
         concat!(

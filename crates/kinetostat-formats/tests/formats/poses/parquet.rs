@@ -65,7 +65,7 @@ fn a_table_is_read_corrected_and_written_with_its_columns() {
         "id,x_mm,y_mm,z_mm,qw,qx,qy,qz,speed_mm_per_s,rapid,note,when,cost,parquet_row\n"
     ));
     assert!(
-        shown.contains("\n1,0,0,20,0,0,1,0,,1,\"above, \"\"it\"\"\",1,,0\n"),
+        shown.contains("\n1,0,0,20,0,0,1,0,,1,\"above, \"\"it\"\"\",1,1.00,0\n"),
         "{shown}"
     );
     let program = read_with("slot.parquet", &text, &ReadOptions::default()).unwrap();
@@ -85,8 +85,8 @@ fn a_table_is_read_corrected_and_written_with_its_columns() {
     let rows: Vec<&str> = again.lines().collect();
     assert_eq!(rows[0], "# kinetostat: corrected");
     // A further row has all other values of its own; the rows of the new file are counted anew.
-    assert_eq!(rows[4], "3,30,0.5,-0.75,0,0,1,0,20,0,along,3,,2");
-    assert_eq!(rows[5], "3,60.012,0,-1,0,0,1,0,20,0,along,3,,3");
+    assert_eq!(rows[4], "3,30,0.5,-0.75,0,0,1,0,20,0,along,3,3.00,2");
+    assert_eq!(rows[5], "3,60.012,0,-1,0,0,1,0,20,0,along,3,3.00,3");
     assert_eq!(rows.len(), 7);
 }
 
