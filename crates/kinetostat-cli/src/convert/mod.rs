@@ -4,6 +4,7 @@
 //! compared with the path before it is written, and says what is otherwise.
 
 pub(crate) mod arguments;
+mod completed;
 mod file_names;
 pub(crate) mod for_run;
 mod free_turn;

@@ -38,6 +38,7 @@ mod import;
 mod import_link;
 mod jobs;
 mod joint_tables;
+mod joints_written;
 mod large_files;
 mod library;
 mod loads_that_swing;

@@ -138,8 +138,7 @@ struct Reader<'r, 'o> {
 }
 
 const POINTS: &str = "let the CAM system write points: GOTO/x,y,z or GOTO/x,y,z,i,j,k";
-const LEAVE: &str =
-    "leave such motions as written by an option, or let the CAM system write points";
+const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write points";
 
 impl Reader<'_, '_> {
     fn fault(&mut self, span: &Range<usize>, reason: impl Into<String>, remedy: &'static str) {
@@ -271,7 +270,7 @@ impl Reader<'_, '_> {
             self.fault(
                 &statement.span,
                 "the controller moves the path aside by the tool's radius",
-                "say by an option that the places are those of the tool's centre, if they are",
+                "if the places are those of the tool's centre, say so (cutter_compensation = \"centre_path\" under [robot] in a job file)",
             );
         }
     }

@@ -124,7 +124,8 @@ struct Said {
     is_ros: bool,
 }
 
-const UNIT_REMEDY: &str = "state it: in the names (x_mm or x_m), or by the option of the unit of lengths ([robot] length_unit = \"m\" in a job file)";
+const UNIT_REMEDY: &str =
+    "state it: in the names (x_mm or x_m), or with length_unit = \"m\" under [robot] in a job file";
 
 impl Reader<'_> {
     fn file(&mut self, index: usize, file: &SourceFile) {
@@ -205,7 +206,7 @@ impl Reader<'_> {
         let unit = match (said.named, self.options.length_unit) {
             (Some(named), Some(stated)) if named != stated => {
                 let reason =
-                    "the names of the columns state another unit of lengths than the option does";
+                    "the names of the columns state another unit of lengths than length_unit does";
                 self.fault(file, first, reason, "correct one of the two");
                 return None;
             }
@@ -246,7 +247,7 @@ impl Reader<'_> {
         let moved = (rows.windows(2)).find(|pair| pair[0].external != pair[1].external);
         if let Some([_, row]) = moved {
             let reason = "an external axis moves here: the arm stands elsewhere then";
-            let remedy = "say by the option of external axes that they are carried, if what they move is known";
+            let remedy = "if what they move is known, let them be carried (external_axes = \"carried\" under [robot] in a job file)";
             self.fault(file, row, reason, remedy);
         }
     }
@@ -259,7 +260,7 @@ impl Reader<'_> {
             frame: match stated {
                 Some((_, frame)) => Frame::Known(*frame),
                 None => Frame::Unknown {
-                    reason: "the file does not say it; state it in the options".to_owned(),
+                    reason: "the file does not say it; state it under [robot.frames]".to_owned(),
                 },
             },
         }

@@ -13,8 +13,7 @@ use crate::model::site::{MotionSite, SpeedSite, TargetSite};
 use crate::model::target::Target;
 use crate::options::UnknownTargets;
 
-const LEAVE: &str =
-    "leave such motions as written by an option, or let the CAM system write L blocks";
+const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write L blocks";
 
 /// Whether a motion to an end that is not known may stay whatever the options say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +44,7 @@ impl Reader<'_> {
             self.fault(
                 span,
                 reason,
-                "write drilling cycles flat first (--expand), or leave such motions as written by an option",
+                "write drilling cycles flat first (--expand), or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
             );
         } else {
             self.unknown(block, words, span, reason, Carried::IfLeft);
