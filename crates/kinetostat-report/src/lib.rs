@@ -81,7 +81,7 @@ pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
 }
 
 /// The report of a run for which the turn of a round tool about its axis was chosen, as [`html_of_run`] with the picture of that turn
-/// ([`turns_svg`]) in it; without a choice it is the same.
+/// ([`turns_svg`]) in it, and with what was chosen in words; without a choice it is the same.
 ///
 /// # Errors
 ///

@@ -21,9 +21,13 @@ pub(crate) fn draw(choice: &TurnChoice) -> String {
     section(choice).filled_svg()
 }
 
-/// The picture as an element for a page.
+/// The picture as an element for a page, which says beside it what was chosen.
 pub(crate) fn element(choice: &TurnChoice) -> String {
-    section(choice).filled_element()
+    let section = Section {
+        title: String::new(),
+        ..section(choice)
+    };
+    section.filled_element(&title(choice))
 }
 
 fn section(choice: &TurnChoice) -> Section {

@@ -135,8 +135,11 @@ impl RunOutputs {
             outputs.complete(index)?;
         }
         if let Some(index) = self.report {
-            let page = html_of_run_and_turns(run, turn.map(|turn| &turn.choice))
-                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            let page = html_of_run_and_turns(
+                run,
+                turn.map(|turn| (&turn.choice, turn.description.as_str())),
+            )
+            .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
             self.files.fill(index, page.as_bytes())?;
         }
         Ok(())

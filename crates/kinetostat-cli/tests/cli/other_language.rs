@@ -265,7 +265,7 @@ fn forces_that_are_computed_from_the_cut_act_on_the_program_of_the_robot() {
     );
     assert_eq!(said.code, 1, "{said:?}");
     assert!(
-        one_line(&said.err).contains("the tool leans by 20 deg"),
+        one_line(&said.err).contains("the tool is tilted by 20.0 degrees"),
         "{said:?}"
     );
 }

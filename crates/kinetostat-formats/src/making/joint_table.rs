@@ -140,7 +140,7 @@ pub fn joint_table(
                     "the path does not say how the tool stands: state its orientation (tool_orientation)",
                 ));
             }
-            None if head_is_read => table.row(number, line)?,
+            None if head_is_read => table.read_row(number, line)?,
             None => return Err(JointTableError::at(number, "it is no table of poses")),
         }
     }
@@ -163,7 +163,7 @@ struct Table<'a> {
 }
 
 impl Table<'_> {
-    fn row(&mut self, line: usize, text: &str) -> Result<(), JointTableError> {
+    fn read_row(&mut self, line: usize, text: &str) -> Result<(), JointTableError> {
         let other = || JointTableError::at(line, "it is no row of such a table");
         let mut cells = text.splitn(8, ',');
         let mut numbers = [0.0; 7];
@@ -181,22 +181,22 @@ impl Table<'_> {
         let is_cut = rest.ends_with(",0");
         let before = self.before.take();
         let joints = match &before {
-            None => self.next_to(line, &pose, &self.start.near)?,
+            None => self.joints_next_to(line, &pose, &self.start.near)?,
             Some((from, near)) => {
-                let joints = self.next_to(line, &pose, near)?;
+                let joints = self.joints_next_to(line, &pose, near)?;
                 if is_cut && self.arm.between == BetweenRows::Joint {
                     let way = [(from, near.as_slice()), (&pose, joints.as_slice())];
-                    self.between(line, way, rest, MOST_HALVINGS)?;
+                    self.rows_between(line, way, rest, MOST_HALVINGS)?;
                 }
                 joints
             }
         };
-        self.put(line, &pose, &joints, rest);
+        self.write_row(line, &pose, &joints, rest);
         self.before = Some((pose, joints));
         Ok(())
     }
 
-    fn next_to(
+    fn joints_next_to(
         &self,
         line: usize,
         pose: &Isometry3<f64>,
@@ -217,7 +217,7 @@ impl Table<'_> {
     }
 
     /// Rows between two, so that the tool stays near the straight way where all joints move in step.
-    fn between(
+    fn rows_between(
         &mut self,
         line: usize,
         [(from, near), (to, joints)]: [(&Isometry3<f64>, &[f64]); 2],
@@ -238,15 +238,15 @@ impl Table<'_> {
         if is_near || halvings == 0 {
             return Ok(());
         }
-        let middle = self.next_to(line, &straight, near)?;
-        self.between(
+        let middle = self.joints_next_to(line, &straight, near)?;
+        self.rows_between(
             line,
             [(from, near), (&straight, &middle)],
             rest,
             halvings - 1,
         )?;
-        self.put(line, &straight, &middle, rest);
-        self.between(
+        self.write_row(line, &straight, &middle, rest);
+        self.rows_between(
             line,
             [(&straight, &middle), (to, joints)],
             rest,
@@ -254,7 +254,7 @@ impl Table<'_> {
         )
     }
 
-    fn put(&mut self, line: usize, pose: &Isometry3<f64>, joints: &[f64], rest: &str) {
+    fn write_row(&mut self, line: usize, pose: &Isometry3<f64>, joints: &[f64], rest: &str) {
         let mut written = Vec::with_capacity(joints.len());
         for joint in joints {
             let text = format!("{joint:.DECIMALS$}");

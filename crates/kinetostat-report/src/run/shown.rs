@@ -11,8 +11,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) result: &'a RunResult,
     pub(crate) points: &'a [PointResult],
     pub(crate) figures: Figures,
-    /// The turn of the tool about its axis, where it was chosen for the run.
-    pub(crate) turns: Option<&'a TurnChoice>,
+    /// The turn of the tool about its axis, where it was chosen for the run, and in words.
+    pub(crate) turns: Option<(&'a TurnChoice, &'a str)>,
 }
 
 impl Deref for Shown<'_> {
@@ -42,7 +42,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    pub(crate) fn with_turns(self, turns: Option<&'a TurnChoice>) -> Self {
+    pub(crate) fn with_turns(self, turns: Option<(&'a TurnChoice, &'a str)>) -> Self {
         Self { turns, ..self }
     }
 }

@@ -79,7 +79,7 @@ impl Columns {
                 }
             }
         }
-        if columns.iter().any(|column| column.count() != rows) {
+        if columns.iter().any(|column| column.row_count() != rows) {
             return Err("its columns have other numbers of rows than it states".to_owned());
         }
         Ok(Self {
@@ -95,7 +95,7 @@ impl Columns {
     }
 
     /// Writes a file with its schema.
-    pub(crate) fn write(&self) -> Result<Vec<u8>, String> {
+    pub(crate) fn file_bytes(&self) -> Result<Vec<u8>, String> {
         let mut properties = WriterProperties::builder();
         if !self.metadata.is_empty() {
             properties = properties.set_key_value_metadata(Some(self.metadata.clone()));
@@ -152,7 +152,7 @@ impl Columns {
     }
 
     /// The rows that are named, in their order.
-    pub(crate) fn taken(&self, rows: &[usize]) -> Self {
+    pub(crate) fn with_rows(&self, rows: &[usize]) -> Self {
         Self {
             names: self.names.clone(),
             columns: self

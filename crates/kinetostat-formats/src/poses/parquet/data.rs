@@ -131,7 +131,7 @@ pub(crate) fn append(before: &mut Data, more: Data) -> Result<(), String> {
 }
 
 impl Data {
-    pub(crate) fn count(&self) -> usize {
+    pub(crate) fn row_count(&self) -> usize {
         match self {
             Self::Bool(v) => v.of_row.len(),
             Self::Int32(v) => v.of_row.len(),

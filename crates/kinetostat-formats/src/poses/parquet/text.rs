@@ -116,7 +116,7 @@ pub fn parquet_of_table(original: &[u8], table: &[u8]) -> Result<ParquetFile, St
     }
     let source = Columns::read(original)?;
     let read = rows_of(&source, table)?;
-    let mut made = source.taken(&read.sources);
+    let mut made = source.with_rows(&read.sources);
     let mut widened = Vec::new();
     for index in 0..made.columns.len() {
         let cell = match written(&mut made, index, &read.cells) {
@@ -141,7 +141,7 @@ pub fn parquet_of_table(original: &[u8], table: &[u8]) -> Result<ParquetFile, St
         let value = read.header.join("\n");
         made.metadata.push(KeyValue::new(KEY.to_owned(), value));
     }
-    let bytes = made.write()?;
+    let bytes = made.file_bytes()?;
     Ok(ParquetFile { bytes, widened })
 }
 
