@@ -86,7 +86,10 @@ pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
 /// # Errors
 ///
 /// [`ReportError::Template`] if the page template cannot be filled.
-pub fn html_of_run_and_turns(run: &Run, turns: Option<&TurnChoice>) -> Result<String, ReportError> {
+pub fn html_of_run_and_turns(
+    run: &Run,
+    turns: Option<(&TurnChoice, &str)>,
+) -> Result<String, ReportError> {
     Ok(page::render(&Shown::of_run(run).with_turns(turns))?)
 }
 
