@@ -267,7 +267,7 @@ impl Table<'_> {
         let off = apart(pose, &self.arm.arm.tool_pose(&written));
         for (most, off) in self.departure.iter_mut().zip(off) {
             // What is no number is the largest.
-            if !(off <= *most) {
+            if off > *most || off.is_nan() {
                 *most = off;
             }
         }
