@@ -80,6 +80,19 @@ pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
     Ok(page::render(&Shown::of_run(run))?)
 }
 
+/// The report of a run for which the turn of a round tool about its axis was chosen, as [`html_of_run`] with the picture of that turn
+/// ([`turns_svg`]) in it, and with what was chosen in words; without a choice it is the same.
+///
+/// # Errors
+///
+/// [`ReportError::Template`] if the page template cannot be filled.
+pub fn html_of_run_and_turns(
+    run: &Run,
+    turns: Option<(&TurnChoice, &str)>,
+) -> Result<String, ReportError> {
+    Ok(page::render(&Shown::of_run(run).with_turns(turns))?)
+}
+
 /// The cut of a program as one picture: the stock seen from above, where there is one, and below it force with its band,
 /// parts of the force, depth, arc and torque along the path. `title` says what is shown to those who cannot see it.
 ///

@@ -18,12 +18,25 @@ fn evenly(first: f64, last: f64, count: usize) -> Vec<f64> {
 
 /// The picture as a document.
 pub(crate) fn draw(choice: &TurnChoice) -> String {
+    section(choice).filled_svg()
+}
+
+/// The picture as an element for a page, which says beside it what was chosen.
+pub(crate) fn element(choice: &TurnChoice) -> String {
+    let section = Section {
+        title: String::new(),
+        ..section(choice)
+    };
+    section.filled_element(&title(choice))
+}
+
+fn section(choice: &TurnChoice) -> Section {
     let [Some(first), Some(last)] = [choice.stations.first(), choice.stations.last()] else {
-        return Section::default().filled_svg();
+        return Section::default();
     };
     let turns = &choice.map.turns_deg;
     let [Some(low), Some(high)] = [turns.first(), turns.last()] else {
-        return Section::default().filled_svg();
+        return Section::default();
     };
     let columns = choice.stations.len().clamp(2, MOST);
     let rows = turns.len().min(MOST);
@@ -66,7 +79,6 @@ pub(crate) fn draw(choice: &TurnChoice) -> String {
         y,
         ..Section::default()
     }
-    .filled_svg()
 }
 
 /// The first sentence of what was chosen.

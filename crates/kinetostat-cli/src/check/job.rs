@@ -12,12 +12,15 @@ use kinetostat_machining::{
 use kinetostat_program::{Knowledge, Move, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
+use serde_spanned::Spanned;
 
+use crate::convert::targets::{Named, in_language};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::may_be_written;
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::cut::along;
+use crate::job::file_endings::refuse_other_endings;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
 use crate::job::output_paths::OutputPaths;
@@ -115,6 +118,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
 fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
+    named_outputs(&job, &mut setting)?;
     give_arm(setting.robot.as_mut(), files, (Some(&job), None), flags)?;
     let frames = setting.robot_frames()?;
     let inputs = &mut setting.inputs;
@@ -223,6 +227,20 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
         }
     }
     found
+}
+
+/// Where a compensation writes its programs, with the endings of their language.
+fn named_outputs(job: &JobFile, setting: &mut Setting) -> Answer<()> {
+    let table = job.job.robot.as_ref().map(Spanned::get_ref);
+    let Some(word) = table.and_then(|table| table.to.as_ref()) else {
+        return refuse_other_endings(setting);
+    };
+    in_language(
+        &mut setting.targets,
+        &setting.program_path,
+        (Some(job), Named::default()),
+        word.get_ref().language(),
+    )
 }
 
 /// What a compensation would refuse of its outputs, files that exist apart: these are reported in the list.

@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::job::arguments::RunArgs;
 use crate::job::format::ArcsWord;
-use crate::job::target_word::TargetWord;
+use crate::job::target_word::RobotWord;
 use crate::options::{EXIT_CODES, number, small};
 
 /// Write a program that cuts where it should
@@ -23,9 +23,9 @@ pub(crate) struct CompensateArgs {
     /// The compensated program; without it, PROGRAM-compensated beside the job or the program
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) out: Option<PathBuf>,
-    /// Convert the program for a robot first, and compensate that: krl, rapid or ls
+    /// Convert the program for a robot first, and compensate that (other languages: `kinetostat convert`)
     #[arg(long, value_enum, value_name = "LANGUAGE", help_heading = "Other language", conflicts_with_all = ["map", "no_compensation"])]
-    pub(crate) to: Option<TargetWord>,
+    pub(crate) to: Option<RobotWord>,
     /// Template of the cell for that (`kinetostat help convert`): numbers, speeds, zones, and tool and part where the job
     /// has none
     #[arg(long, value_name = "FILE", help_heading = "Other language")]

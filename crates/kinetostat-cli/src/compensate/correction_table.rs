@@ -153,7 +153,7 @@ pub(crate) fn from_map(
         outputs.fill(index, &setting.program)?;
     }
     if let Some(index) = out {
-        outputs.fill(index, &setting.as_file(&written.bytes)?)?;
+        outputs.fill(index, &setting.as_file(&written.bytes)?.0)?;
     }
     for (index, (_, bytes)) in further.iter().zip(&written.beside) {
         outputs.fill(*index, bytes)?;

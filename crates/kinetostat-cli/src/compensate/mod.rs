@@ -17,19 +17,20 @@ use kinetostat_program::{Program, RotaryAxes, interpret};
 
 use crate::compensate::arguments::CompensateArgs;
 use crate::convert::for_run::{Converted, for_run};
-use crate::convert::made::{beside_as, refuse_other_ending};
+use crate::convert::targets::{Named, in_language};
 use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::file_endings::refuse_other_endings;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::{MachineSetup, machine_setup};
 use crate::job::robot::joint_arm::give_arm;
 use crate::job::setting::{Setting, setting};
-use crate::job::target_word::TargetWord;
+use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
@@ -74,6 +75,9 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let flags = &flags;
     let mut setting = setting(files, job, flags, &writing(args))?;
     let existing = Existing::forced(flags.force_overwrite);
+    if to.is_none() {
+        refuse_other_endings(&setting)?;
+    }
     if args.no_compensation {
         let known = args.run.model.is_some() || job.is_some_and(|j| j.job.model.is_some());
         if known && setting.robot.is_none() {
@@ -124,8 +128,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     if let Some(turn) = &turn {
         turn.put_into(&mut run.result.run_inputs);
     }
-    outputs.fill(&run, &setting)?;
-    outputs.fill_turn(turn.as_ref())?;
+    outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);
@@ -139,7 +142,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
 }
 
 /// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.
-fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<TargetWord>)) -> Failure {
+fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWord>)) -> Failure {
     let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
     if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
         failure.plain.push_str(
@@ -151,7 +154,7 @@ fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<TargetW
 }
 
 /// The language in which the program is written, where it is another one.
-fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<TargetWord> {
+fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<RobotWord> {
     let table = job.and_then(|j| j.job.robot.as_ref());
     let in_job = table.and_then(|table| table.get_ref().to.as_ref());
     let runs = args.map.is_none() && !args.no_compensation;
@@ -163,20 +166,21 @@ fn target(job: Option<&JobFile>, args: &CompensateArgs) -> Option<TargetWord> {
 fn in_other_language(
     files: &InputFiles,
     job: Option<&JobFile>,
-    (args, flags, word): (&CompensateArgs, &ProgramArgs, TargetWord),
+    (args, flags, word): (&CompensateArgs, &ProgramArgs, RobotWord),
     mut setting: Setting,
     source: (&Model, &MachineSetup),
 ) -> Answer<Converted> {
-    let language = word.language();
-    let is_named = args.out.is_some() || job.is_some_and(|j| j.job.output.program.is_some());
-    let out = setting.targets.program.take().unwrap_or_default();
-    // Names of programs have no hyphen.
-    let out = match is_named {
-        true => out,
-        false => beside_as(&out, &setting.program_path, language.ending()),
+    let options = Named {
+        out: args.out.as_deref(),
+        flat: flags.expansion.flat_program.as_deref(),
     };
-    refuse_other_ending(language, &out)?;
-    setting.targets.program = Some(out.clone());
+    in_language(
+        &mut setting.targets,
+        &setting.program_path,
+        (job, options),
+        word.language(),
+    )?;
+    let out = setting.targets.program.clone().unwrap_or_default();
     let table = job.and_then(|j| Some((j, j.job.robot.as_ref()?.get_ref().template.as_ref()?)));
     let in_job = table.map(|(j, written)| j.base().join(written.get_ref()));
     let file = args.template.clone().or(in_job);
@@ -196,7 +200,7 @@ fn in_other_language(
             .push(origin::file("template", path, &bytes));
         setting.inputs.push(path.clone());
     }
-    for_run(job, flags, (setting, template, language), source)
+    for_run(job, flags, (setting, template, word), source)
 }
 
 /// G-code and APT say where the tool goes, not how it is turned.

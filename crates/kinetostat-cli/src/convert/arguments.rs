@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::job::arguments::ReadingArgs;
 use crate::job::expansion::arguments::ExpandFlags;
-use crate::job::robot_arguments::AxisWord;
+use crate::job::robot_arguments::{AxisWord, JointRowsWord};
 use crate::job::target_word::TargetWord;
 use crate::options::number;
 
@@ -52,6 +52,13 @@ pub(crate) struct ConvertArgs {
     /// 0.001]
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_mm: Option<f64>,
+    /// Arm (preset or model file) whose joint values are written, or stand in the program [default: that of the job]
+    #[arg(long, value_name = "MODEL", help_heading = "Joint values")]
+    pub(crate) model: Option<String>,
+    /// How the controller moves between the rows of a table of joint values: of one that is read, and of one that is written
+    /// (linear: a row for each pose; joint: as many as the tolerance needs) [default: linear where it is written]
+    #[arg(long, value_enum, value_name = "WAY", help_heading = "Joint values")]
+    pub(crate) joint_rows: Option<JointRowsWord>,
     /// Overwrite the outputs if they exist (never an input)
     #[arg(long)]
     pub(crate) force_overwrite: bool,
@@ -81,6 +88,9 @@ const HELP: &str = r#"Examples:
   kinetostat convert part.ngc --to krl --out part.src --template cell.toml \
       --free-turn heavy_6r --turn-plot turn.svg
   kinetostat convert macros.ngc --expand --to csv --out poses.csv
+  kinetostat convert part.src --to joints --model arm.toml --out joints.csv
+  kinetostat convert joints.csv --model arm.toml --joint-rows linear \
+      --template cell.toml --to rapid --out part.mod
 
 A template; all of it may be left out but tool_orientation, which programs of
 positions need:

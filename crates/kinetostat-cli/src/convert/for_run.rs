@@ -1,17 +1,18 @@
 //! A program in another language before it is compensated: made in memory, so that the run goes over it.
 
-use kinetostat::Pose;
 use kinetostat_formats::{
     FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
 };
-use kinetostat_machining::{FlatProgram, Warning, WarningCode};
+use kinetostat_machining::{FlatProgram, Unwatched, Warning, WarningCode};
 use kinetostat_model::Model;
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Isometry3;
 
-use crate::convert::free_turn::{free_turn, in_metres};
-use crate::convert::made::{as_converted, made};
+use crate::convert::completed::{complete, refuse_leaning_tool, up};
+use crate::convert::free_turn::free_turn;
+use crate::convert::made::made;
 use crate::convert::template_file::TemplateFile;
 use crate::job::arguments::ProgramArgs;
+use crate::job::cut::along::{refuse_what_breaks_the_tool, warnings_of_moves};
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::MachineSetup;
@@ -20,12 +21,11 @@ use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings;
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
+use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
+use crate::program::solve::forces_of;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
-
-/// Differences below this are those of digits, m and rad.
-const SAME: f64 = 1e-6;
 
 /// Most places of a program that stays one file: numbers of positions in a TP program have 16 bits.
 const MOST_POINTS: usize = 1_000_000;
@@ -40,44 +40,26 @@ pub(crate) struct Converted {
     pub(crate) findings: Vec<Warning>,
 }
 
-/// The language of a robot that a run is to write.
-fn language_of_robot(language: MakeLanguage) -> Answer<Language> {
-    match language {
-        MakeLanguage::Krl => Ok(Language::Krl),
-        MakeLanguage::Rapid => Ok(Language::Rapid),
-        MakeLanguage::FanucLs => Ok(Language::FanucLs),
-        other => Err(Failure::input(format!(
-            "compensate --to writes programs of robots: krl, rapid, ls. For {} convert the program first (`kinetostat convert --to {} --out part.{}`), and compensate what that writes",
-            other.title(),
-            match other {
-                MakeLanguage::Gcode => "gcode",
-                _ => other.ending(),
-            },
-            other.ending()
-        ))),
-    }
-}
-
 /// The run over the program in another language; `machine` is that of the source.
 pub(crate) fn for_run(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
-    (mut setting, mut template, language): (Setting, TemplateFile, MakeLanguage),
+    (mut setting, mut template, word): (Setting, TemplateFile, RobotWord),
     (model, machine): (&Model, &MachineSetup),
 ) -> Answer<Converted> {
-    let of_robot = language_of_robot(language)?;
+    let (of_robot, language) = (word.of_robot(), word.language());
     if machine.placement.scale != 1.0 {
         return Err(Failure::input(
             "the scale of the program is not 1: a robot's program is in the robot's own millimetres; leave the scale out (--scale, scale under [placement])",
         ));
     }
-    if job.is_some_and(|j| !j.job.tools.is_empty()) {
-        return Err(Failure::input(
-            "with --to the tools of a program stand in the template ([[tools]] with in_program, number and pose), not under [[tools]] in the job file",
-        ));
-    }
     let read = read_program(&setting)?;
     let states_orientation = (read.path().moves.iter()).any(|motion| motion.tool_turn.is_some());
+    if states_orientation && job.is_some_and(|j| !j.job.tools.is_empty()) {
+        return Err(Failure::input(
+            "the program says itself which tools it takes and where their tips are: leave out [[tools]] in the job file (a load for all of them stands under [load])",
+        ));
+    }
     if !states_orientation {
         complete(&mut template.template, job, flags, machine)?;
     }
@@ -87,10 +69,19 @@ pub(crate) fn for_run(
     };
     template.template.most_points.get_or_insert(most);
     let turn = match setting.free_turn {
-        FreeTurnWord::Choose => Some(free_turn(&setting, &template.template, model, read.path())?),
+        FreeTurnWord::Choose => {
+            let mut turn = free_turn(&setting, &template.template, model, read.path())?;
+            turn.description = in_source(&setting, &turn.description);
+            Some(turn)
+        }
         FreeTurnWord::AsStated => None,
     };
     refuse_fast_feeds(&setting, &read, &template.template)?;
+    let forces = forces_of(machine, &setting, read.path(), &Unwatched)?;
+    if forces.is_some() {
+        refuse_leaning_tool(&template.template)?;
+        refuse_what_breaks_the_tool(forces.as_ref(), &setting)?;
+    }
     let made = made((&setting, &template), &read, turn.as_ref(), language)?;
     let [(_, bytes)] = made.files.as_slice() else {
         return Err(Failure::input(format!(
@@ -112,13 +103,17 @@ pub(crate) fn for_run(
     let file = SourceFile::new(setting.program_name.as_str(), bytes.as_slice());
     let stated = Stated::of(&read, &template.template);
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
-    let findings = findings(&setting, &made);
+    let of_cut = warnings_of_moves(forces.as_ref());
+    let mut findings = findings(&setting, &made);
+    findings.extend(of_cut.into_iter().map(|warning| match &setting.flat {
+        Some(flat) => warning.with_sources(flat),
+        None => warning.of_file(setting.program_name.clone()),
+    }));
     let flat = flat(&setting, &made, language, &file);
     drop(read);
     setting.program = bytes;
     setting.flat = Some(flat);
     setting.expansion_warnings.clear();
-    setting.targets.beside.clear();
     setting.robot = Some(RobotSource {
         language: of_robot,
         files: vec![file],
@@ -127,96 +122,31 @@ pub(crate) fn for_run(
         parquet: None,
         reading: Reading::new(),
     });
-    // What --expand would call its flat program has the ending of the source.
-    let is_named = flags.expansion.flat_program.is_some()
-        || job.is_some_and(|j| j.job.output.flat_program.is_some());
-    let target = setting.targets.flat.take().filter(|_| is_named);
-    setting.write_flat_to(target.or_else(|| setting.targets.program.as_deref().map(as_converted)));
+    let target = setting.targets.flat.take();
+    setting.write_flat_to(target);
+    if let Some(mut forces) = forces {
+        // Their lines are those of the source: said above.
+        forces.findings.clear();
+        let read = read_program(&setting)?;
+        let motions = read.robot().map(|robot| robot.path.motions.clone());
+        let parts = motions.into_iter().flatten();
+        let parts: Option<Vec<_>> = parts
+            .map(|motion| made.parts.get(motion).copied())
+            .collect();
+        let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
+        let Some(parts) = parts else {
+            return Err(Failure::input(
+                "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
+            ));
+        };
+        drop(read);
+        setting.forces = Some(forces.on_parts(&parts));
+    }
     Ok(Converted {
         setting,
         turn,
         findings,
     })
-}
-
-/// From the tip of the tool to its holder, axes of the tool: its z lies along the spindle, and up in the part is the holder.
-fn up(template: &Template) -> Vector3<f64> {
-    let turned = template.tool_orientation.unwrap_or_default() * Vector3::z();
-    match turned.z >= 0.0 {
-        true => Vector3::z(),
-        false => -Vector3::z(),
-    }
-}
-
-/// What the template leaves open is that of the job, and both say the same.
-fn complete(
-    template: &mut Template,
-    job: Option<&JobFile>,
-    flags: &ProgramArgs,
-    machine: &MachineSetup,
-) -> Answer<()> {
-    let placement = &machine.placement;
-    let part_is_stated = flags.part_origin_mm.is_some()
-        || flags.part_orientation.is_some()
-        || job.is_some_and(|j| {
-            j.job.placement.part_origin_mm.is_some() || j.job.placement.part_orientation.is_some()
-        });
-    let base = one_of(
-        ("[base]", template.base.pose.as_ref()),
-        (
-            "the place of the part (part_origin_mm, part_orientation)",
-            part_is_stated,
-        ),
-        &placement.base_from_part,
-    )?;
-    template.base.pose = Some(base);
-    if template.tools.is_empty() {
-        let given = machine.bounds.tools.first();
-        let of_job = given.map_or_else(Pose::identity, |given| given.pose);
-        let is_stated = given.is_some_and(|given| given.stated);
-        let tool = one_of(
-            ("[tool]", template.tool.frame.pose.as_ref()),
-            ("the tool (length_mm, pose)", is_stated),
-            &of_job,
-        )?;
-        template.tool.frame.pose = Some(tool);
-    }
-    let stated = flags.tool_orientation.is_some()
-        || job.is_some_and(|j| j.job.placement.tool_orientation.is_some());
-    let in_part = base.rotation.inverse() * placement.tool_orientation;
-    template.tool_orientation = Some(match template.tool_orientation {
-        Some(own) if stated && own.angle_to(&in_part) > SAME => {
-            return Err(twice("tool_orientation", "tool_orientation"));
-        }
-        Some(own) => own,
-        None => in_part,
-    });
-    Ok(())
-}
-
-/// The pose of a template, or that of a job, mm.
-fn one_of(
-    (of_template, own): (&str, Option<&Isometry3<f64>>),
-    (of_job, is_stated): (&str, bool),
-    pose: &Pose,
-) -> Answer<Isometry3<f64>> {
-    let in_mm = Isometry3::from_parts((1e3 * pose.translation.vector).into(), pose.rotation);
-    let Some(own) = own else {
-        return Ok(in_mm);
-    };
-    let metres = in_metres(own);
-    let apart = (metres.translation.vector - pose.translation.vector).norm() > SAME
-        || metres.rotation.angle_to(&pose.rotation) > SAME;
-    match is_stated && apart {
-        true => Err(twice(of_template, of_job)),
-        false => Ok(*own),
-    }
-}
-
-fn twice(of_template: &str, of_job: &str) -> Failure {
-    Failure::input(format!(
-        "stated twice, and not the same: {of_template} in the template and {of_job} of the job; leave one of them out"
-    ))
 }
 
 /// Speeds tell cuts from rapids in a program of a robot.
@@ -244,7 +174,8 @@ fn refuse_fast_feeds(setting: &Setting, read: &ReadProgram<'_>, template: &Templ
 /// Where work object and tools are, which not every language declares; mm.
 struct Stated {
     base: Option<Isometry3<f64>>,
-    tools: Vec<Option<Isometry3<f64>>>,
+    /// With the numbers that they have in the made program, where they are stated.
+    tools: Vec<(Option<u32>, Option<Isometry3<f64>>)>,
 }
 
 impl Stated {
@@ -252,13 +183,13 @@ impl Stated {
         let robot = read.robot().map(|robot| &robot.path);
         let of_source = |frame: &FrameUse| frame.known().copied();
         let tools: Vec<_> = match (template.tool.frame.pose, robot) {
-            _ if !template.tools.is_empty() => template
-                .tools
-                .values()
-                .map(|tool| tool.frame.pose)
+            _ if !template.tools.is_empty() => (template.tools.iter())
+                .map(|(number, tool)| (Some(tool.frame.number.unwrap_or(*number)), tool.frame.pose))
                 .collect(),
-            (Some(pose), _) => vec![Some(pose)],
-            (None, Some(robot)) => robot.tools.iter().map(of_source).collect(),
+            (Some(pose), _) => vec![(None, Some(pose))],
+            (None, Some(robot)) => (robot.tools.iter())
+                .map(|tool| (None, of_source(tool)))
+                .collect(),
             (None, None) => Vec::new(),
         };
         let of_robot = || robot.and_then(|robot| robot.work_object.as_ref().and_then(of_source));
@@ -289,7 +220,16 @@ impl Stated {
                 names.push(&tool.name);
             }
         }
-        for (name, pose) in names.iter().zip(&self.tools) {
+        for (index, name) in names.iter().enumerate() {
+            let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+            let number = digits.trim_end_matches(']').parse().ok();
+            let numbered = self
+                .tools
+                .iter()
+                .find(|tool| tool.0.is_some() && tool.0 == number);
+            let Some((_, pose)) = numbered.or_else(|| self.tools.get(index)) else {
+                continue;
+            };
             let is_open = (program.motions.iter())
                 .any(|motion| motion.tool.name == *name && motion.tool.known().is_none());
             if let (Some(pose), true) = (pose, is_open) {

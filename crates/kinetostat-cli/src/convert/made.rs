@@ -1,54 +1,15 @@
-//! The program in the other language, and what its file is called.
-
-use std::path::{Path, PathBuf};
+//! The program in the other language.
 
 use kinetostat_formats::{
     Made, MakeError, MakeLanguage, SourceEvent, events_of_gcode, make, make_of_robot,
 };
 
-use crate::convert::file_names::{file_name, stem};
 use crate::convert::template_file::TemplateFile;
 use crate::job::free_turn::FreeTurn;
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
-
-/// Refuses a name that no controller, and no reader here, takes for one of the language.
-pub(crate) fn refuse_other_ending(language: MakeLanguage, out: &Path) -> Answer<()> {
-    if language.fits(&file_name(out)) {
-        return Ok(());
-    }
-    let name = out.with_extension(language.ending());
-    Err(Failure::input(match language {
-        MakeLanguage::Gcode => format!(
-            "'{}' has the ending of another language, and the new program is in G-code: name it '{}', say",
-            out.display(),
-            name.display()
-        ),
-        _ => format!(
-            "'{}': programs in {} end in .{}, by which controllers and kinetostat know them: name it '{}'",
-            out.display(),
-            match language {
-                MakeLanguage::FanucLs => "the language of FANUC (TP)",
-                _ => language.title(),
-            },
-            language.ending(),
-            name.display()
-        ),
-    }))
-}
-
-/// What the compensated program is called where nobody says so: names of programs have no hyphen.
-pub(crate) fn beside_as(out: &Path, program: &Path, ending: &str) -> PathBuf {
-    out.with_file_name(format!("{}_compensated.{ending}", stem(program)))
-}
-
-/// What a converted program is called beside its compensated form.
-pub(crate) fn as_converted(out: &Path) -> PathBuf {
-    let ending = out.extension().unwrap_or_default().to_string_lossy();
-    out.with_file_name(format!("{}_flat.{ending}", stem(out)))
-}
 
 /// The program in the other language.
 pub(crate) fn made(

@@ -4,28 +4,40 @@
 //! compared with the path before it is written, and says what is otherwise.
 
 pub(crate) mod arguments;
+mod completed;
 mod file_names;
 pub(crate) mod for_run;
 mod free_turn;
+mod joints;
 pub(crate) mod made;
+pub(crate) mod targets;
 pub(crate) mod template_file;
 mod template_format;
 mod text;
 
 use std::path::Path;
 
+use kinetostat_formats::{Language, Template};
+use kinetostat_report::turns_svg;
+
 use crate::convert::arguments::ConvertArgs;
 use crate::convert::free_turn::free_turn;
-use crate::convert::made::{made, refuse_other_ending};
+use crate::convert::joints::{Asked, as_joints, with_all_digits};
+use crate::convert::made::made;
 use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::job_file::JobFile;
+use crate::job::model_named::model_named;
+use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::program::read_program;
+use crate::job::robot::joint_arm::give_arm;
 use crate::job::robot_arguments::RobotArgs;
-use crate::job::setting::setting;
-use crate::ui::failure::Answer;
+use crate::job::setting::{Setting, setting};
+use crate::job::target_word::TargetWord;
+use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
 
@@ -34,8 +46,13 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
     let job = job.transpose()?;
     let language = args.to.language();
-    refuse_other_ending(language, &args.out)?;
-    let template = TemplateFile::read(
+    let made_program = Written {
+        what: "made program",
+        form: language.form(),
+        source: None,
+    };
+    refuse_other_ending(made_program, &args.out)?;
+    let mut template = TemplateFile::read(
         &files,
         &TemplateAsked {
             file: args.template.as_deref(),
@@ -46,17 +63,32 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     )?;
     let mut setting = setting(&files, job.as_ref(), &flags(args), &writing(args))?;
     setting.inputs.extend(args.template.iter().cloned());
+    // Of the source.
+    let flat_program = Written {
+        what: FLAT_PROGRAM,
+        form: setting.form(),
+        source: Some(&setting.program_path),
+    };
+    if let Some(flat) = &args.expansion.flat_program {
+        refuse_other_ending(flat_program, flat)?;
+    }
     let mut claimed = Outputs::new(
         Existing::forced(args.force_overwrite),
         setting.inputs.clone(),
     );
     let main = claimed.claim("made program", &args.out)?;
     let flat = args.expansion.flat_program.as_deref();
-    let flat = flat.map(|path| claimed.claim("flat program", path));
+    let flat = flat.map(|path| claimed.claim(FLAT_PROGRAM, path));
     let flat = flat.transpose()?;
     let plot = args.turn_plot.as_deref();
     let plot = plot.map(|path| claimed.claim("picture of the turn", path));
     let plot = plot.transpose()?;
+    with_arm(
+        &files,
+        (job.as_ref(), args),
+        &mut setting,
+        &template.template,
+    )?;
     let read = read_program(&setting)?;
     let turned = match &args.free_turn {
         Some(named) => {
@@ -66,7 +98,22 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         }
         None => None,
     };
-    let made = made((&setting, &template), &read, turned.as_ref(), language)?;
+    if args.to == TargetWord::Joints {
+        with_all_digits(&mut template.template);
+    }
+    let mut made = made((&setting, &template), &read, turned.as_ref(), language)?;
+    let mut said = Vec::new();
+    if args.to == TargetWord::Joints {
+        let (named, base) = model_named(job.as_ref(), args.model.as_deref())?;
+        let (model, _) = files.model(&named, &base)?;
+        let asked = Asked {
+            model: &model,
+            rows: args.joint_rows,
+        };
+        let of = (&setting, &template.template);
+        said.push(as_joints(of, &read, &asked, &mut made)?);
+    }
+    said.extend(turned.as_ref().map(|turned| turned.description.clone()));
     let mut rest = made.files.iter();
     if let Some((_, bytes)) = rest.next() {
         claimed.fill(main, bytes)?;
@@ -79,15 +126,46 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
         claimed.fill(flat, &setting.program)?;
     }
     if let (Some(plot), Some(turned)) = (plot, &turned) {
-        claimed.fill(plot, turned.picture.as_bytes())?;
+        claimed.fill(plot, turns_svg(&turned.choice).as_bytes())?;
     }
-    let mut text = text::answer(&setting, &read, &made, &template, (&args.out, language));
-    if let Some(turned) = &turned {
+    let mut text = text::answer(&setting, &read, &made, &template, (&args.out, args.to));
+    for sentence in said {
         text.push('\n');
-        text.push_str(&wrapped(&format!("{}.", turned.description), 0));
+        text.push_str(&wrapped(&format!("{sentence}."), 0));
     }
     text.push_str(&outputs::written(&claimed.commit()?));
     screen::print(Stream::Out, &text)
+}
+
+/// The arm of a program that is a table of joint values, with the tool of the template where there is one.
+fn with_arm(
+    files: &InputFiles,
+    (job, args): (Option<&JobFile>, &ConvertArgs),
+    setting: &mut Setting,
+    template: &Template,
+) -> Answer<()> {
+    let is_table = (setting.robot.as_ref()).is_some_and(|of| of.language == Language::Poses);
+    if !is_table && args.to != TargetWord::Joints {
+        let given = [
+            ("--model", args.model.is_some()),
+            ("--joint-rows", args.joint_rows.is_some()),
+        ];
+        if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
+            return Err(Failure::input(format!(
+                "{option} is for tables of joint values, and neither '{}' nor the new program is one: leave it out",
+                setting.program_name
+            )));
+        }
+    }
+    let Some(source) = setting.robot.as_mut().filter(|_| is_table) else {
+        return Ok(());
+    };
+    if let Some(tool) = template.tool.frame.pose {
+        let frames = &mut source.settings.reading.frames;
+        frames.entry("tool".to_owned()).or_insert(tool);
+    }
+    let model = args.model.as_deref();
+    give_arm(Some(source), files, (job, model), &flags(args))
 }
 
 /// What of a run is asked for here.
@@ -102,7 +180,7 @@ fn flags(args: &ConvertArgs) -> ProgramArgs {
             correct: None,
             tool_axis: args.tool_axis,
             rapid_from_mm_per_s: args.rapid_from_mm_per_s,
-            joint_rows: None,
+            joint_rows: args.joint_rows.filter(|_| args.to != TargetWord::Joints),
             converted: false,
         },
         expansion,

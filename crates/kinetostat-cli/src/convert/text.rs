@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use kinetostat_formats::{Kept, Made, MakeLanguage};
+use kinetostat_formats::{Kept, Made};
 use kinetostat_machining::number::counted;
 
 use crate::convert::file_names::{file_name, stem};
 use crate::convert::template_file::TemplateFile;
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
+use crate::job::target_word::TargetWord;
 use crate::ui::layout::{item, wrapped};
 
 /// The answer in words.
@@ -17,7 +18,7 @@ pub(crate) fn answer(
     read: &ReadProgram<'_>,
     made: &Made,
     template: &TemplateFile,
-    (out, language): (&Path, MakeLanguage),
+    (out, to): (&Path, TargetWord),
 ) -> String {
     let kept = &made.kept;
     let mut text = wrapped(
@@ -27,8 +28,8 @@ pub(crate) fn answer(
             counted(kept.moves, "move"),
             counted(kept.motions, "motion"),
             match made.files.len() {
-                1 => language.title().to_owned(),
-                n => format!("{}, a main program and {} parts", language.title(), n - 1),
+                1 => to.title().to_owned(),
+                n => format!("{}, a main program and {} parts", to.title(), n - 1),
             },
             differences(kept)
         ),
@@ -36,7 +37,7 @@ pub(crate) fn answer(
     );
     let mut found: Vec<String> = Vec::new();
     let own = &template.template.program_name;
-    let by_name = matches!(language, MakeLanguage::Krl | MakeLanguage::FanucLs);
+    let by_name = matches!(to, TargetWord::Krl | TargetWord::Ls);
     if by_name && !own.eq_ignore_ascii_case(&stem(out)) {
         found.push(format!(
             "the program is called {own} and its file {}: controllers want one name",

@@ -72,8 +72,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         .warnings
         .extend(run_warnings::of_run(&model, job.as_ref()));
     outputs.list(args.program.all_points, &model);
-    outputs.fill(&run, &setting)?;
-    outputs.fill_turn(turn.as_ref())?;
+    outputs.fill(&run, &setting, turn.as_ref())?;
     let note = outputs.note(&run);
     let paths = outputs.files.commit()?;
     let said = turn.as_ref().map_or_else(String::new, FreeTurn::said);

@@ -152,7 +152,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     // The demo may run again on another day and finds its own files.
     run.result.run_inputs.date = None;
     outputs.list(false, &model);
-    outputs.fill(&run, &setting)?;
+    outputs.fill(&run, &setting, None)?;
     outputs.files.commit()?;
     let mut text = wrapped(
         "An Orthoglide mills a circular groove, radius 25 mm. Its links bend under the milling force (215 N to the right of the feed, -10 N along it, -25 N along z), and each of its legs was assembled one degree askew.",

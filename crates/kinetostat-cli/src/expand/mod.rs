@@ -6,7 +6,7 @@ pub(crate) mod arguments;
 
 use std::io::Write;
 
-use kinetostat_formats::{Language, SourceFile, language_of};
+use kinetostat_formats::{FileForm, Language, SourceFile, language_of};
 use kinetostat_machining::number::counted;
 use nalgebra::Vector3;
 
@@ -15,6 +15,8 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::{Existing, Outputs, written};
 use crate::job::expansion::flat::{Flattened, flattened};
 use crate::job::expansion::settings::{folders, settings};
+use crate::job::file_endings::{Written, refuse_other_ending};
+use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::flat_text;
@@ -28,7 +30,16 @@ use crate::ui::layout::{item, wrapped};
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
     let name = args.program.display().to_string();
-    if let Some(language) = language_of(&name, &bytes) {
+    let language = language_of(&name, &bytes);
+    if let Some(out) = &args.out {
+        let written = Written {
+            what: FLAT_PROGRAM,
+            form: FileForm::of(language, &name, &bytes),
+            source: Some(&args.program),
+        };
+        refuse_other_ending(written, out)?;
+    }
+    if let Some(language) = language {
         return of_control(args, language, bytes);
     }
     let settings = settings(None, &args.with, &reading(None, &args.reading)?)?;
@@ -37,7 +48,7 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     inputs.extend(done.paths.iter().cloned());
     let claimed = args.out.as_deref().map(|out| {
         let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
-        let index = outputs.claim("flat program", out)?;
+        let index = outputs.claim(FLAT_PROGRAM, out)?;
         Answer::Ok((outputs, index))
     });
     let claimed: Option<(Outputs, usize)> = claimed.transpose()?;
@@ -85,7 +96,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         .chain(called)
         .collect();
     let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
-    let index = outputs.claim("flat program", out)?;
+    let index = outputs.claim(FLAT_PROGRAM, out)?;
     outputs.fill(index, text.file.bytes())?;
     let paths = outputs.commit()?;
     let said = wrapped(

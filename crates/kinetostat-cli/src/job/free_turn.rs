@@ -1,9 +1,10 @@
 //! The free turn of a round tool, chosen along the whole path for the arm of a run.
 
 use kinetostat::Mechanism;
-use kinetostat_machining::{Placement, RunInputs, TurnError, TurnTask, choose_turns, with_turns};
+use kinetostat_machining::{
+    Placement, RunInputs, TurnChoice, TurnError, TurnTask, choose_turns, with_turns,
+};
 use kinetostat_program::Path as ToolPath;
-use kinetostat_report::turns_svg;
 
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
@@ -15,7 +16,7 @@ pub(crate) struct FreeTurn {
     /// What was chosen, in words.
     pub(crate) description: String,
     /// The turn over the path, among those that the arm can take.
-    pub(crate) picture: String,
+    pub(crate) choice: TurnChoice,
 }
 
 impl FreeTurn {
@@ -57,7 +58,7 @@ pub(crate) fn chosen(
     Ok(FreeTurn {
         path: turned.path,
         description: choice.description(),
-        picture: turns_svg(&choice),
+        choice,
     })
 }
 

@@ -18,7 +18,9 @@ use crate::job::load::load;
 use crate::job::model_named::model_named;
 use crate::job::placement::{placement, placement_description};
 use crate::job::robot::frames::RobotFrames;
-use crate::job::robot::machine::{placement_of_robot, tool_of_robot, tools_of_robot};
+use crate::job::robot::machine::{
+    placement_of_robot, tool_of_robot, tools_of_converted, tools_of_robot,
+};
 use crate::job::rotary::rotary;
 use crate::job::tools::{numbered_tools, tool};
 use crate::machine::model_warnings::deviation_descriptions;
@@ -143,6 +145,9 @@ pub(crate) fn machine_setup(
             || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
     }];
     let mut tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    if let Some(frames) = frames.filter(|frames| frames.converted && !tools.is_empty()) {
+        tools = tools_of_converted(frames, &model.mechanism, load, (&tools, &mut given))?;
+    }
     if let Some(frames) = frames.filter(|frames| tools.is_empty() && frames.states_orientation) {
         let described = (&mut tool_words, &mut given);
         tools = tools_of_robot(frames, &model.mechanism, load, described)?;

@@ -10,6 +10,9 @@ use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::ui::failure::Answer;
 
+/// What the compensated program is called among outputs.
+pub(crate) const COMPENSATED_PROGRAM: &str = "compensated program";
+
 /// What the flat program is called among outputs.
 pub(crate) const FLAT_PROGRAM: &str = "flat program";
 
@@ -60,7 +63,7 @@ impl OutputPaths {
     /// Those that are requested, with what they are.
     pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         [
-            ("compensated program", &self.program),
+            (COMPENSATED_PROGRAM, &self.program),
             ("report", &self.report),
             ("result", &self.json),
             ("table of points", &self.points),

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_spanned::Spanned;
 
 use crate::job::robot_arguments::{CorrectWord, JointRowsWord};
-use crate::job::target_word::TargetWord;
+use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 
 /// What a program of a robot does not say itself.
@@ -38,7 +38,7 @@ pub(crate) struct RobotTable {
     #[serde(default)]
     pub free_turn: FreeTurnWord,
     /// The language of the compensated program, where it is another one.
-    pub to: Option<Spanned<TargetWord>>,
+    pub to: Option<Spanned<RobotWord>>,
     /// Template of the cell for that.
     pub template: Option<Spanned<String>>,
     /// What lengths are in a list of poses that does not state it.

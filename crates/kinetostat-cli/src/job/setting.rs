@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use kinetostat_machining::{FileRead, FlatProgram, Limits, WarningCode};
+use kinetostat_formats::FileForm;
+use kinetostat_machining::{FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{Arcs, ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
@@ -55,6 +56,8 @@ pub(crate) struct Setting {
     pub(crate) targets: OutputPaths,
     /// What becomes of the turn of a round tool.
     pub(crate) free_turn: FreeTurnWord,
+    /// Forces of the cut that were found along the program before it was converted.
+    pub(crate) forces: Option<ForceAlongPath>,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
@@ -77,11 +80,24 @@ impl Setting {
         failure
     }
 
-    /// A program that was written, in the form of its file.
-    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<Cow<'b, [u8]>> {
+    /// What the program's file holds.
+    pub(crate) fn form(&self) -> FileForm {
+        match &self.robot {
+            Some(RobotSource {
+                parquet: Some(_), ..
+            }) => FileForm::Parquet,
+            source => {
+                let language = source.as_ref().map(|source| source.language);
+                FileForm::of(language, &self.program_name, &self.program)
+            }
+        }
+    }
+
+    /// A program that was written, in the form of its file, and its columns that have another type than before.
+    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<(Cow<'b, [u8]>, Vec<String>)> {
         match &self.robot {
             Some(source) => source.as_file(written),
-            None => Ok(Cow::Borrowed(written)),
+            None => Ok((Cow::Borrowed(written), Vec::new())),
         }
     }
 
@@ -220,6 +236,7 @@ pub(crate) fn setting(
         stated,
         targets,
         free_turn,
+        forces: None,
         inputs,
     };
     setting.write_flat_to(target);

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use kinetostat_machining::Run;
 use kinetostat_model::Model;
+use kinetostat_report::{html_of_run_and_turns, turns_svg};
 
 use crate::files::outputs::{Existing, Outputs};
 use crate::job::free_turn::FreeTurn;
-use crate::job::output_paths::{BESIDE, FLAT_PROGRAM, OutputPaths, TURN_PLOT};
+use crate::job::output_paths::{BESIDE, COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths, TURN_PLOT};
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::WithSources;
@@ -28,6 +29,8 @@ pub(crate) struct RunOutputs {
     /// Further files of the program.
     pub(crate) beside: Vec<usize>,
     pub(crate) listing: Listing,
+    /// Columns of a written table that have another type than before.
+    widened: Vec<String>,
 }
 
 impl RunOutputs {
@@ -46,7 +49,7 @@ impl RunOutputs {
                 .transpose()
         };
         let program = match aim {
-            Aim::Compensate => claim("compensated program", &targets.program)?,
+            Aim::Compensate => claim(COMPENSATED_PROGRAM, &targets.program)?,
             Aim::Analyse => None,
         };
         Ok(Self {
@@ -65,6 +68,7 @@ impl RunOutputs {
                 Aim::Analyse => Vec::new(),
             },
             listing: Listing::default(),
+            widened: Vec::new(),
             files: outputs,
         })
     }
@@ -79,28 +83,38 @@ impl RunOutputs {
 
     /// What a person should know about the files.
     pub(crate) fn note(&self, run: &Run) -> String {
-        self.points
-            .and_then(|_| points_table::note(&run.result.run_inputs, &run.points, &self.listing))
-            .map_or_else(String::new, |note| {
-                format!("\n{}", layout::wrapped(&note, 2))
-            })
+        let of_points = self
+            .points
+            .and_then(|_| points_table::note(&run.result.run_inputs, &run.points, &self.listing));
+        let of_columns = (!self.widened.is_empty()).then(|| {
+            format!(
+                "The type of these columns could not hold the corrected numbers, and is double in the written table: {}.",
+                self.widened.join(", ")
+            )
+        });
+        let notes = of_points.into_iter().chain(of_columns);
+        notes
+            .map(|note| format!("\n{}", layout::wrapped(&note, 2)))
+            .collect()
     }
 
-    /// Writes the picture of the turn that was chosen.
-    pub(crate) fn fill_turn(&mut self, turn: Option<&FreeTurn>) -> Answer<()> {
-        match (self.turn_plot, turn) {
-            (Some(index), Some(turn)) => self.files.fill(index, turn.picture.as_bytes()),
-            _ => Ok(()),
+    /// Writes a run beside its targets, with the turn that was chosen for it; nothing is in place yet.
+    pub(crate) fn fill(
+        &mut self,
+        run: &Run,
+        setting: &Setting,
+        turn: Option<&FreeTurn>,
+    ) -> Answer<()> {
+        if let (Some(index), Some(turn)) = (self.turn_plot, turn) {
+            self.files.fill(index, turns_svg(&turn.choice).as_bytes())?;
         }
-    }
-
-    /// Writes a run beside its targets; nothing is in place yet.
-    pub(crate) fn fill(&mut self, run: &Run, setting: &Setting) -> Answer<()> {
         if let Some(index) = self.flat {
             self.files.fill(index, &setting.program)?;
         }
         if let (Some(index), Some(written)) = (self.program, &run.written) {
-            self.files.fill(index, &setting.as_file(&written.bytes)?)?;
+            let (bytes, widened) = setting.as_file(&written.bytes)?;
+            self.files.fill(index, &bytes)?;
+            self.widened = widened;
             for (index, (_, bytes)) in self.beside.iter().zip(&written.beside) {
                 self.files.fill(*index, bytes)?;
             }
@@ -121,8 +135,11 @@ impl RunOutputs {
             outputs.complete(index)?;
         }
         if let Some(index) = self.report {
-            let page = kinetostat_report::html_of_run(run)
-                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            let page = html_of_run_and_turns(
+                run,
+                turn.map(|turn| (&turn.choice, turn.description.as_str())),
+            )
+            .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
             self.files.fill(index, page.as_bytes())?;
         }
         Ok(())

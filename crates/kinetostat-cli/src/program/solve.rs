@@ -56,9 +56,12 @@ pub(crate) fn forces_of(
     path: &ToolPath,
     watch: &dyn Watch,
 ) -> Answer<Option<ForceAlongPath>> {
+    if let Some(forces) = &setting.forces {
+        return Ok(Some(forces.clone()));
+    }
     if setting.robot.is_some() && (machine.measured.is_some() || machine.cut.is_some()) {
         return Err(Failure::input(
-            "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis; of a robot's program state the force under [load]",
+            "forces that are computed from the cut or measured are for programs in G-code, whose tool keeps its axis: compensate the G-code with --to krl, rapid or ls, or state the force of a robot's program under [load]",
         ));
     }
     let turned = path.moves.iter().find(|motion| motion.tool_turn.is_some());

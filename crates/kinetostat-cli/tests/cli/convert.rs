@@ -191,13 +191,17 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
             CELL,
             "the program is in G-code already",
         ),
-        ("--to gcode --out new.src", CELL, "name it 'new.ngc', say"),
+        (
+            "--to gcode --out new.src",
+            CELL,
+            "and the made program is G-code: name it 'new.ngc'",
+        ),
         (
             "--to krl --out part.ngc --force-overwrite",
             CELL,
-            "programs in KRL end in .src, by which controllers and kinetostat know them: name it 'part.src'",
+            "'part.ngc': .ngc is the ending of another language, and the made program is KRL: name it 'part.src'",
         ),
-        ("--to ls --out new.txt", CELL, "end in .ls"),
+        ("--to ls --out new.csv", CELL, "name it 'new.ls'"),
         (
             "--to krl --out new.src",
             "schema = 2\n",

@@ -85,7 +85,7 @@ fn one_command_converts_and_compensates() {
 #[test]
 fn a_chosen_turn_is_written() {
     let job = format!(
-        "{JOB}[robot]\nto = \"krl\"\ntemplate = \"cell.toml\"\nfree_turn = \"choose\"\n[output]\nprogram = \"sent.src\"\nturn_plot = \"turn.svg\"\n"
+        "{JOB}[robot]\nto = \"krl\"\ntemplate = \"cell.toml\"\nfree_turn = \"choose\"\n[output]\nprogram = \"sent.src\"\nturn_plot = \"turn.svg\"\nreport = \"report.html\"\n"
     );
     let here = place(&job);
     let here = here.path();
@@ -100,6 +100,14 @@ fn a_chosen_turn_is_written() {
         "{text}"
     );
     assert!(read(here, "turn.svg").contains("way along the path, mm"));
+    let report = read(here, "report.html");
+    for needle in [
+        "How the tool is turned about its axis",
+        "way along the path, mm",
+        "turn about the tool&#39;s axis, deg",
+    ] {
+        assert!(report.contains(needle), "{needle}");
+    }
     // Not the orientation of the job.
     let flat = read(here, "sent_flat.src");
     assert!(!flat.contains("A 160.00000000,"), "{flat}");
@@ -161,9 +169,15 @@ fn what_cannot_be_written_so_is_said() {
             "has no words for the turn of a tool",
         ),
         (JOB, CELL, "--turn-plot turn.svg", "give --free-turn, too"),
-        (JOB, CELL, "--to gcode", "convert the program first"),
-        (JOB, CELL, "--to csv", "convert the program first"),
-        (JOB, CELL, "--to krl --out part.txt", "end in .src"),
+        (JOB, CELL, "--to gcode", "[possible values: krl, rapid, ls]"),
+        (JOB, CELL, "--to csv", "[possible values: krl, rapid, ls]"),
+        (JOB, CELL, "--to krl --out new.nc", "name it 'new.src'"),
+        (
+            JOB,
+            CELL,
+            "--to krl --flat-program flat.ngc --expand",
+            "and the flat program is KRL: name it 'flat.src'",
+        ),
         (
             JOB,
             &twice,
@@ -199,5 +213,126 @@ fn what_cannot_be_written_so_is_said() {
         assert!(text.contains(needle), "{needle}: {text}");
         let files = std::fs::read_dir(here.path()).unwrap().count();
         assert_eq!(files, 3, "{options}: nothing is written");
+    }
+}
+
+/// Worst error before compensation and after it, mm.
+fn worst(here: &Path, name: &str) -> [f64; 2] {
+    let result: serde_json::Value = serde_json::from_str(&read(here, name)).unwrap();
+    [
+        "max_position_error_before_mm",
+        "max_position_error_after_mm",
+    ]
+    .map(|key| {
+        let value = result["summary"][key].as_f64();
+        value.unwrap_or_else(|| panic!("{key}: {}", result["summary"]))
+    })
+}
+
+/// The same machine under the same forces: what is off along the G-code is off along the program of the robot.
+fn is_the_same(here: &Path, options: &str) {
+    run(here, &words("compensate job.toml --json plain.json")).answered();
+    let line = format!("compensate job.toml --json robot.json {options} --force-overwrite");
+    let said = run(here, &words(&line)).answered();
+    let [plain, robot] = ["plain.json", "robot.json"].map(|name| worst(here, name));
+    assert!(
+        (plain[0] - robot[0]).abs() < 1e-6 * plain[0],
+        "{plain:?} {robot:?} {}",
+        said.out
+    );
+    assert!(robot[1] < 0.03, "{robot:?} {}", said.out);
+}
+
+const CUTTER: &str = r#"cutter = { shape = "flat", diameter_mm = 10, teeth = 2, helix_deg = 30 }
+[material]
+name = "AlMg4.5Mn"
+[stock]
+block_mm = [[10, -20, -12], [70, 30, 0]]
+"#;
+
+#[test]
+fn forces_that_are_computed_from_the_cut_act_on_the_program_of_the_robot() {
+    let job = JOB.replace("[load]\nforce_n = [60, 20, 100]\n", CUTTER);
+    for to in ["krl", "rapid", "ls"] {
+        let here = place(&job);
+        is_the_same(here.path(), &format!("--to {to} --template cell.toml"));
+    }
+    // A tool that leans is no tool of such forces.
+    let here = place(&job.replace("[160, 0, 180]", "[160, 20, 180]"));
+    let said = run(
+        here.path(),
+        &words("compensate job.toml --to krl --template cell.toml"),
+    );
+    assert_eq!(said.code, 1, "{said:?}");
+    assert!(
+        one_line(&said.err).contains("the tool is tilted by 20.0 degrees"),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn measured_forces_act_on_the_program_of_the_robot() {
+    for axes in ["part", "feed"] {
+        let measured = format!(
+            "[measured]\nfile = \"log.csv\"\nacts_on = \"tool\"\naxes = \"{axes}\"\nsmooth_mm = 0\n"
+        );
+        let here = place(&JOB.replace("[load]\nforce_n = [60, 20, 100]\n", &measured));
+        let log = "along_mm,fx_n,fy_n,fz_n\n0,10,0,40\n20,80,30,90\n46,120,-60,60\n62,40,-10,100\n";
+        std::fs::write(here.path().join("log.csv"), log).unwrap();
+        is_the_same(here.path(), "--to krl --template cell.toml");
+    }
+}
+
+/// The second tool of the job comes first in the program.
+#[test]
+fn tools_of_the_job_are_those_of_the_program_of_the_robot() {
+    let program = "G21 G90\nT2 M6\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG1 X30\nG0 Z5\nT1 M6\nG0 X0 Y10\nG1 Z-1 F300\nG1 X30\nG0 Z5\nM2\n";
+    let tools = "[[tools]]\nnumber = 1\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\nload = { force_n = [0, 0, 300] }\n[[tools]]\nnumber = 2\npose = { position_mm = [240, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n";
+    let job = JOB.replace(
+        "[tool]\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n",
+        tools,
+    );
+    assert!(job.contains("[[tools]]"));
+    for to in ["krl", "rapid", "ls"] {
+        let here = place(&job);
+        std::fs::write(here.path().join("part.ngc"), program).unwrap();
+        is_the_same(here.path(), &format!("--to {to}"));
+    }
+    // One of them in the template as well, and elsewhere.
+    let here = place(&job);
+    std::fs::write(here.path().join("part.ngc"), program).unwrap();
+    let cell = "schema = 1\n[[tools]]\nin_program = 2\npose = { position_mm = [0, 0, 100] }\n";
+    std::fs::write(here.path().join("cell.toml"), cell).unwrap();
+    let said = run(
+        here.path(),
+        &words("compensate job.toml --to krl --template cell.toml"),
+    );
+    assert_eq!(said.code, 1, "{said:?}");
+    let text = one_line(&said.err);
+    assert!(
+        text.contains("in_program = 2 under [[tools]] in the template"),
+        "{text}"
+    );
+}
+
+/// What is checked is what is written.
+#[test]
+fn the_check_of_a_job_names_the_programs_of_its_language() {
+    for (robot, named) in [
+        (
+            "[robot]\nto = \"krl\"\n",
+            "part_compensated.src part_compensated_flat.src",
+        ),
+        ("[expand]\n", "part-compensated.ngc part-flat.ngc"),
+    ] {
+        let here = place(&format!("{JOB}{robot}"));
+        let said = run(here.path(), &words("check job.toml")).answered();
+        for name in named.split(' ') {
+            assert!(said.out.contains(name), "{name}: {}", said.out);
+        }
+        run(here.path(), &words("compensate job.toml")).answered();
+        for name in named.split(' ') {
+            assert!(here.path().join(name).is_file(), "{name}");
+        }
     }
 }

@@ -37,8 +37,7 @@ pub(crate) struct Reader<'r, 'o> {
 }
 
 pub(crate) const POINTS: &str = "let the CAM system write points: GOTO/x,y,z or GOTO/x,y,z,i,j,k";
-pub(crate) const LEAVE: &str =
-    "leave such motions as written by an option, or let the CAM system write points";
+pub(crate) const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write points";
 
 impl Reader<'_, '_> {
     pub fn fault(&mut self, span: &Range<usize>, reason: impl Into<String>, remedy: &'static str) {

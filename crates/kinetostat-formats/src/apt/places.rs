@@ -49,7 +49,7 @@ pub(crate) fn frame_use(frames: &Frames, name: &str) -> FrameUse {
         frame: match stated {
             Some(frame) => Frame::Known(*frame),
             None => Frame::Unknown {
-                reason: "the file does not say it; state it in the options".to_owned(),
+                reason: "the file does not say it; state it under [robot.frames]".to_owned(),
             },
         },
     }

@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
             self.fault(
                 &statement.span,
                 "the controller moves the path aside by the tool's radius",
-                "say by an option that the places are those of the tool's centre, if they are",
+                "if the places are those of the tool's centre, say so (cutter_compensation = \"centre_path\" under [robot] in a job file)",
             );
         }
     }

@@ -67,7 +67,7 @@ impl<'o> Ends<'o> {
             (Some(frame), _) => Frame::Known(*frame),
             (None, 0) => Frame::Known(Isometry3::identity()),
             (None, _) => Frame::Unknown {
-                reason: "the controller holds it; state it in the options".to_owned(),
+                reason: "the controller holds it; state it under [robot.frames]".to_owned(),
             },
         };
         FrameUse { name, frame }
@@ -80,7 +80,7 @@ impl<'o> Ends<'o> {
         place: &MotionPlace<'_>,
         displaced: Option<&'static str>,
     ) -> Result<EndFound, (String, &'static str)> {
-        let unknown = "leave such motions as written by an option, or teach a position";
+        let unknown = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or teach a position";
         let (in_force, tool_in_force) = place.before.map_or((None, None), |b| (b.frame, b.tool));
         let (number, name) = match end {
             End::Position(number, name) => (number, name),
@@ -117,7 +117,7 @@ impl<'o> Ends<'o> {
                 );
                 displaced.get_or_insert((
                     reason,
-                    "teach it in the frame and with the tool in force, or leave such motions as written by an option",
+                    "teach it in the frame and with the tool in force, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
                 ));
             }
         }

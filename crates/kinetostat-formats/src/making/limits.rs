@@ -1,5 +1,7 @@
 //! The languages that programs are made in, and what each of them takes.
 
+use crate::file_form::FileForm;
+
 /// A language that a program is made in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -109,63 +111,26 @@ impl MakeLanguage {
     /// ```
     #[must_use]
     pub fn ending(self) -> &'static str {
-        match self {
-            Self::Krl => "src",
-            Self::Rapid => "mod",
-            Self::FanucLs => "ls",
-            Self::Apt => "apt",
-            Self::Gcode => "ngc",
-            Self::Csv => "csv",
-        }
+        self.form().ending()
     }
 
-    /// Whether a file of that name is taken for one of this language; without an ending of its own only G-code is.
+    /// What its files hold.
     ///
     /// ```
-    /// use kinetostat_formats::MakeLanguage;
+    /// use kinetostat_formats::{FileForm, MakeLanguage};
     ///
-    /// assert!(MakeLanguage::Rapid.fits("part.MODX") && !MakeLanguage::Krl.fits("part.txt"));
-    /// assert!(MakeLanguage::Gcode.fits("part.nc") && !MakeLanguage::Gcode.fits("part.src"));
+    /// assert_eq!(MakeLanguage::Csv.form(), FileForm::Csv);
     /// ```
     #[must_use]
-    pub fn fits(self, file_name: &str) -> bool {
-        let ending = file_name.rsplit_once('.');
-        let ending = ending.map_or_else(String::new, |(_, ending)| ending.to_ascii_lowercase());
-        let own: &[&str] = match self {
-            Self::Krl => &["src"],
-            Self::Rapid => &["mod", "modx", "prg"],
-            Self::FanucLs => &["ls"],
-            Self::Apt => &["apt", "aptsource", "apt_source", "cls", "cl", "cldata"],
-            Self::Csv => &["csv"],
-            Self::Gcode => {
-                let others = [
-                    "src",
-                    "dat",
-                    "sub",
-                    "mod",
-                    "modx",
-                    "sys",
-                    "sysx",
-                    "ls",
-                    "apt",
-                    "aptsource",
-                    "apt_source",
-                    "cls",
-                    "cl",
-                    "cldata",
-                    "csv",
-                    "tsv",
-                    "yaml",
-                    "yml",
-                    "parquet",
-                    "mpf",
-                    "spf",
-                    "h",
-                ];
-                return !others.contains(&ending.as_str());
-            }
-        };
-        own.contains(&ending.as_str())
+    pub fn form(self) -> FileForm {
+        match self {
+            Self::Krl => FileForm::Krl,
+            Self::Rapid => FileForm::Rapid,
+            Self::FanucLs => FileForm::FanucLs,
+            Self::Apt => FileForm::Apt,
+            Self::Gcode => FileForm::Gcode,
+            Self::Csv => FileForm::Csv,
+        }
     }
 
     /// Its name in sentences.

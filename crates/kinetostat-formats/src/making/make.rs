@@ -26,6 +26,8 @@ pub struct Made {
     /// Of every motion its line in the first of the files, and the line of the source that it came from; empty where the motions stand in
     /// several files.
     pub lines: Vec<[usize; 2]>,
+    /// Of every motion the move of the path that it goes along, and from which share of its length to which.
+    pub parts: Vec<(usize, [f64; 2])>,
 }
 
 /// What stands at the head of made programs.
@@ -99,6 +101,9 @@ pub fn make(
             .collect(),
         _ => Vec::new(),
     };
+    let motions = steps.iter().filter_map(Step::motion);
+    let parts = motions.map(|motion| (motion.source, motion.shares));
+    let parts = parts.collect();
     let mut findings = planned.findings;
     taken_for_granted(steps, template, language, &kept, &mut findings);
     findings.sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
@@ -107,6 +112,7 @@ pub fn make(
         findings,
         kept,
         lines,
+        parts,
     })
 }
 

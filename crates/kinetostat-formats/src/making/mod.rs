@@ -11,6 +11,7 @@ pub(crate) mod csv;
 pub(crate) mod events;
 pub(crate) mod fault;
 pub(crate) mod gcode;
+pub(crate) mod joint_table;
 pub(crate) mod krl;
 pub(crate) mod limits;
 pub(crate) mod ls;

@@ -100,6 +100,18 @@ pub(crate) fn read_table(file: &SourceFile) -> (Rows, Option<crate::options::Len
     (rows, layout.unit)
 }
 
+/// The row of the file in Parquet, counted from 0, that a line of a table is of; none where the table is of no such file.
+pub(crate) fn parquet_row(file: &SourceFile, line: &Range<usize>) -> Option<usize> {
+    let bytes = file.bytes();
+    let head = lines_of(bytes, beginning(bytes)).next()?;
+    file.part(&head).strip_suffix(PARQUET_ROW.as_bytes())?;
+    let rest = &bytes[line.start.min(bytes.len())..];
+    let end = rest.iter().position(|byte| *byte == b'\n');
+    let text = rest[..end.unwrap_or(rest.len())].trim_ascii_end();
+    let last = text.rsplit(|byte| *byte == b',').next()?;
+    std::str::from_utf8(last).ok()?.parse().ok()
+}
+
 /// Lines from a place on that are neither empty nor comments, without blanks around them.
 fn lines_of(bytes: &[u8], from: usize) -> impl Iterator<Item = Range<usize>> {
     let mut at = from;

@@ -8,7 +8,7 @@ use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
 use crate::options::{ExternalAxes, LengthUnit, ReadOptions};
 use crate::poses::carrier::Carrier;
-use crate::poses::csv::read_table;
+use crate::poses::csv::{parquet_row, read_table};
 use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
@@ -78,7 +78,14 @@ pub fn read_poses(
                 .push(ProgramError::at(file, 0..4, PARQUET_REASON, PARQUET_REMEDY));
             continue;
         }
+        let before = reader.faults.len();
         reader.file(index, file);
+        for fault in &mut reader.faults[before..] {
+            // Such a file has no lines that a person could look up.
+            if let Some(row) = parquet_row(file, &fault.span) {
+                fault.reason += &format!(" (row {row}, the first is 0)");
+            }
+        }
     }
     let Reader {
         mut faults,
@@ -118,7 +125,8 @@ struct Said {
     is_ros: bool,
 }
 
-const UNIT_REMEDY: &str = "state it: in the names (x_mm or x_m), or by the option of the unit of lengths ([robot] length_unit = \"m\" in a job file)";
+const UNIT_REMEDY: &str =
+    "state it: in the names (x_mm or x_m), or with length_unit = \"m\" under [robot] in a job file";
 
 impl Reader<'_> {
     fn file(&mut self, index: usize, file: &SourceFile) {
@@ -199,7 +207,7 @@ impl Reader<'_> {
         let unit = match (said.named, self.options.length_unit) {
             (Some(named), Some(stated)) if named != stated => {
                 let reason =
-                    "the names of the columns state another unit of lengths than the option does";
+                    "the names of the columns state another unit of lengths than length_unit does";
                 self.fault(file, first, reason, "correct one of the two");
                 return None;
             }
@@ -240,7 +248,7 @@ impl Reader<'_> {
         let moved = (rows.windows(2)).find(|pair| pair[0].external != pair[1].external);
         if let Some([_, row]) = moved {
             let reason = "an external axis moves here: the arm stands elsewhere then";
-            let remedy = "say by the option of external axes that they are carried, if what they move is known";
+            let remedy = "if what they move is known, let them be carried (external_axes = \"carried\" under [robot] in a job file)";
             self.fault(file, row, reason, remedy);
         }
     }
@@ -253,7 +261,7 @@ impl Reader<'_> {
             frame: match stated {
                 Some((_, frame)) => Frame::Known(*frame),
                 None => Frame::Unknown {
-                    reason: "the file does not say it; state it in the options".to_owned(),
+                    reason: "the file does not say it; state it under [robot.frames]".to_owned(),
                 },
             },
         }

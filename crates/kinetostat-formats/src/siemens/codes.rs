@@ -92,7 +92,7 @@ impl Reader<'_> {
                 .fault(
                     &item.span,
                     "the controller moves the path aside by the tool's radius",
-                    "say by an option that the places are those of the tool's centre, if they are",
+                    "if the places are those of the tool's centre, say so (cutter_compensation = \"centre_path\" under [robot] in a job file)",
                 ),
             41 | 42 => {}
             53 | 74 | 75 | 153 => words.purpose = Purpose::Machine,

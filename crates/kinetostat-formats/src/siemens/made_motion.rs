@@ -53,7 +53,7 @@ impl Reader<'_> {
                 self.fault(
                     &block.span,
                     reason,
-                    "state X, Y and Z before the cut, or leave such motions as written by an option",
+                    "state X, Y and Z before the cut, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
                 );
             }
             self.state.place = end;
@@ -221,7 +221,7 @@ impl Reader<'_> {
             frame: match stated {
                 Some(frame) => Frame::Known(*frame),
                 None => Frame::Unknown {
-                    reason: "the program does not say it; state it in the options".to_owned(),
+                    reason: "the program does not say it; state it under [robot.frames]".to_owned(),
                 },
             },
         }

@@ -21,6 +21,7 @@ pub(crate) mod measured_findings;
 pub(crate) mod measured_report;
 pub(crate) mod measured_stations;
 pub(crate) mod origin;
+pub(crate) mod parts;
 pub(crate) mod profile;
 pub(crate) mod question;
 pub(crate) mod station;

@@ -7,6 +7,7 @@ use kinetostat_cutting::SpindleCurve;
 use crate::cut::finding::CutFinding;
 use crate::cut::measured_report::MeasuredReport;
 use crate::cut::origin::ForceOrigin;
+use crate::cut::parts::{as_stations, of_stations};
 use crate::cut::question::CutQuestion;
 use crate::cut::station::CutStation;
 use crate::cut::vertices::Vertices;
@@ -65,6 +66,47 @@ impl ForceAlongPath {
             in_part,
             measured: Some(report),
             ..Self::of(moves, findings)
+        }
+    }
+
+    /// The forces on another path over the same way: of each of its moves the move here that it is a part of, and the shares of that
+    /// (by length) from which to which it goes. What was found stays with the lines of this path.
+    ///
+    /// ```
+    /// use kinetostat_cutting::{ForceLog, LoggedBy};
+    /// use kinetostat_machining::{ActsOn, ExpectedForce, MeasuredForces, Unwatched};
+    /// use kinetostat_program::{Program, ReadOptions, interpret};
+    ///
+    /// // A force against the feed that grows from 0 to 40 N over 40 mm.
+    /// let path = interpret(&Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\n")?, &ReadOptions::default())?;
+    /// let along = vec![0.0, 40.0];
+    /// let log = ForceLog::new(LoggedBy::AlongPath, along, [vec![0.0, -40.0], vec![0.0; 2], vec![0.0; 2]], None)?;
+    /// let mut measured = MeasuredForces::new(log, ActsOn::Tool);
+    /// measured.smooth = Some(0.0);
+    /// let forces = measured.along(&path, ExpectedForce::InFeedMoves, &Unwatched)?;
+    /// // The same way in two lines.
+    /// let other = forces.on_parts(&[(0, [0.0, 1.0]), (1, [0.0, 0.25]), (1, [0.25, 1.0])]);
+    /// assert!((other.wrench(1, 0.5).force().x + 5.0).abs() < 1e-9);
+    /// assert!((other.wrench(2, 0.5).force().x + 25.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn on_parts(&self, parts: &[(usize, [f64; 2])]) -> Self {
+        let own = parts.iter();
+        let moves = own.map(|(index, span)| of_stations(self.stations.of(*index), *span));
+        let in_part = self.in_part.as_ref().map(|vertices| {
+            let all = parts
+                .iter()
+                .map(|(index, span)| of_stations(&as_stations(&vertices.profile, *index), *span));
+            Vertices::of(&all.collect::<Vec<_>>())
+        });
+        Self {
+            in_part,
+            measured: self.measured.clone(),
+            resolution_mm: self.resolution_mm,
+            spindle: self.spindle.clone(),
+            spread: self.spread,
+            ..Self::of(moves.collect(), self.findings.clone())
         }
     }
 

@@ -68,6 +68,11 @@ impl<'o> Flat<'o> {
         self.reader.is_closed()
     }
 
+    /// Whether there are blocks with words so far.
+    pub fn has_words(&self) -> bool {
+        self.reader.has_blocks()
+    }
+
     /// Blocks so far.
     pub fn blocks(&self) -> usize {
         self.origins.len()
@@ -143,10 +148,11 @@ fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
     }
 }
 
-/// A block with its origin behind it; none for tape marks and lines without a word.
+/// A block with its origin behind it; none for tape marks, numbers of programs and lines without a word.
 fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
     let first = text.trim_ascii_start().first()?;
-    if !first.is_ascii_alphabetic() && *first != b'/' {
+    let is_block = first.is_ascii_alphabetic() && !matches!(first, b'O' | b'o');
+    if !is_block && *first != b'/' {
         return None;
     }
     let origin = match file {

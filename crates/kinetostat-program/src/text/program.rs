@@ -231,6 +231,11 @@ impl Reader {
         fault.map_or(Ok(()), Err)
     }
 
+    /// Whether a block was read.
+    pub(crate) fn has_blocks(&self) -> bool {
+        self.blocks > 0
+    }
+
     /// Whether the closing tape mark was read.
     pub(crate) fn is_closed(&self) -> bool {
         self.tape_marks == 2

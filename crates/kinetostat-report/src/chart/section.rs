@@ -25,6 +25,9 @@ const STYLE: &str = concat!(
 /// Style of grey cells and of lines over the cells.
 const OVER: &str = include_str!("../template/map.css");
 
+/// Inside a frame of the page a drawing has none of its own.
+const FRAMED: &str = "svg.framed rect.card{fill:none;stroke:none}";
+
 /// A line that is the subject of the picture.
 const BOLD: &str = "svg path.way{stroke-width:2;stroke-opacity:1}svg path.way-ground{stroke-width:5;stroke-opacity:.8}";
 
@@ -103,6 +106,18 @@ impl Section {
         let style = [STYLE, OVER, BOLD].concat();
         self.draw(SIZE.1, Shape::Filled)
             .document(SIZE, &self.title, &style)
+    }
+
+    /// The same as an element for a page, which has the style of plots and [`Self::filled_style`]; `description` is for those who
+    /// cannot see it.
+    pub(crate) fn filled_element(&self, description: &str) -> String {
+        self.draw(SIZE.1, Shape::Filled)
+            .inline("plot framed", SIZE, description)
+    }
+
+    /// What the cells and lines of such an element need beside the style of plots.
+    pub(crate) fn filled_style() -> String {
+        [Self::style(), BOLD, FRAMED].concat()
     }
 
     /// What its cells and lines need beside the style of plots.

@@ -3,10 +3,12 @@
 use minijinja::{Environment, Value, context};
 
 use crate::chart::panel::Sheet;
+use crate::chart::section::Section;
 use crate::number::{self, MISSING};
 use crate::run::shown::Shown;
 use crate::run::{along, cut_table, cutting, facts, joints, meaning, plan};
 use crate::text;
+use crate::turns;
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "report.html";
@@ -34,7 +36,10 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         .collect();
     let actuators = run_inputs.actuators.len();
     environment.get_template(PAGE)?.render(context! {
-        style => Value::from_safe_string(STYLE.to_owned()),
+        style => Value::from_safe_string(match result.turns {
+            Some(_) => STYLE.to_owned() + &Section::filled_style(),
+            None => STYLE.to_owned(),
+        }),
         program => name_or(&run_inputs.program, "Unnamed program"),
         model => name_or(&run_inputs.model, "unnamed machine"),
         version => text::shorten(&result.kinetostat_version, 40),
@@ -54,6 +59,8 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
         joints => figure(result, joints::figure),
         joint_facts => joints::facts(result),
+        turns => result.turns.map(|(choice, _)| Value::from_safe_string(turns::element(choice))),
+        turns_sentence => result.turns.map(|(_, words)| text::clean(words)),
         stiffness => figure(result, along::stiffness),
         can_buckle => result.summary.largest_share_to_buckling.is_some(),
         worst => facts::worst(result),

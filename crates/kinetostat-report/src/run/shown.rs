@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use kinetostat_machining::{Figures, PointResult, Run, RunResult};
+use kinetostat_machining::{Figures, PointResult, Run, RunResult, TurnChoice};
 
 use crate::number::typeset;
 
@@ -11,6 +11,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) result: &'a RunResult,
     pub(crate) points: &'a [PointResult],
     pub(crate) figures: Figures,
+    /// The turn of the tool about its axis, where it was chosen for the run, and in words.
+    pub(crate) turns: Option<(&'a TurnChoice, &'a str)>,
 }
 
 impl Deref for Shown<'_> {
@@ -27,6 +29,7 @@ impl<'a> Shown<'a> {
             result,
             points: &result.points,
             figures: in_type(result),
+            turns: None,
         }
     }
 
@@ -35,7 +38,12 @@ impl<'a> Shown<'a> {
             result: &run.result,
             points: &run.points,
             figures: in_type(&run.result),
+            turns: None,
         }
+    }
+
+    pub(crate) fn with_turns(self, turns: Option<(&'a TurnChoice, &'a str)>) -> Self {
+        Self { turns, ..self }
     }
 }
 

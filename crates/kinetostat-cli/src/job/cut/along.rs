@@ -87,11 +87,17 @@ fn text_of(finding: &CutFinding) -> String {
 
 /// What no such cut should be, as warnings.
 pub(crate) fn warnings(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
-    let found = forces.iter().flat_map(|forces| &forces.findings);
-    let of_moves =
-        found.map(|finding| Warning::at_line(code(finding.kind), finding.line, text_of(finding)));
     let log = forces.and_then(|forces| forces.measured.as_ref());
+    let of_moves = warnings_of_moves(forces);
     log.into_iter().flat_map(of_log).chain(of_moves).collect()
+}
+
+/// Those that name lines of the program.
+pub(crate) fn warnings_of_moves(forces: Option<&ForceAlongPath>) -> Vec<Warning> {
+    let found = forces.iter().flat_map(|forces| &forces.findings);
+    found
+        .map(|finding| Warning::at_line(code(finding.kind), finding.line, text_of(finding)))
+        .collect()
 }
 
 /// What is wrong with a log as a whole.

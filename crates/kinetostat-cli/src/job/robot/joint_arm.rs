@@ -5,7 +5,7 @@ use std::sync::Arc;
 use kinetostat::Pose;
 use kinetostat_formats::{JointArm, Language, Motion, TableArm, Target, read};
 use kinetostat_machining::ArmJoints;
-use kinetostat_model::Controller;
+use kinetostat_model::{Controller, Model};
 use nalgebra::Isometry3;
 
 use crate::files::input_files::InputFiles;
@@ -18,14 +18,22 @@ use crate::ui::failure::{Answer, Failure};
 
 /// An arm of six turning joints, for a table in degrees: as the controller shows them where the model says how that is.
 #[derive(Debug)]
-struct ArmOfTable {
+pub(crate) struct ArmOfTable {
     arm: ArmJoints,
     controller: Option<Controller>,
 }
 
 impl ArmOfTable {
+    /// That of a model with a tool in its flange; none of a machine with other joints.
+    pub(crate) fn of(model: &Model, tool: &Pose) -> Option<Self> {
+        Some(Self {
+            arm: ArmJoints::of(&model.mechanism.with_tool(tool))?,
+            controller: model.controller.clone(),
+        })
+    }
+
     /// The model's joint values, rad.
-    fn model_joints(&self, shown_deg: &[f64]) -> [f64; 6] {
+    pub(crate) fn model_joints(&self, shown_deg: &[f64]) -> [f64; 6] {
         let joints: Vec<f64> = shown_deg.iter().map(|value| value.to_radians()).collect();
         let joints = match &self.controller {
             None => joints,
@@ -39,7 +47,7 @@ impl ArmOfTable {
     }
 
     /// What stands in the table, deg.
-    fn shown_deg(&self, joints: &[f64; 6]) -> Option<Vec<f64>> {
+    pub(crate) fn shown_deg(&self, joints: &[f64; 6]) -> Option<Vec<f64>> {
         let Some(controller) = &self.controller else {
             return Some(joints.map(f64::to_degrees).to_vec());
         };
@@ -118,12 +126,12 @@ pub(crate) fn give_arm(
         }
         (None, true) => tool(job, flags)?.0,
         (None, false) => {
-            return refuse(", and where the tip of the tool is in the flange is not stated: state length_mm or pose under [tool] in the job file, or --tool-length-mm (0: the flange itself)".to_owned());
+            return refuse(", and where the tip of the tool is in the flange is not stated: state length_mm or pose under [tool] in the job file, or --tool-length-mm (0: the flange itself); to convert the table, pose under [tool] in the template".to_owned());
         }
     };
     let (named, base) = model_named(job, flag_model)?;
     let (model, _) = files.model(&named, &base)?;
-    let Some(arm) = ArmJoints::of(&model.mechanism.with_tool(&tool)) else {
+    let Some(arm) = ArmOfTable::of(&model, &tool) else {
         return refuse(format!(
             ", and the model '{named}' is no arm of six turning joints in one chain: write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)"
         ));
@@ -132,10 +140,7 @@ pub(crate) fn give_arm(
     let reading = &mut source.settings.reading;
     reading.frames.insert(name.clone(), in_mm);
     reading.arm = Some(TableArm {
-        arm: Arc::new(ArmOfTable {
-            arm,
-            controller: model.controller.clone(),
-        }),
+        arm: Arc::new(arm),
         between,
     });
     source.settings.joints_are = Some(match &model.controller {

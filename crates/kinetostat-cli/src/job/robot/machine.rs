@@ -105,6 +105,42 @@ pub(crate) fn tools_of_robot(
     Ok(tools)
 }
 
+/// The tools of a job under `[[tools]]`, each with its load, as a program that was converted takes them: by its own numbers, told
+/// apart by where their tips are. A tool that the job does not name has the load of all.
+pub(crate) fn tools_of_converted(
+    frames: &RobotFrames,
+    mechanism: &Mechanism,
+    load: ProgramLoad,
+    (of_job, given): (&[(u32, Mechanism, ProgramLoad)], &mut Vec<ToolGiven>),
+) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
+    let known = std::mem::take(given);
+    let mut tools = Vec::new();
+    for (number, _, pose) in &frames.tools {
+        let Some(pose) = pose else { continue };
+        let same = known
+            .iter()
+            .zip(of_job)
+            .filter(|(given, _)| !differ(&given.pose, pose));
+        let same: Vec<&(u32, Mechanism, ProgramLoad)> = same.map(|(_, tool)| tool).collect();
+        if let [first, others @ ..] = same.as_slice()
+            && let Some(other) = others.iter().find(|other| other.2 != first.2)
+        {
+            return Err(Failure::input(format!(
+                "the tools {} and {} under [[tools]] have the tip at one place and other loads, and a program of a robot knows its tools by where their tips are: state one load for both under [load], or compensate the parts of the program one by one",
+                first.0, other.0
+            )));
+        }
+        given.push(ToolGiven {
+            number: Some(*number),
+            pose: *pose,
+            stated: true,
+        });
+        let own = same.first().map_or(load, |tool| tool.2);
+        tools.push((*number, mechanism.with_tool(pose), own));
+    }
+    Ok(tools)
+}
+
 /// Where the path lies in the base.
 pub(crate) fn placement_of_robot(
     frames: &RobotFrames,

@@ -3,21 +3,30 @@
 
 use crate::ui::failure::{Answer, Failure};
 
-fn fault(what: String) -> Failure {
-    Failure::input(format!("the table in Parquet: {what}"))
+/// A file in Parquet that was written.
+#[derive(Debug, Default)]
+pub(crate) struct Written {
+    pub(crate) bytes: Vec<u8>,
+    /// Columns that have another type now.
+    pub(crate) widened: Vec<String>,
 }
 
 /// The text of a program in Parquet; none of any other.
-pub(crate) fn as_text(bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
+pub(crate) fn as_text(name: &str, bytes: &[u8]) -> Answer<Option<Vec<u8>>> {
     match bytes.starts_with(b"PAR1") {
-        true => text_of(bytes).map_err(fault),
+        true => text_of(bytes)
+            .map_err(|what| Failure::input(format!("the table in Parquet '{name}': {what}"))),
         false => Ok(None),
     }
 }
 
 /// A program in Parquet with the numbers of a text.
-pub(crate) fn of_text(original: &[u8], text: &[u8]) -> Answer<Vec<u8>> {
-    file_of(original, text).map_err(fault)
+pub(crate) fn of_text(name: &str, original: &[u8], text: &[u8]) -> Answer<Written> {
+    file_of(original, text).map_err(|what| {
+        Failure::input(format!(
+            "the table in Parquet '{name}' cannot be written corrected: {what}"
+        ))
+    })
 }
 
 #[cfg(feature = "parquet")]
@@ -31,11 +40,15 @@ fn text_of(_bytes: &[u8]) -> Result<Option<Vec<u8>>, String> {
 }
 
 #[cfg(feature = "parquet")]
-fn file_of(original: &[u8], text: &[u8]) -> Result<Vec<u8>, String> {
-    kinetostat_formats::parquet_of_table(original, text)
+fn file_of(original: &[u8], text: &[u8]) -> Result<Written, String> {
+    let made = kinetostat_formats::parquet_of_table(original, text)?;
+    Ok(Written {
+        bytes: made.bytes,
+        widened: made.widened,
+    })
 }
 
 #[cfg(not(feature = "parquet"))]
-fn file_of(_original: &[u8], _text: &[u8]) -> Result<Vec<u8>, String> {
+fn file_of(_original: &[u8], _text: &[u8]) -> Result<Written, String> {
     Err("this kinetostat does not write it".to_owned())
 }

@@ -106,14 +106,10 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.
-const KEYS: [(&str, &str); 10] = [
+const KEYS: [(&str, &str); 8] = [
     (
         "(`turn_about_axis`)",
         "turn_about_axis = { tool = \"x\", part = [1, 0, 0] }",
-    ),
-    (
-        "as written by an option",
-        "unknown_targets = \"left_as_written\"",
     ),
     ("give its file together", "files = [\"other.spf\"]"),
     ("give the subprogram with", "files = [\"other.spf\"]"),
@@ -122,10 +118,6 @@ const KEYS: [(&str, &str); 10] = [
         "unknown_targets = \"left_as_written\"",
     ),
     ("external axes carried", "external_axes = \"carried\""),
-    (
-        "those of the tool's centre",
-        "cutter_compensation = \"centre_path\"",
-    ),
     (
         "the frame when reading",
         "frames.\"NAME\" = { position_mm = [0, 0, 0] }",

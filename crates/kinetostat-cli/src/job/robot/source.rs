@@ -31,12 +31,15 @@ pub(crate) struct RobotSource {
 }
 
 impl RobotSource {
-    /// A program that was written, in the form of its file: bytes as they are, or a table in Parquet.
-    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<Cow<'b, [u8]>> {
-        match &self.parquet {
-            None => Ok(Cow::Borrowed(written)),
-            Some(original) => parquet::of_text(original, written).map(Cow::Owned),
-        }
+    /// A program that was written, in the form of its file: bytes as they are, or a table in Parquet; and columns of that which have
+    /// another type now.
+    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<(Cow<'b, [u8]>, Vec<String>)> {
+        let Some(original) = &self.parquet else {
+            return Ok((Cow::Borrowed(written), Vec::new()));
+        };
+        let name = self.files.first().map_or("", SourceFile::name);
+        let made = parquet::of_text(name, original, written)?;
+        Ok((Cow::Owned(made.bytes), made.widened))
     }
 }
 
@@ -76,7 +79,7 @@ pub(crate) fn robot_source(
         )));
     }
     let settings = settings(job, flags, (language, usual_axis(language)))?;
-    let text = parquet::as_text(bytes)?;
+    let text = parquet::as_text(name, bytes)?;
     let mut source = RobotSource {
         language,
         parquet: text.as_ref().map(|_| bytes.to_vec()),

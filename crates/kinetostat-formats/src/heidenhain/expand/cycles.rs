@@ -109,7 +109,7 @@ impl Run<'_> {
                 .fault(
                     at,
                     format!("cycle {number} is called, and what it does is not followed"),
-                    "leave such motions as written by an option, or let the CAM system write L blocks",
+                    "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write L blocks",
                 )),
             Some(_) => Ok(true),
         }

@@ -16,8 +16,7 @@ use crate::model::site::{MotionSite, SpeedSite, TargetSite};
 use crate::model::target::Target;
 use crate::options::UnknownTargets;
 
-const LEAVE: &str =
-    "leave such motions as written by an option, or let the CAM system write L blocks";
+const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write L blocks";
 
 /// Whether a motion to an end that is not known may stay whatever the options say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,12 +59,12 @@ impl Reader<'_> {
                 Some(cycle) => self.fault(
                     span,
                     format!("cycle {cycle} is called: the control drills or mills by itself, and what this cycle does is not followed"),
-                    "let the CAM system write its motions as L and C blocks, or leave such motions as written by an option",
+                    "let the CAM system write its motions as L and C blocks, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
                 ),
                 None => self.fault(
                     span,
                     reason,
-                    "write drilling cycles flat first (--expand), or leave such motions as written by an option",
+                    "write drilling cycles flat first (--expand), or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
                 ),
             }
         } else {

@@ -78,7 +78,7 @@ impl Reader<'_> {
             self.fault(
                 span,
                 "the control moves the path aside by the tool's radius",
-                "say by an option that the places are those of the tool's centre, if they are",
+                "if the places are those of the tool's centre, say so (cutter_compensation = \"centre_path\" under [robot] in a job file)",
             );
         }
         if let Some(at) = parsed.compensation {

@@ -1,47 +1,28 @@
-//! The values of a file in Parquet, column by column.
+//! The columns of a file in Parquet, read and written.
 
 use bytes::Bytes;
-use parquet::basic::Compression;
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArray,
-    FixedLenByteArrayType, FloatType, Int32Type, Int64Type, Int96, Int96Type,
-};
+use parquet::basic::{Compression, Type as PhysicalType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
-use parquet::schema::types::{ColumnPath, TypePtr};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::{ColumnPath, Type, TypePtr};
 
-/// Most rows of a file.
-const MOST_ROWS: usize = 10_000_000;
+use crate::poses::parquet::data::{Data, MOST_ROWS, Values, append, of_reader};
+use crate::poses::parquet::kind::{Kind, printed, type_of};
 
-/// Values of a column: those that are there, and for each row which of them is its own.
-#[derive(Debug, Clone)]
-pub(crate) struct Values<V> {
-    pub values: Vec<V>,
-    pub of_row: Vec<Option<usize>>,
-}
-
-/// A column.
-#[derive(Debug, Clone)]
-pub(crate) enum Data {
-    Bool(Values<bool>),
-    Int32(Values<i32>),
-    Int64(Values<i64>),
-    Int96(Values<Int96>),
-    Float(Values<f32>),
-    Double(Values<f64>),
-    Bytes(Values<ByteArray>),
-    Fixed(Values<FixedLenByteArray>),
-}
+/// Under this key of the metadata Arrow keeps its own schema.
+const ARROW: &str = "ARROW:schema";
 
 /// A file.
 #[derive(Debug)]
 pub(crate) struct Columns {
     pub names: Vec<String>,
     pub columns: Vec<Data>,
+    pub kinds: Vec<Kind>,
+    /// Their types for people.
+    pub types: Vec<String>,
     pub rows: usize,
     pub metadata: Vec<KeyValue>,
     paths: Vec<(ColumnPath, Compression, bool)>,
@@ -50,7 +31,7 @@ pub(crate) struct Columns {
 
 /// A fault of Parquet in words.
 pub(crate) fn words(error: ParquetError) -> String {
-    format!("it is no Parquet that is read here: {error}")
+    format!("it is no Parquet that is read here ({error}): write it anew, without encryption")
 }
 
 impl Columns {
@@ -60,18 +41,21 @@ impl Columns {
         let metadata = reader.metadata().file_metadata().clone();
         let rows = usize::try_from(metadata.num_rows()).unwrap_or(usize::MAX);
         if rows > MOST_ROWS {
-            return Err(format!("it has {rows} rows, {MOST_ROWS} are read"));
+            return Err(format!(
+                "it has {rows} rows, and at most {MOST_ROWS} are read: divide it"
+            ));
         }
         let description = metadata.schema_descr();
         let mut columns: Vec<Data> = Vec::new();
         let (mut names, mut paths) = (Vec::new(), Vec::new());
+        let (mut kinds, mut types) = (Vec::new(), Vec::new());
         for (index, column) in description.columns().iter().enumerate() {
             if column.max_rep_level() > 0
                 || column.max_def_level() > 1
                 || column.path().parts().len() != 1
             {
                 return Err(format!(
-                    "its column `{}` is a list or a group",
+                    "its column `{}` is a list or a group, and only columns with one value a row are read: leave it out, or write its values as columns",
                     column.path().string()
                 ));
             }
@@ -79,6 +63,8 @@ impl Columns {
                 Some(group) => group.column(index).compression(),
                 None => Compression::UNCOMPRESSED,
             };
+            kinds.push(Kind::of(column));
+            types.push(type_of(column));
             names.push(column.name().to_owned());
             paths.push((column.path().clone(), codec, column.max_def_level() > 0));
         }
@@ -93,12 +79,14 @@ impl Columns {
                 }
             }
         }
-        if columns.iter().any(|column| column.rows() != rows) {
+        if columns.iter().any(|column| column.row_count() != rows) {
             return Err("its columns have other numbers of rows than it states".to_owned());
         }
         Ok(Self {
             names,
             columns,
+            kinds,
+            types,
             rows,
             metadata: metadata.key_value_metadata().cloned().unwrap_or_default(),
             paths,
@@ -107,7 +95,7 @@ impl Columns {
     }
 
     /// Writes a file with its schema.
-    pub(crate) fn write(&self) -> Result<Vec<u8>, String> {
+    pub(crate) fn file_bytes(&self) -> Result<Vec<u8>, String> {
         let mut properties = WriterProperties::builder();
         if !self.metadata.is_empty() {
             properties = properties.set_key_value_metadata(Some(self.metadata.clone()));
@@ -131,8 +119,40 @@ impl Columns {
         Ok(bytes)
     }
 
+    /// Makes a column one of the type double, which holds all its numbers.
+    pub(crate) fn widen(&mut self, index: usize) -> Result<(), String> {
+        let (column, kind) = (&self.columns[index], self.kinds[index]);
+        let cells = (0..self.rows).map(|row| printed((column, kind), row).parse().ok());
+        let cells: Vec<Option<f64>> = cells.collect();
+        let mut wide = Values {
+            values: Vec::with_capacity(cells.len()),
+            of_row: Vec::with_capacity(cells.len()),
+        };
+        for cell in cells {
+            wide.of_row.push(cell.map(|_| wide.values.len()));
+            wide.values.extend(cell);
+        }
+        self.columns[index] = Data::Double(wide);
+        self.kinds[index] = Kind::Number;
+        self.types[index] = PhysicalType::DOUBLE.to_string();
+        let mut fields = self.schema.get_fields().to_vec();
+        let field = fields
+            .get_mut(index)
+            .ok_or("its schema has no such column")?;
+        let made = Type::primitive_type_builder(field.name(), PhysicalType::DOUBLE)
+            .with_repetition(field.get_basic_info().repetition())
+            .build()
+            .map_err(words)?;
+        *field = made.into();
+        let root = Type::group_type_builder(self.schema.name()).with_fields(fields);
+        self.schema = root.build().map_err(words)?.into();
+        // The schema of Arrow, which readers would put over that of the file.
+        self.metadata.retain(|own| own.key != ARROW);
+        Ok(())
+    }
+
     /// The rows that are named, in their order.
-    pub(crate) fn taken(&self, rows: &[usize]) -> Self {
+    pub(crate) fn with_rows(&self, rows: &[usize]) -> Self {
         Self {
             names: self.names.clone(),
             columns: self
@@ -140,163 +160,12 @@ impl Columns {
                 .iter()
                 .map(|column| column.taken(rows))
                 .collect(),
+            kinds: self.kinds.clone(),
+            types: self.types.clone(),
             rows: rows.len(),
             metadata: self.metadata.clone(),
             paths: self.paths.clone(),
             schema: self.schema.clone(),
-        }
-    }
-}
-
-fn read_all<T: DataType>(
-    mut reader: ColumnReaderImpl<T>,
-    optional: bool,
-) -> Result<Values<T::T>, ParquetError> {
-    let (mut values, mut levels) = (Vec::new(), Vec::new());
-    let mut count = 0;
-    loop {
-        let levels = optional.then_some(&mut levels);
-        let (records, _, _) = reader.read_records(1 << 16, levels, None, &mut values)?;
-        count += records;
-        if records == 0 || count > MOST_ROWS {
-            break;
-        }
-    }
-    let mut next = 0;
-    let mut own = |is_there: bool| {
-        let index = next;
-        next += usize::from(is_there);
-        is_there.then_some(index)
-    };
-    let of_row = match optional {
-        true => levels.iter().map(|level| own(*level > 0)).collect(),
-        false => (0..count).map(|_| own(true)).collect(),
-    };
-    Ok(Values { values, of_row })
-}
-
-fn of_reader(reader: ColumnReader, optional: bool) -> Result<Data, ParquetError> {
-    Ok(match reader {
-        ColumnReader::BoolColumnReader(r) => Data::Bool(read_all::<BoolType>(r, optional)?),
-        ColumnReader::Int32ColumnReader(r) => Data::Int32(read_all::<Int32Type>(r, optional)?),
-        ColumnReader::Int64ColumnReader(r) => Data::Int64(read_all::<Int64Type>(r, optional)?),
-        ColumnReader::Int96ColumnReader(r) => Data::Int96(read_all::<Int96Type>(r, optional)?),
-        ColumnReader::FloatColumnReader(r) => Data::Float(read_all::<FloatType>(r, optional)?),
-        ColumnReader::DoubleColumnReader(r) => Data::Double(read_all::<DoubleType>(r, optional)?),
-        ColumnReader::ByteArrayColumnReader(r) => {
-            Data::Bytes(read_all::<ByteArrayType>(r, optional)?)
-        }
-        ColumnReader::FixedLenByteArrayColumnReader(r) => {
-            Data::Fixed(read_all::<FixedLenByteArrayType>(r, optional)?)
-        }
-    })
-}
-
-impl<V: Clone> Values<V> {
-    /// The value of a row.
-    pub(crate) fn at(&self, row: usize) -> Option<&V> {
-        self.values.get((*self.of_row.get(row)?)?)
-    }
-
-    fn append(&mut self, more: Self) {
-        let from = self.values.len();
-        self.values.extend(more.values);
-        let moved = more.of_row.into_iter().map(|own| own.map(|own| own + from));
-        self.of_row.extend(moved);
-    }
-
-    fn taken(&self, rows: &[usize]) -> Self {
-        let mut taken = Self {
-            values: Vec::with_capacity(rows.len()),
-            of_row: Vec::with_capacity(rows.len()),
-        };
-        for row in rows {
-            let value = self.at(*row);
-            taken.of_row.push(value.map(|_| taken.values.len()));
-            taken.values.extend(value.cloned());
-        }
-        taken
-    }
-
-    /// Puts a value in place of that of a row, where there is one.
-    pub(crate) fn put(&mut self, row: usize, value: V) {
-        let own = self.of_row.get(row).copied().flatten();
-        if let Some(place) = own.and_then(|own| self.values.get_mut(own)) {
-            *place = value;
-        }
-    }
-
-    fn levels(&self, optional: bool) -> Option<Vec<i16>> {
-        let level = |own: &Option<usize>| i16::from(own.is_some());
-        optional.then(|| self.of_row.iter().map(level).collect())
-    }
-}
-
-fn append(before: &mut Data, more: Data) -> Result<(), String> {
-    match (before, more) {
-        (Data::Bool(a), Data::Bool(b)) => a.append(b),
-        (Data::Int32(a), Data::Int32(b)) => a.append(b),
-        (Data::Int64(a), Data::Int64(b)) => a.append(b),
-        (Data::Int96(a), Data::Int96(b)) => a.append(b),
-        (Data::Float(a), Data::Float(b)) => a.append(b),
-        (Data::Double(a), Data::Double(b)) => a.append(b),
-        (Data::Bytes(a), Data::Bytes(b)) => a.append(b),
-        (Data::Fixed(a), Data::Fixed(b)) => a.append(b),
-        _ => return Err("a column changes its type".to_owned()),
-    }
-    Ok(())
-}
-
-impl Data {
-    fn rows(&self) -> usize {
-        match self {
-            Self::Bool(v) => v.of_row.len(),
-            Self::Int32(v) => v.of_row.len(),
-            Self::Int64(v) => v.of_row.len(),
-            Self::Int96(v) => v.of_row.len(),
-            Self::Float(v) => v.of_row.len(),
-            Self::Double(v) => v.of_row.len(),
-            Self::Bytes(v) => v.of_row.len(),
-            Self::Fixed(v) => v.of_row.len(),
-        }
-    }
-
-    fn taken(&self, rows: &[usize]) -> Self {
-        match self {
-            Self::Bool(v) => Self::Bool(v.taken(rows)),
-            Self::Int32(v) => Self::Int32(v.taken(rows)),
-            Self::Int64(v) => Self::Int64(v.taken(rows)),
-            Self::Int96(v) => Self::Int96(v.taken(rows)),
-            Self::Float(v) => Self::Float(v.taken(rows)),
-            Self::Double(v) => Self::Double(v.taken(rows)),
-            Self::Bytes(v) => Self::Bytes(v.taken(rows)),
-            Self::Fixed(v) => Self::Fixed(v.taken(rows)),
-        }
-    }
-
-    fn write(
-        &self,
-        writer: &mut SerializedColumnWriter<'_>,
-        optional: bool,
-    ) -> Result<usize, ParquetError> {
-        fn one<T: DataType>(
-            writer: &mut SerializedColumnWriter<'_>,
-            values: &Values<T::T>,
-            optional: bool,
-        ) -> Result<usize, ParquetError> {
-            let levels = values.levels(optional);
-            let writer = writer.typed::<T>();
-            writer.write_batch(&values.values, levels.as_deref(), None)
-        }
-        match self {
-            Self::Bool(v) => one::<BoolType>(writer, v, optional),
-            Self::Int32(v) => one::<Int32Type>(writer, v, optional),
-            Self::Int64(v) => one::<Int64Type>(writer, v, optional),
-            Self::Int96(v) => one::<Int96Type>(writer, v, optional),
-            Self::Float(v) => one::<FloatType>(writer, v, optional),
-            Self::Double(v) => one::<DoubleType>(writer, v, optional),
-            Self::Bytes(v) => one::<ByteArrayType>(writer, v, optional),
-            Self::Fixed(v) => one::<FixedLenByteArrayType>(writer, v, optional),
         }
     }
 }

@@ -58,7 +58,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ("FL X+10 AN45", "the control computes the contour by itself"),
         (
             "L X+5 RL F100",
-            "the control moves the path aside by the tool's radius; say by an option that the places are those of the tool's centre, if they are",
+            "the control moves the path aside by the tool's radius; if the places are those of the tool's centre, say so",
         ),
         (
             "L A+30 FMAX",

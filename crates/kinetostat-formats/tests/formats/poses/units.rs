@@ -68,7 +68,7 @@ fn names_and_option_must_agree() {
     let text = "x_m,y_m,z_m\n1,2,3\n";
     let said = refusal("a.csv", text, Some(LengthUnit::Millimetre));
     assert!(
-        said.contains("another unit of lengths than the option"),
+        said.contains("another unit of lengths than length_unit"),
         "{said}"
     );
     read_with("a.csv", text.as_bytes(), &stated(Some(LengthUnit::Metre))).unwrap();

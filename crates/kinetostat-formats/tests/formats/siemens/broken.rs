@@ -27,7 +27,7 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
         ("G0 G1 X1", "two codes of motion stand in one block"),
         (
             "G41 X5 D1",
-            "the controller moves the path aside by the tool's radius; say by an option",
+            "the controller moves the path aside by the tool's radius; if the places are those of the tool's centre",
         ),
         ("G2 X5 Y5", "neither centre nor radius is stated"),
         ("G2 X5 Y5 CR=1", "which a radius of 1 does not reach"),

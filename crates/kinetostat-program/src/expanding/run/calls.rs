@@ -92,6 +92,11 @@ impl Runner<'_> {
         let is_first = self.sources[frame.file].programs.get(&number) == Some(&line)
             && self.sources[frame.file].programs.values().min() == Some(&line);
         match (frame.opened, is_first || frame.first == line) {
+            (Opened::Program, true) if !self.flat.has_words() => {
+                let text = self.sources[frame.file].text(line).to_vec();
+                self.flat.add(&text, self.origin())?;
+                Ok(Next::Line)
+            }
             (_, true) => Ok(Next::Line),
             (Opened::Program, false) => Ok(Next::End),
             (Opened::Repeated(_) | Opened::Call, false) => self.return_from_m98(),

@@ -1,6 +1,7 @@
 //! Runs a program line by line.
 
 use crate::error::ProgramError;
+use crate::expanding::expanded::Origin;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::run::frame::Rules;
@@ -40,9 +41,21 @@ impl Runner<'_> {
         }
     }
 
-    fn end(&self) -> Result<(), ProgramError> {
+    fn end(&mut self) -> Result<(), ProgramError> {
         let ended = self.radius.finish();
-        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
+        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        if self.flat.is_closed() {
+            return Ok(());
+        }
+        match self.sources[0].closing_mark() {
+            // The program ended before it: a tape stays one.
+            Some(index) => {
+                let text = self.sources[0].text(index).to_vec();
+                let line = index + 1;
+                self.flat.add(&text, Origin { line, file: 0 })
+            }
+            None => Ok(()),
+        }
     }
 
     fn step(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {

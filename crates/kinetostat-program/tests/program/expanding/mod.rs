@@ -13,6 +13,7 @@ mod polar;
 pub mod random;
 mod rotary;
 mod splines;
+mod tapes;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};
 

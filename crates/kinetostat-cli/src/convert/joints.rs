@@ -1,0 +1,169 @@
+//! A program as a table of joint values of an arm: `convert --to joints`.
+
+use std::sync::Arc;
+
+use kinetostat::{Mechanism, Pose, PostureRequest};
+use kinetostat_formats::{
+    BetweenRows, FrameUse, JointStart, Made, TableArm, Template, joint_table,
+};
+use kinetostat_machining::number::counted;
+use kinetostat_model::Model;
+use kinetostat_program::{Knowledge, Move};
+use nalgebra::Isometry3;
+
+use crate::convert::free_turn::in_metres;
+use crate::job::program::ReadProgram;
+use crate::job::robot::joint_arm::ArmOfTable;
+use crate::job::robot_arguments::JointRowsWord;
+use crate::job::setting::Setting;
+use crate::ui::failure::{Answer, Failure};
+
+/// Most digits: the poses are but a step on the way.
+pub(crate) fn with_all_digits(template: &mut Template) {
+    template.position_decimals = 12;
+    template.quaternion_decimals = 15;
+}
+
+/// Whose joint values are written, and how the controller goes from row to row.
+pub(crate) struct Asked<'m> {
+    pub(crate) model: &'m Model,
+    pub(crate) rows: Option<JointRowsWord>,
+}
+
+/// Puts joint values in place of the poses of a made table; what is to be said of them.
+pub(crate) fn as_joints(
+    (setting, template): (&Setting, &Template),
+    read: &ReadProgram<'_>,
+    asked: &Asked<'_>,
+    made: &mut Made,
+) -> Answer<String> {
+    let (base, tool) = frames(template, read)?;
+    let mechanism = asked.model.mechanism.with_tool(&tool);
+    let Some(arm) = ArmOfTable::of(asked.model, &tool).map(Arc::new) else {
+        return Err(Failure::input(format!(
+            "the model '{}' is no arm of six turning joints in one chain: name one with --model, or write poses (--to csv)",
+            asked.model.name()
+        )));
+    };
+    let mut start = JointStart::default();
+    start.tolerance_mm = template.tolerance_mm;
+    start.base = base;
+    start.near = match &template.start_joints_deg {
+        Some(joints) => joints.clone(),
+        None => {
+            let commands = first_joints(read, template, (&mechanism, &base));
+            let commands = commands.map_err(|failure| setting.within(failure))?;
+            arm.shown_deg(&commands).unwrap_or_default()
+        }
+    };
+    let table = TableArm {
+        between: match asked.rows {
+            Some(JointRowsWord::Joint) => BetweenRows::Joint,
+            Some(JointRowsWord::Linear) | None => BetweenRows::Linear,
+        },
+        arm: arm.clone(),
+    };
+    let Some((_, bytes)) = made.files.first_mut() else {
+        return Ok(String::new());
+    };
+    let done = joint_table(bytes, &table, &start);
+    let done = done.map_err(|error| {
+        let line = source_line(made, error.line);
+        setting.within(Failure::input(format!("line {line}: {}", error.reason)))
+    })?;
+    for (line, joints) in &done.rows {
+        let commands = arm.model_joints(joints);
+        let posture = mechanism.posture(PostureRequest::commands(&commands));
+        if let Err(error) = posture.and_then(|posture| posture.within_limits()) {
+            let line = source_line(made, *line);
+            let failure = Failure::from(error);
+            return Err(setting.within(Failure::input(format!(
+                "line {line}: {}: move the part, turn the tool about its axis (--free-turn), or begin in another configuration (start_joints_deg in the template)",
+                failure.plain
+            ))));
+        }
+    }
+    if let Some((_, bytes)) = made.files.first_mut() {
+        *bytes = done.bytes;
+    }
+    let [mm, rad] = done.departure;
+    Ok(format!(
+        "{} of joint values of {}, as {}, each next to the one before; they give the poses within {mm:.1e} mm and {rad:.1e} rad. From row to row {}. To read them: --joint-rows {}, and the tool in the flange",
+        counted(done.rows.len(), "row"),
+        asked.model.name(),
+        match &asked.model.controller {
+            Some(_) => "the controller shows them ([controller] of the model)",
+            None => "the model counts them",
+        },
+        match table.between {
+            BetweenRows::Joint => "all joints move in step",
+            BetweenRows::Linear =>
+                "the controller has to go straight (all joints in step: --joint-rows joint)",
+        },
+        match table.between {
+            BetweenRows::Joint => "joint",
+            BetweenRows::Linear => "linear",
+        }
+    ))
+}
+
+/// The line of the source that a line of the made table is of.
+fn source_line(made: &Made, line: usize) -> usize {
+    let found = made.lines.iter().find(|[own, _]| *own >= line);
+    found.map_or(1, |[_, source]| *source)
+}
+
+/// Joint values of the first place, rad, in the configuration of the model's home.
+fn first_joints(
+    read: &ReadProgram<'_>,
+    template: &Template,
+    (mechanism, base): (&Mechanism, &Isometry3<f64>),
+) -> Answer<[f64; 6]> {
+    let mut moves = read.path().moves.iter();
+    let first = moves.find(|motion| motion.known != Knowledge::Nothing);
+    let turned = |motion: &Move| motion.orientation(1.0).or(template.tool_orientation);
+    let Some((motion, turn)) = first.and_then(|motion| Some((motion, turned(motion)?))) else {
+        return Err(Failure::input(
+            "the path has no place, or does not say how the tool stands: state its orientation (tool_orientation in the template, or --tool-orientation)",
+        ));
+    };
+    let pose = in_metres(&(base * Isometry3::from_parts(motion.end.into(), turn)));
+    let posture = mechanism.posture(&pose).map_err(|error| {
+        let failure = Failure::from(error);
+        Failure::input(format!("line {}: {}", motion.line, failure.plain))
+    })?;
+    let commands = <[f64; 6]>::try_from(posture.commands());
+    commands.map_err(|_| Failure::input("the model has other joints than six"))
+}
+
+/// From the part into the base, mm, and the tool in the flange, m: of the template, else of the program.
+fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>, Pose)> {
+    let robot = read.robot().map(|robot| &robot.path);
+    let several = robot.is_some_and(|path| path.tools.len() > 1) || template.tools.len() > 1;
+    if several {
+        return Err(Failure::input(
+            "the program takes several tools, and a table of joint values is of one: divide the program",
+        ));
+    }
+    let of_source = |frame: &FrameUse| frame.known().copied();
+    let base = template
+        .base
+        .pose
+        .or_else(|| match robot.map(|path| &path.work_object) {
+            // Of several work objects the path is in axes of the base.
+            Some(None) => Some(Isometry3::identity()),
+            Some(Some(frame)) => of_source(frame),
+            None => None,
+        });
+    let numbered = template.tools.values().next();
+    let of_template = numbered.map_or(template.tool.frame.pose, |tool| tool.frame.pose);
+    let tool = of_template.or_else(|| robot.and_then(|path| of_source(path.tools.first()?)));
+    let missing = |what: &str| {
+        Failure::input(format!(
+            "joint values need to know {what}, and neither the program nor the template (--template) says it"
+        ))
+    };
+    let base = base.ok_or_else(|| missing("where the part is: pose under [base]"))?;
+    let tool = tool.ok_or_else(|| missing("where the tip of the tool is: pose under [tool]"))?;
+    Ok((base, in_metres(&tool)))
+}

@@ -1,0 +1,62 @@
+//! Where the programs of a run go that is written in another language.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_formats::MakeLanguage;
+
+use crate::convert::file_names::stem;
+use crate::job::file_endings::{Written, refuse_other_ending};
+use crate::job::job_file::JobFile;
+use crate::job::output_paths::{COMPENSATED_PROGRAM, FLAT_PROGRAM, OutputPaths};
+use crate::ui::failure::Answer;
+
+/// Programs that options name.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Named<'o> {
+    pub(crate) out: Option<&'o Path>,
+    pub(crate) flat: Option<&'o Path>,
+}
+
+/// Puts the programs where they go in the other language: what neither options nor the job name has the ending of that, and names of
+/// programs have no hyphen.
+pub(crate) fn in_language(
+    targets: &mut OutputPaths,
+    program: &Path,
+    (job, options): (Option<&JobFile>, Named<'_>),
+    language: MakeLanguage,
+) -> Answer<()> {
+    let in_job = job.map(|j| &j.job.output);
+    let out_is_named =
+        options.out.is_some() || in_job.is_some_and(|output| output.program.is_some());
+    let flat_is_named =
+        options.flat.is_some() || in_job.is_some_and(|output| output.flat_program.is_some());
+    let out = targets.program.take().unwrap_or_default();
+    let out = match out_is_named {
+        true => out,
+        false => {
+            let ending = language.ending();
+            out.with_file_name(format!("{}_compensated.{ending}", stem(program)))
+        }
+    };
+    let flat = targets.flat.take().filter(|_| flat_is_named);
+    let flat = flat.unwrap_or_else(|| as_converted(&out, language));
+    for (what, path) in [(COMPENSATED_PROGRAM, &out), (FLAT_PROGRAM, &flat)] {
+        let written = Written {
+            what,
+            form: language.form(),
+            source: None,
+        };
+        refuse_other_ending(written, path)?;
+    }
+    targets.beside.clear();
+    targets.program = Some(out);
+    targets.flat = Some(flat);
+    Ok(())
+}
+
+/// What a converted program is called beside its compensated form.
+fn as_converted(out: &Path, language: MakeLanguage) -> PathBuf {
+    let ending = out.extension().map(|ending| ending.to_string_lossy());
+    let ending = ending.unwrap_or_else(|| language.ending().into());
+    out.with_file_name(format!("{}_flat.{ending}", stem(out)))
+}

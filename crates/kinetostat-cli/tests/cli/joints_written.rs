@@ -1,0 +1,148 @@
+//! `convert --to joints`: programs as tables of joint values of an arm, read again as the same poses.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use std::path::Path;
+
+use kinetostat_testing::largest;
+
+use crate::common::run;
+
+const PART: &str = "MODULE Part\n\
+    PERS tooldata tMill:=[TRUE,[[200,0,100],[0.7071067811865476,0,0.7071067811865476,0]],[5,[0,0,60],[1,0,0,0],0,0,0]];\n\
+    TASK PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[1300,0,800],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n\
+    PROC main()\n\
+    MoveJ [[0,0,50],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tMill\\WObj:=wPart;\n\
+    MoveL [[0,0,-1],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;\n\
+    MoveL [[60,5,-1.25],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;\n\
+    MoveC [[70,15,-1.25],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[60,25,-1.25],[0,0.17364817766693033,0.984807753012208,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tMill\\WObj:=wPart;\n\
+    ENDPROC\nENDMODULE\n";
+
+const CELL: &str =
+    "schema = 1\n[tool]\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n";
+
+const DIGITS: &str = "position_decimals = 12\nquaternion_decimals = 15\n";
+
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// Rows of a table of poses: places (mm), quaternion.
+fn poses(here: &Path, name: &str) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(here.join(name)).unwrap();
+    let rows = text.lines().filter(|line| !line.starts_with(['#', 'x']));
+    rows.map(|row| {
+        row.split(',')
+            .take(7)
+            .map(|cell| cell.parse().unwrap())
+            .collect()
+    })
+    .collect()
+}
+
+fn place() -> tempfile::TempDir {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("part.mod"), PART).unwrap();
+    let cell = CELL.replace("[tool]", &format!("{DIGITS}[tool]"));
+    std::fs::write(here.path().join("cell.toml"), cell).unwrap();
+    std::fs::write(
+        here.path().join("digits.toml"),
+        format!("schema = 1\n{DIGITS}"),
+    )
+    .unwrap();
+    here
+}
+
+/// Poses are those of the program to 1e-9 mm and 1e-9 rad, seen from the base.
+#[test]
+fn joint_values_give_the_poses_of_the_program() {
+    let here = place();
+    let here = here.path();
+    for between in ["linear", "joint"] {
+        let line = format!(
+            "convert part.mod --to joints --model heavy_6r --joint-rows {between} --out q.csv --force-overwrite"
+        );
+        let said = run(here, &words(&line)).answered();
+        let said = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        for needle in [
+            "in a table of joint values",
+            "of joint values of heavy_6r",
+            &format!("--joint-rows {between}"),
+        ] {
+            assert!(said.contains(needle), "{needle}: {said}");
+        }
+        let line = format!(
+            "convert q.csv --to csv --model heavy_6r --joint-rows {between} --template cell.toml --out again.csv --force-overwrite"
+        );
+        run(here, &words(&line)).answered();
+        run(
+            here,
+            &words("convert part.mod --to csv --template digits.toml --out poses.csv --force-overwrite"),
+        )
+        .answered();
+        let (again, poses) = (poses(here, "again.csv"), poses(here, "poses.csv"));
+        assert!(match between {
+            "linear" => again.len() == poses.len(),
+            _ => again.len() > poses.len() + 10,
+        });
+        let (mut place_mm, mut turn) = (Vec::new(), Vec::new());
+        for pose in &poses {
+            // The work object lies along the axes of the base.
+            let there = [pose[0] + 1300.0, pose[1], pose[2] + 800.0];
+            let apart = |row: &Vec<f64>| -> f64 {
+                (0..3)
+                    .map(|k| (row[k] - there[k]).powi(2))
+                    .sum::<f64>()
+                    .sqrt()
+            };
+            let nearest = again
+                .iter()
+                .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+                .unwrap();
+            place_mm.push(apart(nearest));
+            let dot: f64 = (3..7).map(|k| nearest[k] * pose[k]).sum();
+            turn.push((1.0 - dot.abs()).abs().sqrt());
+        }
+        let (place_mm, turn) = (largest(place_mm), largest(turn));
+        assert!(place_mm < 1e-9 && turn < 1e-7, "{place_mm} mm, {turn}");
+    }
+    // The table is compensated with the same model.
+    let line = "compensate --model heavy_6r --program q.csv --joint-rows joint --tool-length-mm 0 --force 10 0 10 --tolerance-um 20";
+    run(here, &words(line)).answered();
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    let here = place();
+    for (line, needle) in [
+        (
+            "convert part.mod --to joints --out q.csv",
+            "no model is named",
+        ),
+        (
+            "convert part.mod --to joints --model orthoglide --out q.csv",
+            "is no arm of six turning joints",
+        ),
+        (
+            "convert part.mod --to csv --model heavy_6r --out q.csv",
+            "--model is for tables of joint values",
+        ),
+        (
+            "convert part.ngc --to joints --model heavy_6r --out q.csv --template cell.toml --tool-orientation a_b_c_kuka_deg=160,0,180",
+            "where the part is: pose under [base]",
+        ),
+        (
+            "convert far.mod --to joints --model heavy_6r --out q.csv",
+            "line 7: ",
+        ),
+    ] {
+        std::fs::write(here.path().join("part.ngc"), "G21 G90\nG0 X0 Y0 Z5\nM2\n").unwrap();
+        let far = PART.replace("[[60,5,-1.25]", "[[6000,5,-1.25]");
+        std::fs::write(here.path().join("far.mod"), far).unwrap();
+        let said = run(here.path(), &words(line));
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        let text = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(needle), "{needle}: {text}");
+        assert!(!here.path().join("q.csv").exists());
+    }
+}
