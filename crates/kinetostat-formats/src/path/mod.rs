@@ -6,6 +6,7 @@
 pub(crate) mod axis_turns;
 pub(crate) mod circle;
 pub(crate) mod correctable;
+pub(crate) mod far_places;
 pub(crate) mod fault;
 pub(crate) mod header;
 pub(crate) mod of_program;

@@ -17,6 +17,7 @@ use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::Target;
 use crate::path::axis_turns::{axis_turns, first_leaning, rotary_angles};
 use crate::path::circle::about;
+use crate::path::far_places::too_far;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, warnings_of};
@@ -136,6 +137,10 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             format!("its speed is {speed} mm/s"),
             "write a speed above zero",
         ))
+    }));
+    faults.extend(program.motions.iter().filter_map(|motion| {
+        let (reason, remedy) = too_far(motion)?;
+        Some(fault(motion, reason, remedy))
     }));
     faults.extend(program.motions.windows(2).filter_map(|pair| {
         let [from, to] = [&pair[0], &pair[1]].map(|motion| motion.target.pose());

@@ -209,7 +209,7 @@ impl Writer<'_> {
         if let Some(reason) = motion.site.indivisible {
             return Err((
                 reason,
-                "give it one piece, at its end, or write it otherwise",
+                "write it so that several motions can take its place: with a speed instead of a time, what it starts at a motion of its own, its IF over several lines",
             ));
         }
         if becomes_straight {

@@ -58,13 +58,13 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
 pub(crate) struct Interpreter<'o> {
     pub(super) options: &'o ReadOptions,
     rotary: RotaryWords<'o>,
-    pub(super) modes: Modes,
+    pub(crate) modes: Modes,
     pub(super) offset: PositionOffset,
     pub(super) shifts: Shifts,
     /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
     pub(super) origins_mm: [Option<Vector3<f64>>; 9],
     rotary_origins: RotaryOrigins,
-    pub(super) places: Places,
+    pub(crate) places: Places,
     pub(super) ended: Option<usize>,
     no_feed_warned: bool,
     repeated: Repeated,
