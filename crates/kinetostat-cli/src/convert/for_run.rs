@@ -87,7 +87,9 @@ pub(crate) fn for_run(
     };
     template.template.most_points.get_or_insert(most);
     let turn = match setting.free_turn {
-        FreeTurnWord::Choose => Some(free_turn(&setting, &template.template, model, read.path())?),
+        FreeTurnWord::Choose | FreeTurnWord::Stiff => {
+            Some(free_turn(&setting, &template.template, model, read.path())?)
+        }
         FreeTurnWord::AsStated => None,
     };
     refuse_fast_feeds(&setting, &read, &template.template)?;

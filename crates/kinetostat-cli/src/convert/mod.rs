@@ -25,6 +25,7 @@ use crate::job::job_file::JobFile;
 use crate::job::program::read_program;
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::setting::setting;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::Answer;
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
@@ -46,6 +47,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     )?;
     let mut setting = setting(&files, job.as_ref(), &flags(args), &writing(args))?;
     setting.inputs.extend(args.template.iter().cloned());
+    if args.stiff_turn {
+        setting.free_turn = FreeTurnWord::Stiff;
+    }
     let mut claimed = Outputs::new(
         Existing::forced(args.force_overwrite),
         setting.inputs.clone(),
