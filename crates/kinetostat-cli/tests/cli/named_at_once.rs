@@ -77,7 +77,9 @@ fn a_main_program_names_the_parts_that_it_calls() {
         ask(here, &made).answered();
         let said = ask(
             here,
-            &format!("compensate --model heavy_6r --program {out} --force 60 20 100 --rapid-from-mm-per-s 100"),
+            &format!(
+                "compensate --model heavy_6r --program {out} --force 60 20 100 --rapid-from-mm-per-s 100"
+            ),
         );
         assert_eq!(said.code, 1, "{said:?}");
         let text = said.err.to_lowercase();
@@ -111,8 +113,14 @@ fn coordinates_that_no_machine_reaches_are_named_before_anything_is_solved() {
     );
     assert_eq!(said.code, 1, "{said:?}");
     assert!(said.err.contains("2 lines are refused"), "{said:?}");
-    assert!(said.err.contains("far.mod, line 5: it leads to"), "{said:?}");
-    assert!(said.err.contains("far.mod, line 6: its speed is 0"), "{said:?}");
+    assert!(
+        said.err.contains("far.mod, line 5: it leads to"),
+        "{said:?}"
+    );
+    assert!(
+        said.err.contains("far.mod, line 6: its speed is 0"),
+        "{said:?}"
+    );
 }
 
 /// How far the tip yields at most, um/N.
@@ -141,7 +149,10 @@ fn a_turn_that_is_to_be_stiff_says_how_stiff_it_is() {
     assert_eq!(compliance(&said.answered().out), None);
     let free = std::fs::read(here.join("part.src")).unwrap();
     let said = ask(here, &format!("{line} --free-turn heavy_6r --stiff-turn")).answered();
-    assert!(compliance(&said.out).is_some_and(|most| most > 0.0), "{said:?}");
+    assert!(
+        compliance(&said.out).is_some_and(|most| most > 0.0),
+        "{said:?}"
+    );
     assert_ne!(std::fs::read(here.join("part.src")).unwrap(), free);
     // It says how a turn is chosen, and needs one.
     for line in [
