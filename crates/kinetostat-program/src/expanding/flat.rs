@@ -73,6 +73,16 @@ impl<'o> Flat<'o> {
         self.reader.is_closed()
     }
 
+    /// Whether no block has come yet.
+    pub fn is_before_blocks(&self) -> bool {
+        self.reader.is_before_blocks()
+    }
+
+    /// Whether a tape mark stood in front of the blocks.
+    pub fn has_opening_mark(&self) -> bool {
+        self.reader.has_opening_mark()
+    }
+
     /// Blocks so far.
     pub fn blocks(&self) -> usize {
         self.origins.len()
@@ -189,10 +199,11 @@ fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
     }
 }
 
-/// A block with its origin behind it; none for tape marks and lines without a word.
+/// A block with its origin behind it; none for tape marks, the program's number and lines without a word.
 fn commented(text: &[u8], line: usize, file: &str) -> Option<Vec<u8>> {
     let first = text.trim_ascii_start().first()?;
-    if !first.is_ascii_alphabetic() && *first != b'/' {
+    // A comment behind its number is a program's name.
+    if !first.is_ascii_alphabetic() && *first != b'/' || matches!(first, b'O' | b'o') {
         return None;
     }
     let origin = match file {

@@ -236,6 +236,16 @@ impl Reader {
         self.tape_marks == 2
     }
 
+    /// Whether no block was read yet.
+    pub(crate) fn is_before_blocks(&self) -> bool {
+        self.blocks == 0
+    }
+
+    /// Whether a tape mark was read in front of the blocks.
+    pub(crate) fn has_opening_mark(&self) -> bool {
+        self.tape_marks > 0
+    }
+
     fn check_size(&self) -> Result<(), ProgramError> {
         let bytes = &self.program.bytes;
         let problem = if bytes.len() == byte_order_mark(bytes) {

@@ -92,6 +92,13 @@ impl Runner<'_> {
         let is_first = self.sources[frame.file].programs.get(&number) == Some(&line)
             && self.sources[frame.file].programs.values().min() == Some(&line);
         match (frame.opened, is_first || frame.first == line) {
+            (Opened::Program, true) if is_first && self.flat.is_before_blocks() => {
+                // A controller keeps the flat program under the number of the program.
+                let (file, origin) = (frame.file, self.origin());
+                let text = self.sources[file].text(line).to_vec();
+                self.flat.add(&text, origin)?;
+                Ok(Next::Line)
+            }
             (_, true) => Ok(Next::Line),
             (Opened::Program, false) => Ok(Next::End),
             (Opened::Repeated(_) | Opened::Call, false) => self.return_from_m98(),

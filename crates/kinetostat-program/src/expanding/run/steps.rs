@@ -1,6 +1,7 @@
 //! Runs a program line by line.
 
 use crate::error::ProgramError;
+use crate::expanding::expanded::Origin;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::run::frame::Rules;
@@ -45,9 +46,32 @@ impl Runner<'_> {
         self.steps > LINES_PER_BLOCK.saturating_mul(self.options.most_blocks)
     }
 
-    fn end(&self) -> Result<(), ProgramError> {
+    fn end(&mut self) -> Result<(), ProgramError> {
         let ended = self.radius.finish();
-        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
+        ended.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        self.close_tape()
+    }
+
+    /// The closing tape mark behind the program's end: a controller that is sent a program waits for it.
+    fn close_tape(&mut self) -> Result<(), ProgramError> {
+        let source = &self.sources[0];
+        let is_mark = |line: &usize| source.text(*line).trim_ascii() == b"%";
+        let marks: Vec<usize> = (0..source.lines.len()).filter(is_mark).collect();
+        // The first one may be that in front of the program.
+        let own = match self.flat.has_opening_mark() {
+            true => marks.get(1),
+            false => marks.first(),
+        };
+        match own {
+            Some(mark) if !self.flat.is_closed() => {
+                let origin = Origin {
+                    line: mark + 1,
+                    file: 0,
+                };
+                self.flat.add(b"%", origin)
+            }
+            _ => Ok(()),
+        }
     }
 
     fn step(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {

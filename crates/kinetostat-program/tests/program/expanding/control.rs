@@ -81,7 +81,10 @@ fn subprograms_have_values_of_their_own() {
 fn calls_of_numbers() {
     let text = "%\nO1000\nG21\nG0 X0 Y0 Z0\nM98 P2000 L2\n#1 = 4\nM98 P00032000\nM30\nO2000\nG91 X1\nG90\nM99\n%\n";
     let moves = "G91 X1\nG90\n".repeat(5);
-    assert_eq!(flat(text), format!("%\nG21\nG0 X0 Y0 Z0\n{moves}M30\n"));
+    assert_eq!(
+        flat(text),
+        format!("%\nO1000\nG21\nG0 X0 Y0 Z0\n{moves}M30\n%\n")
+    );
     // Values are those of the program, before and after.
     let text = "G21\nG0 X0 Y0 Z0\n#1 = 2\nM98 P7\nX#1\nM30\nO7\nX#1\n#1 = 5\nM99\n";
     assert_eq!(flat(text), "G21\nG0 X0 Y0 Z0\nX2\nX5\nM30\n");
