@@ -83,7 +83,7 @@ pub use path::tool_direction::Directed;
 pub use path::tool_turn::ToolTurn;
 pub use reading::dialect::{CODES, Code, Treatment};
 pub use reading::faults::faults;
-pub use reading::interpret::interpret;
+pub use reading::interpreting::interpret::interpret;
 pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};

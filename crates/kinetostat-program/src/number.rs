@@ -29,6 +29,11 @@ pub fn feed(value: f64) -> String {
     }
 }
 
+/// The value that a controller reads in one of our own fixed-point numbers.
+pub(crate) fn of_own_text(text: &str) -> f64 {
+    text.parse().unwrap_or(0.0)
+}
+
 /// Digits after the point in a number as it was written.
 pub(crate) fn decimals_of(text: &[u8]) -> usize {
     text.iter()

@@ -112,4 +112,11 @@ impl SourceFile {
         let blanks = line.iter().take_while(|byte| is_blank(byte)).count();
         &line[..blanks]
     }
+
+    /// The blanks with which the line of a byte begins, as far as they stand before the byte.
+    pub(crate) fn indentation_before(&self, at: usize) -> &[u8] {
+        let blanks = self.indentation(at);
+        let before = at.saturating_sub(self.range_of(self.line_of(at)).start);
+        &blanks[..before.min(blanks.len())]
+    }
 }

@@ -102,19 +102,20 @@ impl Names {
         let file = program.files.get(declaration.text.file)?;
         let taken = self.0.get_or_insert_with(|| syntax.names(program));
         let name = syntax.free_name(file.part(&declaration.name), number, taken)?;
-        let text = further(program, declaration, &name, literal)?;
         let at = syntax.copies_at(program, declaration);
+        let text = further(program, declaration, &name, literal, at)?;
         edits[declaration.text.file].replace(at..at, text);
         Some(name)
     }
 }
 
-/// A further declaration on a line of its own.
+/// A further declaration on a line of its own, as it is put in at a place.
 fn further(
     program: &RobotProgram,
     declaration: &Declaration,
     name: &[u8],
     literal: &[u8],
+    at: usize,
 ) -> Option<Vec<u8>> {
     let file = program.files.get(declaration.text.file)?;
     let mut text = Vec::new();
@@ -134,6 +135,7 @@ fn further(
         }
     }
     text.extend_from_slice(file.line_ending());
-    text.extend_from_slice(file.indentation(declaration.statement.start));
+    // What stands at the place goes on as far from the left as it stood.
+    text.extend_from_slice(file.indentation_before(at));
     Some(text)
 }

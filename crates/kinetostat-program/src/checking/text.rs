@@ -9,7 +9,7 @@ use crate::path::curve::Curve;
 use crate::path::moves::{Feed, FeedMode, Move};
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
-use crate::writing::block_writer::{is_after_motion, motion_word};
+use crate::writing::blocks::block_text::{is_after_motion, motion_word};
 use crate::writing::header::lines_above;
 use crate::writing::written::Piece;
 

@@ -2,7 +2,7 @@
 
 use crate::error::{ProgramError, WriteError};
 use crate::path::moves::Path;
-use crate::reading::interpret::interpret;
+use crate::reading::interpreting::interpret::interpret;
 use crate::reading::options::ReadOptions;
 use crate::text::program::Program;
 use crate::writing::options::WriteOptions;

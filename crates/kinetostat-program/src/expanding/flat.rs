@@ -9,7 +9,7 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
 use crate::path::moves::{Path, Warning};
 use crate::reading::faults::take_over_understood;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::program::{Program, Reader};
 
 /// Plain blocks, read and interpreted one by one.

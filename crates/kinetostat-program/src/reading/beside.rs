@@ -9,7 +9,8 @@ use crate::reading::options::{OtherAxes, ReadOptions};
 use crate::reading::repeated::Repeated;
 use crate::text::line::Word;
 
-const COORDINATES: [u8; 3] = *b"XYZ";
+/// Letters of the axes that the program is read for.
+pub(crate) const COORDINATES: [u8; 3] = *b"XYZ";
 
 /// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
 pub(crate) const OTHER_AXES: &[u8; 6] = b"ABCUVW";

@@ -9,7 +9,7 @@ pub(crate) mod block;
 pub(crate) mod dialect;
 pub(crate) mod extra;
 pub(crate) mod faults;
-pub(crate) mod interpret;
+pub(crate) mod interpreting;
 pub(crate) mod machine;
 pub(crate) mod modes;
 pub(crate) mod moment;

@@ -10,8 +10,12 @@ use crate::path::position_offset::{OffsetChange, PositionOffset};
 use crate::text::line::Line;
 use crate::text::program::Program;
 use crate::writing::accounting::Accounting;
-use crate::writing::block_writer::{BlockWriter, ProgramStyle, UNCHANGED_MM, motion_word};
-use crate::writing::divide::Division;
+use crate::writing::blocks::arc_of_piece::arc_form;
+use crate::writing::blocks::axis_words::UNCHANGED_MM;
+use crate::writing::blocks::block_text::motion_word;
+use crate::writing::blocks::block_writer::BlockWriter;
+use crate::writing::blocks::program_style::ProgramStyle;
+use crate::writing::dividing::divide::Division;
 use crate::writing::header::{header, lines_above};
 use crate::writing::merge::Accepted;
 use crate::writing::node::{Node, is_divided};
@@ -177,20 +181,10 @@ impl<'a> Emitter<'a> {
                         let place = coordinates_mm[axis].unwrap_or(0.0) + work_offset_mm[axis];
                         self.state.position[axis] = place;
                         self.state.target[axis] = place;
+                        self.input_position[axis] = place;
                     }
                 }
                 self.state.offset.apply(change, &self.state.position);
-                if let OffsetChange::Here {
-                    coordinates_mm,
-                    work_offset_mm,
-                    establishes,
-                } = change
-                {
-                    for axis in (0..3).filter(|axis| establishes[*axis]) {
-                        self.input_position[axis] =
-                            coordinates_mm[axis].unwrap_or(0.0) + work_offset_mm[axis];
-                    }
-                }
                 self.input_offset.apply(change, &self.input_position);
             }
         }
@@ -244,31 +238,21 @@ impl<'a> Emitter<'a> {
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
-        let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+        let mut block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
         block.turned.were_turned = self.state.turned_deg.iter().any(|turned| *turned != 0.0);
-        let (mut steps, nodes) = self
-            .steps
-            .of(move_index, self.state.target, block.arc_form())?;
+        let (mut steps, nodes) =
+            self.steps
+                .of(move_index, self.state.target, arc_form(&block.text))?;
         let nodes = &self.steps.nodes[nodes];
         let kept_arc = motion.curve != Curve::Line
             && self.is_uncorrected(motion, nodes, self.steps.course(move_index))
             && self.state.turned_deg.iter().all(|turned| *turned == 0.0)
-            && block.words_still_hold(&self.state);
+            && block.axes.words_still_hold(&self.state);
         if kept_arc {
-            steps = vec![OutputMove {
-                share_from: 0.0,
-                share_to: 1.0,
-                target: motion.end,
-                tilt: Vector3::zeros(),
-                corner_step: false,
-                turn: None,
-                arc: None,
-                circle: None,
-                corrected: true,
-            }];
+            steps = vec![OutputMove::whole(motion.end, Vector3::zeros(), true)];
         }
-        block.by_time = self.is_by_time(&mut block, &steps)?;
-        let restores = block.by_time && !block.ends_program();
+        block.feeds.by_time = self.is_by_time(&block, &steps)?;
+        let restores = block.feeds.by_time && !block.text.ends_program();
         for (index, step) in steps.iter().enumerate() {
             let last = index + 1 == steps.len() && !restores;
             let from = self.state.position;
@@ -295,7 +279,7 @@ impl<'a> Emitter<'a> {
             self.note_rotary(motion, step.share_to);
         }
         if restores {
-            let content = block.line_of_feed(&mut self.state);
+            let content = block.feeds.line_of_feed(&mut self.state);
             self.push_line(motion.line, content, own)?;
             self.account.accounting.blocks_out += 1;
         }
@@ -306,10 +290,10 @@ impl<'a> Emitter<'a> {
     /// Whether pieces of a turn in place are written with their time: F counts degrees a minute only where X, Y and Z stand still.
     fn is_by_time(
         &self,
-        block: &mut BlockWriter<'_>,
+        block: &BlockWriter<'_>,
         steps: &[OutputMove],
     ) -> Result<bool, WriteError> {
-        if !block.may_be_by_time() {
+        if !block.feeds.may_be_by_time() {
             return Ok(false);
         }
         if steps.len() > 1 {
@@ -365,7 +349,7 @@ impl<'a> Emitter<'a> {
                 self.state.motion = Some(motion_of(motion));
             }
         } else {
-            let block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+            let block = BlockWriter::new((self.program, line), motion, &self.style, self.options);
             let content = block.uncorrected_line(&mut self.state);
             self.push_line(motion.line, content, self.program.ending(line))?;
         }

@@ -1,15 +1,15 @@
 //! From a program, its path and a field of corrections to the corrected program.
 //!
-//! In the order of work: the path is divided where the correction bends or jumps ([`divide`], [`corner`], [`merge`]), arcs
-//! are fitted to the corrected curves of arcs ([`fitting`]), pieces become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
+//! In the order of work: the path is divided where the correction bends or jumps ([`dividing`], [`corner`], [`merge`]), arcs
+//! are fitted to the corrected curves of arcs ([`fitting`]), pieces become blocks ([`emit`], [`blocks`]), and every block is accounted for ([`accounting`]).
 
 pub(crate) mod accounting;
 pub(crate) mod arc_words;
-pub(crate) mod block_writer;
+pub(crate) mod blocks;
 pub(crate) mod corner;
 pub(crate) mod corrected_curve;
 pub(crate) mod departure;
-pub(crate) mod divide;
+pub(crate) mod dividing;
 pub(crate) mod emit;
 pub(crate) mod fitting;
 pub(crate) mod header;

@@ -16,7 +16,7 @@ pub(crate) struct Node {
     pub after: Vector6<f64>,
     /// Shares between which the correction jumps, where it jumps inside the move.
     pub bracket: [f64; 2],
-    /// Index of the jump at this node, see [`crate::writing::divide::Division::jumps`].
+    /// Index of the jump at this node, see [`crate::writing::dividing::divide::Division::jumps`].
     pub jump: Option<usize>,
     /// The end of an arc's chord: pieces on its two sides are never joined.
     pub fixed: bool,

@@ -69,6 +69,21 @@ pub(crate) struct OutputMove {
 }
 
 impl OutputMove {
+    /// A move in one straight piece.
+    pub fn whole(target: Vector3<f64>, tilt: Vector3<f64>, corrected: bool) -> Self {
+        Self {
+            share_from: 0.0,
+            share_to: 1.0,
+            target,
+            tilt,
+            corner_step: false,
+            turn: None,
+            arc: None,
+            circle: None,
+            corrected,
+        }
+    }
+
     /// Largest correction between the ends of an arc or a circle, mm.
     pub fn largest_inside_mm(&self) -> f64 {
         let circle = self.circle.map(|circle| circle.largest_correction_mm);

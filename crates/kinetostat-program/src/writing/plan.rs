@@ -11,7 +11,8 @@ use crate::field::request::{CorrectionField, Monitor};
 use crate::path::curve::{Arc, Curve};
 use crate::path::moves::{Feed, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::writing::accounting::Accounting;
-use crate::writing::divide::{Fitted, divide};
+use crate::writing::dividing::beginning::Fitted;
+use crate::writing::dividing::divide::divide;
 use crate::writing::fitting::stretch::ArcForm;
 use crate::writing::node::is_divided;
 use crate::writing::options::{Arcs, Circles, WriteOptions};
@@ -150,17 +151,10 @@ impl<'a> Plan<'a> {
                     && (reached - motion.start).amax() <= half;
             let list = match kept {
                 false => list,
-                true => vec![OutputMove {
-                    share_from: 0.0,
-                    share_to: 1.0,
-                    target: motion.end,
-                    tilt: Vector3::zeros(),
-                    corner_step: false,
-                    turn: None,
-                    arc: None,
-                    circle: None,
-                    corrected: motion.known != Knowledge::Nothing,
-                }],
+                true => {
+                    let corrected = motion.known != Knowledge::Nothing;
+                    vec![OutputMove::whole(motion.end, Vector3::zeros(), corrected)]
+                }
             };
             moves.push(PlannedMove {
                 pieces: pieces(motion, &list, reached, kept, options),

@@ -106,7 +106,7 @@ impl TurnedAxes<'_> {
                 None if (target - stands).abs() <= half => (stands, None),
                 _ => {
                     let text = number::fixed(target - reference, EXTRA_DECIMALS);
-                    (reference + text.parse().unwrap_or(0.0), Some(text))
+                    (reference + number::of_own_text(&text), Some(text))
                 }
             };
             // What the arithmetic leaves of the program's own angle is none.

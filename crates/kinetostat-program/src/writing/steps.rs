@@ -10,7 +10,8 @@ use crate::number::larger;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
 use crate::writing::corrected_curve::CorrectedCurve;
-use crate::writing::divide::{Division, Fitted};
+use crate::writing::dividing::beginning::Fitted;
+use crate::writing::dividing::divide::Division;
 use crate::writing::fitting::stretch::{ArcForm, Fit, FittedPiece, Shape, Span};
 use crate::writing::jump::{Jump, Turn};
 use crate::writing::merge::Accepted;
@@ -89,24 +90,12 @@ impl<'a> Steps<'a> {
     ) -> Result<(Vec<OutputMove>, Range<usize>), WriteError> {
         let motion = &self.path.moves[move_index];
         let range = self.nodes_of(move_index);
-        let whole = |target, tilt, corrected| {
-            vec![OutputMove {
-                share_from: 0.0,
-                share_to: 1.0,
-                target,
-                tilt,
-                corner_step: false,
-                turn: None,
-                arc: None,
-                circle: None,
-                corrected,
-            }]
-        };
         let steps = match self.nodes[range.clone()].last() {
-            None => whole(reached, Vector3::zeros(), false),
+            None => vec![OutputMove::whole(reached, Vector3::zeros(), false)],
             Some(end) if is_corrected_at_end(motion) || !is_divided(motion) => {
                 let end = Correction::of_lengths(&end.after, self.options.turn_lever_mm);
-                whole(motion.end + end.shift_mm, end.turn, true)
+                let target = motion.end + end.shift_mm;
+                vec![OutputMove::whole(target, end.turn, true)]
             }
             Some(_) => {
                 let known = !self.course(move_index).is_empty();

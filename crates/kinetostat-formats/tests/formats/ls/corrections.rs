@@ -51,6 +51,23 @@ fn one_position_of_several_motions_is_edited_once_or_gets_a_number() {
     assert!(output.contains("   3:L P[5:again] 50mm/sec FINE ;"));
 }
 
+/// `/END` begins a section only at the beginning of its line.
+#[test]
+fn a_copy_of_a_position_that_does_not_begin_its_line_leaves_the_end_where_it_was() {
+    let lines = [
+        "L P[1] 20mm/sec FINE ;",
+        "L P[2] 20mm/sec FINE ;",
+        "L P[1] 50mm/sec FINE ;",
+    ];
+    let text = with_lines(&lines).replace("P[1]{", "   P[1]{");
+    assert_eq!(text.matches("   P[1]{").count(), 1);
+    let program = read_with(text.as_bytes(), &ReadOptions::default()).unwrap();
+    let pieces = [lifted(&program, 0, 0.25), lifted(&program, 2, 0.5)];
+    let output = written(&program, &pieces);
+    let fifth = position(5, [100.0, 0.0, 5.5]);
+    assert!(output.ends_with(&format!("{fifth}/END\n")), "{output}");
+}
+
 #[test]
 fn a_position_that_is_read_elsewhere_keeps_its_value() {
     let lines = ["L P[1] 20mm/sec FINE ;", "  PR[3]=P[1]    ;"];

@@ -16,7 +16,7 @@ use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 
 /// Codes that mean places of the machine, or change what the places rest on, in tenths.

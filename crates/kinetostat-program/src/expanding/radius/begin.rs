@@ -7,7 +7,7 @@ use crate::expanding::radius::cutter::{InSpindle, side_and_radius};
 use crate::expanding::radius::geometry::Point;
 use crate::expanding::radius::words::Switch;
 use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 
 /// The contour that begins; none for a tool without a radius.

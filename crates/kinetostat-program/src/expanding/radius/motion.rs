@@ -9,7 +9,7 @@ use crate::expanding::radius::geometry::Axes;
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::moves::Move;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::lex::{Token, tokens_of};
 
 /// A block with a motion.

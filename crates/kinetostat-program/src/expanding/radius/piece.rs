@@ -4,7 +4,7 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::number::number;
 use crate::expanding::radius::geometry::{Point, Sense};
 use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Words are rounded here, in program units: far below what counts, above what the arithmetic leaves.
 const DIGITS: f64 = 1e12;

@@ -16,7 +16,7 @@ use crate::expanding::radius::cutter::InSpindle;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::radius::words::{Switch, Words, asks_behind, words};
 use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 
 /// What the compensation does.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::expanding::expression::evaluate::Parameters;
 use crate::expanding::expression::tree::Parameter;
 use crate::expanding::run::frame::{Frame, Rules};
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
 const NUMBERS: u32 = 5602;

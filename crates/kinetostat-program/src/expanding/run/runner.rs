@@ -15,7 +15,7 @@ use crate::expanding::run::source::{Source, Subprograms};
 use crate::expanding::source::statement::OLabel;
 use crate::expanding::translate::cycle::Cycle;
 use crate::expanding::translate::spline::Spline;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Subprograms within each other.
 const DEEPEST: usize = 100;

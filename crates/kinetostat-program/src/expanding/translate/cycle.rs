@@ -5,7 +5,7 @@ use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::holes::{Hole, Spindle};
 use crate::expanding::translate::moves::Place;
 use crate::expanding::translate::wrong::Wrong;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Most repeats of a cycle.
 const MOST_REPEATS: f64 = 1e5;

@@ -4,7 +4,7 @@ use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::spindle::SpindleRotation;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Pecks of one hole.
 const MOST_PECKS: f64 = 1e5;

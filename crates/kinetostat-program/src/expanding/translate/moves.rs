@@ -1,7 +1,7 @@
 //! Moves in the words of the modes in force.
 
 use crate::expanding::number::number;
-use crate::reading::interpret::Interpreter;
+use crate::reading::interpreting::interpreter::Interpreter;
 
 const LETTERS: [char; 3] = ['X', 'Y', 'Z'];
 

@@ -1,0 +1,97 @@
+//! What is known while a file is read, and the arguments of its statements.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use crate::apt::dialect::Dialect;
+use crate::apt::lines::Statement;
+use crate::apt::numbers::{all_numbers, arguments_of};
+use crate::apt::places::Frames;
+use crate::apt::state::State;
+use crate::error::ProgramError;
+use crate::model::motion::Motion;
+use crate::model::orientation::OrientationText;
+use crate::model::program::Finding;
+use crate::options::ReadOptions;
+use crate::text::number::NumberText;
+use crate::text::source::SourceFile;
+
+/// What was found in all files until now.
+pub(crate) struct Found<'o> {
+    pub options: &'o ReadOptions,
+    pub frames: Frames,
+    pub faults: Vec<ProgramError>,
+    pub findings: Vec<Finding>,
+    pub motions: Vec<Motion>,
+}
+
+/// Reads the statements of a file.
+pub(crate) struct Reader<'r, 'o> {
+    pub program: &'r mut Found<'o>,
+    pub file: &'r SourceFile,
+    pub index: usize,
+    pub dialect: Dialect,
+    pub unit_mm: f64,
+    pub state: State,
+}
+
+pub(crate) const POINTS: &str = "let the CAM system write points: GOTO/x,y,z or GOTO/x,y,z,i,j,k";
+pub(crate) const LEAVE: &str =
+    "leave such motions as written by an option, or let the CAM system write points";
+
+impl Reader<'_, '_> {
+    pub fn fault(&mut self, span: &Range<usize>, reason: impl Into<String>, remedy: &'static str) {
+        let fault = ProgramError::at(self.file, span.clone(), reason, remedy);
+        self.program.faults.push(fault);
+    }
+
+    pub fn finding(&mut self, span: &Range<usize>, message: String) {
+        self.program.findings.push(Finding {
+            file: self.index,
+            line: self.file.line_of(span.start),
+            message,
+        });
+    }
+
+    pub fn first_word(&self, statement: &Statement) -> Vec<u8> {
+        let text = self.file.part(&statement.arguments);
+        let first = text.split(|byte| *byte == b',').next().unwrap_or_default();
+        first.trim_ascii().to_ascii_uppercase()
+    }
+
+    pub fn numbers(&self, statement: &Statement) -> Option<Vec<NumberText>> {
+        all_numbers(&arguments_of(self.file.bytes(), &statement.arguments))
+    }
+
+    pub fn axis(&mut self, span: &Range<usize>, numbers: &[NumberText]) {
+        let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();
+        match OrientationText::Axis.rotation_of(&values) {
+            Some(_) => self.state.axis = Vector3::from_row_slice(&values),
+            None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
+        }
+    }
+
+    /// Places and, where stated, the axis: three or six numbers.
+    pub fn pose(&mut self, statement: &Statement) -> Option<(Vec<NumberText>, Vector3<f64>)> {
+        let span = &statement.span;
+        match self.numbers(statement) {
+            Some(numbers) if matches!(numbers.len(), 3 | 6) => {
+                if numbers.len() == 6 {
+                    self.axis(span, &numbers[3..]);
+                }
+                let place = Vector3::from_fn(|i, _| numbers[i].value * self.unit_mm);
+                Some((numbers, place))
+            }
+            Some(numbers) => {
+                let reason = format!("a place has 3 or 6 numbers, here are {}", numbers.len());
+                self.fault(span, reason, POINTS);
+                None
+            }
+            None => {
+                self.fault(span, "a place is stated by other than numbers", POINTS);
+                None
+            }
+        }
+    }
+}

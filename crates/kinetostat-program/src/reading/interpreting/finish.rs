@@ -1,0 +1,82 @@
+//! The path, when all blocks are read.
+
+use nalgebra::Vector3;
+
+use crate::error::{ProgramError, ProgramErrorKind};
+use crate::path::curve::Curve;
+use crate::path::moves::{Knowledge, Path};
+use crate::reading::block::Block;
+use crate::reading::interpreting::interpreter::Interpreter;
+use crate::text::program::Program;
+
+impl Interpreter<'_> {
+    pub(crate) fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
+        self.note_what_is_known(program)?;
+        self.warn_of_unknown_beginning();
+        self.warn_of_moved_axes();
+        self.warnings.extend(self.repeated.finish());
+        let mut path = Path {
+            // Where all rotary axes stand at zero the spindle is along z of the part.
+            tool_axis: match &self.options.rotary {
+                Some(rotary) => rotary.tool_at_zero.inverse() * Vector3::z(),
+                None => Vector3::z(),
+            },
+            moves: self.moves,
+            stated: self.places.stated,
+            warnings: self.warnings,
+            tool_changes: Vec::new(),
+            spindle_changes: self.spindle.finish(),
+            pauses: self.pauses,
+            events: self.events,
+        };
+        self.tools.finish(&mut path, program, self.options)?;
+        path.warnings.sort_by_key(|warning| warning.line);
+        Ok(path)
+    }
+
+    /// A place is known where all axes are that the program states anywhere: only now it is clear which.
+    fn note_what_is_known(&mut self, program: &Program) -> Result<(), ProgramError> {
+        let stated = self.places.stated;
+        let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
+        for (motion, (before, after, _)) in self.moves.iter_mut().zip(&self.knowledge) {
+            if motion.words.is_to_machine() {
+                continue;
+            }
+            motion.known = match (covers(before), covers(after)) {
+                (true, _) => Knowledge::Whole,
+                (false, true) => Knowledge::End,
+                (false, false) => Knowledge::Nothing,
+            };
+            if motion.known != Knowledge::Whole && motion.curve != Curve::Line {
+                let block = Block::of(program, motion.line - 1)?;
+                return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous, None,
+                    "the arc is made before the program has stated all axes it moves later",
+                    "state X, Y and Z before the first arc, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Blocks before the program states where the tool is; those behind a place that was lost are noted where they are read.
+    fn warn_of_unknown_beginning(&mut self) {
+        let mut unknown = self
+            .moves
+            .iter()
+            .zip(&self.knowledge)
+            .filter(|(motion, (.., lost))| {
+                motion.known == Knowledge::Nothing && !motion.words.is_to_machine() && !lost
+            });
+        let Some((first, _)) = unknown.next() else {
+            return;
+        };
+        let line = first.line;
+        let count = 1 + unknown.count();
+        let (blocks, carried) = match count {
+            1 => ("1 block moves".to_owned(), "it is"),
+            _ => (format!("{count} blocks move"), "they are"),
+        };
+        self.warn(line, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
+    }
+}

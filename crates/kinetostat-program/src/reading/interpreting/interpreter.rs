@@ -1,0 +1,140 @@
+//! What is known while a program is read.
+
+use nalgebra::Vector3;
+
+use crate::path::moves::{Change, CoordinateWords, Event, Move, Warning};
+use crate::path::pause::Pause;
+use crate::path::position_offset::PositionOffset;
+use crate::reading::block::Block;
+use crate::reading::extra::RotaryOrigins;
+use crate::reading::modes::Modes;
+use crate::reading::options::{ReadOptions, ToolCentrePoint};
+use crate::reading::places::Places;
+use crate::reading::repeated::Repeated;
+use crate::reading::rotary::RotaryWords;
+use crate::reading::shifts::Shifts;
+use crate::reading::spindle::SpindleWords;
+use crate::reading::tools::ToolWords;
+
+/// What is known while a program is read line by line.
+pub(crate) struct Interpreter<'o> {
+    pub(in crate::reading) options: &'o ReadOptions,
+    pub(super) rotary: RotaryWords<'o>,
+    pub(crate) modes: Modes,
+    pub(in crate::reading) offset: PositionOffset,
+    pub(in crate::reading) shifts: Shifts,
+    /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
+    pub(in crate::reading) origins_mm: [Option<Vector3<f64>>; 9],
+    pub(super) rotary_origins: RotaryOrigins,
+    pub(crate) places: Places,
+    pub(in crate::reading) ended: Option<usize>,
+    pub(super) no_feed_warned: bool,
+    pub(super) repeated: Repeated,
+    /// Work coordinate system of the first motion.
+    pub(super) first_system: Option<usize>,
+    pub(super) moves: Vec<Move>,
+    /// For each move: which axes are known before and after it, and whether one was known before and is so no
+    /// more.
+    pub(super) knowledge: Vec<([bool; 3], [bool; 3], bool)>,
+    pub(super) events: Vec<Event>,
+    pub(super) pauses: Vec<Pause>,
+    pub(super) tools: ToolWords,
+    pub(in crate::reading) spindle: SpindleWords,
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl<'o> Interpreter<'o> {
+    pub(crate) fn new(options: &'o ReadOptions) -> Self {
+        Self {
+            options,
+            rotary: RotaryWords::new(options),
+            modes: {
+                let mut modes = Modes::new(options.units);
+                modes.tool_centre_point = options.tool_centre_point == ToolCentrePoint::Throughout;
+                modes
+            },
+            offset: PositionOffset::default(),
+            shifts: Shifts::default(),
+            origins_mm: options.work_offsets_mm,
+            rotary_origins: RotaryOrigins::default(),
+            places: Places::new(options.start_position_mm),
+            ended: None,
+            no_feed_warned: false,
+            repeated: Repeated::default(),
+            first_system: None,
+            moves: Vec::new(),
+            knowledge: Vec::new(),
+            events: Vec::new(),
+            pauses: Vec::new(),
+            tools: ToolWords::default(),
+            spindle: SpindleWords::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// An interpreter of other blocks from where this one is, in its modes; it has no moves yet.
+    pub(crate) fn following(&self) -> Self {
+        Self {
+            modes: self.modes.clone(),
+            offset: self.offset,
+            shifts: self.shifts,
+            origins_mm: self.origins_mm,
+            rotary_origins: self.rotary_origins,
+            places: self.places.clone(),
+            ended: self.ended,
+            first_system: self.first_system,
+            spindle: self.spindle.following(),
+            ..Self::new(self.options)
+        }
+    }
+
+    /// The last motion that was read.
+    pub(crate) fn last_move(&self) -> Option<&Move> {
+        self.moves.last()
+    }
+
+    pub(super) fn warn(&mut self, line: usize, text: &str) {
+        self.warnings.push(Warning {
+            line,
+            text: text.to_owned(),
+        });
+    }
+
+    pub(super) fn note_no_motion(&mut self, block: &Block<'_>) {
+        let line = block.line_number;
+        // A feed mode that is named again leaves the F in force, which in the output is that of the
+        // last piece and not the programmed one.
+        let lost = block.codes.feed_mode.is_some() && self.modes.feed.is_none();
+        if block.value(b'F').is_some() || lost {
+            self.events.push(Event {
+                line,
+                change: Change::Feed(self.modes.feed),
+            });
+        }
+        if let Some(motion) = block.codes.motion {
+            self.events.push(Event {
+                line,
+                change: Change::Motion(motion),
+            });
+        }
+    }
+
+    /// How the words of a move count that goes to places of the machine along these axes.
+    pub(super) fn coordinate_words(
+        &self,
+        mm_per_unit: f64,
+        to_machine: [bool; 3],
+    ) -> CoordinateWords {
+        CoordinateWords {
+            mm_per_unit,
+            incremental: self.modes.incremental,
+            absolute_centre: self.modes.absolute_centre,
+            work_offset_mm: self.work_offset_mm(),
+            to_machine,
+        }
+    }
+
+    pub(in crate::reading) fn work_offset_mm(&self) -> Vector3<f64> {
+        self.origins_mm[self.modes.work_offset].unwrap_or_default()
+    }
+}

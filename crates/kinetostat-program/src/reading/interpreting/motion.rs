@@ -1,0 +1,202 @@
+//! G0 to G3: where a block goes, and on which way.
+
+use nalgebra::Vector3;
+
+use crate::error::{ProgramError, ProgramErrorKind};
+use crate::path::curve::Curve;
+use crate::path::moves::{Knowledge, Motion, Move, MoveKind};
+use crate::reading::arc::{self, ArcFrame};
+use crate::reading::beside::{COORDINATES, check_codes_beside_motion};
+use crate::reading::block::Block;
+use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::places::Cause;
+
+/// Coordinates beyond this are no machine's, in mm.
+const LARGEST_COORDINATE_MM: f64 = 1e6;
+
+impl Interpreter<'_> {
+    pub(super) fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let motion = match self.modes.motion {
+            Some(Motion::Off) | None => {
+                return Err(block.refuse(
+                    ProgramErrorKind::Ambiguous, None,
+                    "axis words without a motion word before them: what they do depends on the machine",
+                    "write G0, G1, G2 or G3 before the first motion (and after G80)",
+                ));
+            }
+            Some(motion) => motion,
+        };
+        self.warn_of_systems_without_offsets(block.line_number);
+        self.refuse_shifted(block)?;
+        let mm_per_unit = self.modes.mm_per_unit(block)?;
+        let kind = if motion == Motion::Rapid {
+            MoveKind::Rapid
+        } else {
+            MoveKind::Feed
+        };
+        check_codes_beside_motion(block, kind, self.options, &mut self.repeated)?;
+        self.modes.check_feed(block, kind)?;
+        if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
+            self.no_feed_warned = true;
+            self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
+        }
+
+        if kind == MoveKind::Feed {
+            self.refuse_cut_from_lost_place(block)?;
+        }
+        self.modes.use_units();
+        let start = self.places.position;
+        let known_before = self.places.known;
+        let end = self.end_of_move(block, kind, mm_per_unit)?;
+        let ends = (start, end);
+        let curve = self.curve_of_move(block, (motion, mm_per_unit), ends, known_before)?;
+        self.places.position = end;
+        let angles = self.rotary.angles(&self.modes);
+        let extra = self.modes.extra.read(block, self.modes.incremental);
+        let tool_turn =
+            self.rotary
+                .turn_of_move(block, kind, (&angles, &self.modes), &mut self.places)?;
+        let lost = self.places.first_lost();
+        if let Some((axis, ..)) = lost {
+            self.repeated.note(block.line_number, &format!(
+                "where the tool is along {} is not known here (a tool length, G28, G30, G53 or a rotary axis changed it): the block is carried without a correction, as all are until the program states the axis again",
+                char::from(COORDINATES[axis])
+            ));
+        }
+        // Where the slides go while a rotary axis turns is no way of the tip.
+        let known_before = match lost {
+            Some((_, Cause::Rotary, _)) => [false; 3],
+            _ => known_before,
+        };
+        self.knowledge
+            .push((known_before, self.places.known, lost.is_some()));
+        let motion = Move {
+            line: block.line_number,
+            kind,
+            curve,
+            start,
+            end,
+            tool_turn,
+            extra,
+            feed: self.modes.feed,
+            known: Knowledge::Whole,
+            words: self.coordinate_words(mm_per_unit, [false; 3]),
+        };
+        self.rotary.refuse_turn_per_revolution(block, &motion)?;
+        self.moves.push(motion);
+        Ok(())
+    }
+
+    /// What is cut from an unknown place is cut somewhere else than the program says.
+    fn refuse_cut_from_lost_place(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let Some((axis, cause, _)) = self.places.first_lost() else {
+            return Ok(());
+        };
+        if cause == Cause::Rotary {
+            let angles = self.rotary.angles(&self.modes);
+            self.rotary
+                .refuse_cut_at_angles(block, &self.modes, &angles)?;
+        }
+        let letter = char::from(COORDINATES[axis]);
+        let why = self.places.why_lost(axis).unwrap_or_default();
+        let also = match cause {
+            Cause::ToolLength | Cause::Rotary => "",
+            Cause::Machine => {
+                ", or give the machine's zero and its reference points (--machine-zero-mm, --g28-mm, --g30-mm, or machine_zero_mm, g28_mm, g30_mm under [reading] in the job file)"
+            }
+        };
+        Err(block.refuse(
+            ProgramErrorKind::Ambiguous,
+            None,
+            &format!(
+                "{why}, so where the tool is along {letter} is not known here, and this block cuts"
+            ),
+            &format!(
+                "state the axis before it, with a rapid (G0) and an absolute {letter} word{also}"
+            ),
+        ))
+    }
+
+    fn end_of_move(
+        &mut self,
+        block: &Block<'_>,
+        kind: MoveKind,
+        mm_per_unit: f64,
+    ) -> Result<Vector3<f64>, ProgramError> {
+        let mut end = self.places.position;
+        let offset = self.work_offset_mm() + self.offset.active_mm;
+        for axis in 0..3 {
+            let letter = COORDINATES[axis];
+            let Some(value) = block.value(letter) else {
+                continue;
+            };
+            let value_mm = value * mm_per_unit;
+            if self.modes.incremental {
+                if !self.places.known[axis] && kind == MoveKind::Feed {
+                    return Err(block.refuse(
+                        ProgramErrorKind::Ambiguous, block.word(letter),
+                        &format!(
+                            "an incremental feed from a place whose {} the program has not stated",
+                            char::from(letter)
+                        ),
+                        "state the place with an absolute move or G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                    ));
+                }
+                end[axis] += value_mm;
+            } else {
+                end[axis] = value_mm + offset[axis];
+                self.places.state(axis);
+            }
+            if end[axis].abs() > LARGEST_COORDINATE_MM {
+                return Err(block.refuse(
+                    ProgramErrorKind::Malformed,
+                    block.word(letter),
+                    &format!("{} would be at {:.0} mm", char::from(letter), end[axis]),
+                    "check the number and the units",
+                ));
+            }
+        }
+        Ok(end)
+    }
+
+    /// The way of a move: a line, or an arc from a place that the program has stated.
+    fn curve_of_move(
+        &self,
+        block: &Block<'_>,
+        (motion, mm_per_unit): (Motion, f64),
+        (start, end): (Vector3<f64>, Vector3<f64>),
+        known_before: [bool; 3],
+    ) -> Result<Curve, ProgramError> {
+        match motion {
+            Motion::Clockwise | Motion::CounterClockwise => {
+                if let Some(axis) = (0..3).find(|axis| {
+                    !known_before[*axis]
+                        && (self.places.known[*axis] || self.modes.plane[..2].contains(axis))
+                }) {
+                    return Err(block.refuse(
+                        ProgramErrorKind::Ambiguous, None,
+                        &format!(
+                            "the arc starts at a place whose {} the program has not stated",
+                            char::from(COORDINATES[axis])
+                        ),
+                        "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                    ));
+                }
+                Ok(Curve::Arc(arc::read(
+                    block,
+                    &ArcFrame {
+                        start,
+                        end,
+                        axes: self.modes.plane,
+                        clockwise: motion == Motion::Clockwise,
+                        absolute_centre: self.modes.absolute_centre,
+                        mm_per_unit,
+                        offset_mm: self.work_offset_mm() + self.offset.active_mm,
+                        tolerance_mm: self.options.arc_tolerance_mm,
+                    },
+                )?))
+            }
+            _ => Ok(Curve::Line),
+        }
+    }
+}

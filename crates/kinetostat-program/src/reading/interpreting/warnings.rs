@@ -1,0 +1,78 @@
+//! What is read as it stands, and may surprise.
+
+use crate::path::moves::ExtraMode;
+use crate::reading::beside::OTHER_AXES;
+use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::options::OtherAxes;
+use crate::text::program::Program;
+
+impl Interpreter<'_> {
+    pub(super) fn warn_block_delete(&mut self, line: usize) {
+        self.repeated.note(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
+    }
+
+    pub(super) fn warn_of_text_after_end(&mut self, program: &Program, index: usize) {
+        let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
+        let comment = text.starts_with(b"(") || text.starts_with(b";");
+        if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
+            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried unchanged, and is taken to be for people");
+        }
+    }
+
+    /// Two work coordinate systems in one program are at different places, or one would do; with no
+    /// offset for either, the places are not known.
+    pub(super) fn warn_of_systems_without_offsets(&mut self, line: usize) {
+        let now = self.modes.work_offset;
+        let first = *self.first_system.get_or_insert(now);
+        let offsets = &self.origins_mm;
+        let origin = |system: usize| offsets[system].unwrap_or_default();
+        if offsets[now].is_none() && offsets.iter().any(Option::is_some) {
+            self.repeated.note(line, "the origin of this work coordinate system is not stated, that of another is: it is taken to be the part's; state it (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        } else if now != first
+            && origin(now) == origin(first)
+            && self.rotary_origins[now] == self.rotary_origins[first]
+        {
+            self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        }
+    }
+
+    /// The user said that these axes stand still; the program may say otherwise.
+    pub(super) fn warn_of_moved_axes(&mut self) {
+        if self.options.other_axes == OtherAxes::Carried {
+            return;
+        }
+        let rotary = self.options.rotary.as_deref();
+        let is_rotary = |letter: &char| {
+            rotary.is_some_and(|rotary| rotary.axes.iter().any(|axis| axis.letter == *letter))
+        };
+        for letter in OTHER_AXES
+            .map(char::from)
+            .into_iter()
+            .filter(|l| !is_rotary(l))
+        {
+            let words = || {
+                self.moves.iter().flat_map(|motion| {
+                    let own = motion.extra.iter().filter(|extra| extra.letter == letter);
+                    own.map(|extra| (motion.line, *extra))
+                })
+            };
+            let moved = words().find(|(_, extra)| match (extra.mode, extra.start) {
+                (ExtraMode::Incremental, _) => extra.word != 0.0,
+                (_, Some(start)) => extra.word != start,
+                (_, None) => false,
+            });
+            if let Some((line, extra)) = moved {
+                let from = match (extra.mode, extra.start) {
+                    (ExtraMode::Absolute, Some(start)) => format!("from {start} to {}", extra.word),
+                    _ => format!("by {}", extra.word),
+                };
+                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool is in the part"));
+            } else if let Some((line, _)) = words().next() {
+                self.warn(
+                    line,
+                    &format!("axis {letter} is carried along and taken to stand still"),
+                );
+            }
+        }
+    }
+}

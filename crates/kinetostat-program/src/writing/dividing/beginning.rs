@@ -1,0 +1,156 @@
+//! The stretches of all moves before anything is known of the correction.
+
+use nalgebra::Vector6;
+
+use crate::error::WriteError;
+use crate::field::request::Course;
+use crate::path::curve::Curve;
+use crate::writing::dividing::stretch::Stretch;
+use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
+use crate::writing::options::WriteOptions;
+use crate::writing::queries::FieldQueries;
+
+/// Stretches of an arc to which arcs are fitted are no longer than this, in rad, before anything is known of the correction.
+const FIRST_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+
+/// What is fitted to the corrected curve of a move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fitted {
+    Nothing,
+    /// Arcs about its own axis, which rise evenly.
+    Arcs,
+    /// Circles through three places.
+    Circles,
+}
+
+/// A place at which a move is divided before anything is known of the correction.
+struct Boundary {
+    share: f64,
+    fixed: bool,
+}
+
+/// Ends of chords and breaks of the field, in order, with the field's course between them.
+fn boundaries(
+    queries: &FieldQueries<'_>,
+    move_index: usize,
+    (options, fitted): (&WriteOptions, Fitted),
+) -> Result<(Vec<Boundary>, Course), WriteError> {
+    let motion = &queries.path.moves[move_index];
+    let too_many = WriteError::TooManyPieces {
+        line: motion.line,
+        limit: options.max_pieces,
+    };
+    let (chords, fixed) = match &motion.curve {
+        Curve::Line => (1, false),
+        Curve::Arc(arc) if fitted != Fitted::Nothing => (
+            (arc.sweep.abs() / FIRST_ANGLE).ceil().max(1.0) as usize,
+            false,
+        ),
+        Curve::Arc(arc) => (arc.chords_within(options.chord_tolerance_mm), true),
+    };
+    if chords > options.max_pieces {
+        return Err(too_many);
+    }
+    let structure = queries.field.structure(move_index, motion);
+    if structure.breaks.len() > options.max_pieces {
+        return Err(too_many);
+    }
+    let mut list: Vec<Boundary> = (0..=chords)
+        .map(|chord| Boundary {
+            share: chord as f64 / chords as f64,
+            fixed,
+        })
+        .collect();
+    let breaks = structure.breaks.into_iter();
+    list.extend(
+        breaks
+            .filter(|share| *share > 0.0 && *share < 1.0)
+            .map(|share| Boundary {
+                share,
+                fixed: false,
+            }),
+    );
+    // Of two at one place the end of a chord stays.
+    list.sort_by(|a, b| a.share.total_cmp(&b.share).then(b.fixed.cmp(&a.fixed)));
+    list.dedup_by(|b, a| a.share == b.share);
+    Ok((list, structure.course))
+}
+
+/// Asks for the ends of all first stretches, and the middles between them.
+pub(crate) fn first_round(
+    queries: &mut FieldQueries<'_>,
+    (options, all_fitted): (&WriteOptions, &[Fitted]),
+    nodes: &mut Vec<Node>,
+) -> Result<Vec<Stretch>, WriteError> {
+    let path = queries.path;
+    let mut requests = Vec::new();
+    let mut first = Vec::new();
+    for (move_index, motion) in path.moves.iter().enumerate() {
+        if is_divided(motion) {
+            let (list, course) =
+                boundaries(queries, move_index, (options, all_fitted[move_index]))?;
+            for pair in list.windows(2) {
+                let [from, to] = [pair[0].share, pair[1].share];
+                requests.push(queries.request(move_index, from));
+                requests.push(queries.request(move_index, from + (to - from) * 0.5));
+            }
+            requests.push(queries.request(move_index, 1.0));
+            first.push((move_index, list, course));
+        } else if is_corrected_at_end(motion) {
+            requests.push(queries.request(move_index, 1.0));
+            first.push((move_index, Vec::new(), Course::Cubic));
+        }
+        if requests.len() / 2 > options.max_pieces {
+            return Err(WriteError::TooManyPieces {
+                line: motion.line,
+                limit: options.max_pieces,
+            });
+        }
+    }
+    let mut answers = queries.evaluate(&requests)?.into_iter();
+    let mut answer = || answers.next().unwrap_or_default();
+    let mut open = Vec::new();
+    // What holds before a move: the last answer of the one before it.
+    let mut before: Option<(usize, Vector6<f64>)> = None;
+    for (move_index, list, course) in first {
+        let mut value = answer();
+        if list.is_empty() {
+            nodes.push(Node::smooth(move_index, 1.0, value));
+            before = Some((move_index, value));
+            continue;
+        }
+        let earlier = before.filter(|(index, _)| *index + 1 == move_index);
+        let motion = &path.moves[move_index];
+        let fitted = all_fitted[move_index] != Fitted::Nothing;
+        // The chords of an arc may become longer ones.
+        let shared = motion.curve != Curve::Line && options.shortest_block_mm(motion).is_some();
+        let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
+        nodes.push(Node {
+            before: begins,
+            fixed: true,
+            ..Node::smooth(move_index, 0.0, value)
+        });
+        for pair in list.windows(2) {
+            let (middle, end) = (answer(), answer());
+            nodes.push(Node {
+                fixed: pair[1].fixed,
+                ..Node::smooth(move_index, pair[1].share, end)
+            });
+            open.push(Stretch {
+                move_index,
+                course,
+                entire: !fitted && !shared && (pair[0].fixed && pair[1].fixed || list.len() == 2),
+                fitted,
+                share: [pair[0].share, pair[1].share],
+                ends: [value, end],
+                begins,
+                middle: Some(middle),
+                quarters: None,
+                irregular: None,
+            });
+            (value, begins) = (end, end);
+        }
+        before = Some((move_index, value));
+    }
+    Ok(open)
+}

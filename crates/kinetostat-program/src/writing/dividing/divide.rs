@@ -1,0 +1,197 @@
+//! All moves of a path together, in rounds: what is not good is halved.
+
+use nalgebra::Vector6;
+
+use crate::error::WriteError;
+use crate::field::request::{CorrectionField, Course, Monitor, Request};
+use crate::path::curve::Curve;
+use crate::path::moves::Path;
+use crate::writing::corner::follow_turns;
+use crate::writing::dividing::beginning::{Fitted, first_round};
+use crate::writing::dividing::stretch::{Decision, Stretch};
+use crate::writing::jump::Jump;
+use crate::writing::merge::{Accepted, merge};
+use crate::writing::node::{Node, is_divided};
+use crate::writing::options::WriteOptions;
+use crate::writing::queries::FieldQueries;
+
+/// All nodes, by move and share.
+pub(crate) struct Division {
+    pub nodes: Vec<Node>,
+    pub jumps: Vec<Jump>,
+    /// The correction on the moves to which arcs are fitted, and on those whose straight pieces may be shared out anew, by move
+    /// and share.
+    pub courses: Vec<Accepted>,
+    /// What is fitted to the moves.
+    pub fitted: Vec<Fitted>,
+    pub evaluations: usize,
+    /// Largest part of a correction along axes that the program never states, in mm.
+    pub left_out_mm: f64,
+}
+
+/// `wanted` says what is to be fitted to the arcs among the moves.
+pub(crate) fn divide(
+    path: &Path,
+    field: &dyn CorrectionField,
+    (options, wanted): (&WriteOptions, &dyn Fn(usize) -> Fitted),
+    monitor: &dyn Monitor,
+) -> Result<Division, WriteError> {
+    let fitted: Vec<Fitted> = path
+        .moves
+        .iter()
+        .enumerate()
+        .map(|(index, motion)| match motion.curve {
+            Curve::Arc(_) if is_divided(motion) => wanted(index),
+            _ => Fitted::Nothing,
+        })
+        .collect();
+    let mut queries = FieldQueries {
+        path,
+        field,
+        monitor,
+        answered: 0,
+        left_out_mm: 0.0,
+        lever_mm: options.turn_lever_mm,
+    };
+    let mut nodes = Vec::new();
+    let mut accepted = Vec::new();
+    let mut open = first_round(&mut queries, (options, &fitted), &mut nodes)?;
+    while !open.is_empty() {
+        answer(&mut queries, &mut open, options)?;
+        open = next_round(path, open, options, &mut nodes, &mut accepted);
+        if nodes.len() + open.len() > options.max_pieces {
+            let line = open
+                .first()
+                .map_or(0, |stretch| path.moves[stretch.move_index].line);
+            return Err(WriteError::TooManyPieces {
+                line,
+                limit: options.max_pieces,
+            });
+        }
+    }
+    nodes.sort_by(|a, b| {
+        a.move_index
+            .cmp(&b.move_index)
+            .then(a.share.total_cmp(&b.share))
+    });
+    accepted.sort_by(|a, b| {
+        a.move_index
+            .cmp(&b.move_index)
+            .then(a.share.total_cmp(&b.share))
+    });
+    let mut nodes = merge(nodes, &accepted, options);
+    let jumps = follow_turns(&mut queries, &mut nodes, options)?;
+    accepted.retain(|stretch| {
+        let motion = &path.moves[stretch.move_index];
+        options.shortest_block_mm(motion).is_some() || fitted[stretch.move_index] != Fitted::Nothing
+    });
+    Ok(Division {
+        nodes,
+        jumps,
+        courses: accepted,
+        fitted,
+        evaluations: queries.answered,
+        left_out_mm: queries.left_out_mm,
+    })
+}
+
+/// Gets the values that the open stretches need next.
+fn answer(
+    queries: &mut FieldQueries<'_>,
+    open: &mut [Stretch],
+    options: &WriteOptions,
+) -> Result<(), WriteError> {
+    let requests: Vec<Request> = open
+        .iter()
+        .filter(|stretch| stretch.middle.is_none())
+        .map(|stretch| queries.request(stretch.move_index, stretch.at(0.5)))
+        .collect();
+    let mut answers = queries.evaluate(&requests)?.into_iter();
+    for stretch in open.iter_mut().filter(|stretch| stretch.middle.is_none()) {
+        stretch.middle = answers.next();
+    }
+
+    let wants: Vec<usize> = (0..open.len())
+        .filter(|i| matches!(open[*i].decide(queries.path, options), Decision::Refine))
+        .collect();
+    let mut requests = Vec::new();
+    for stretch in wants.iter().map(|i| &open[*i]) {
+        for part in [0.25, 0.75] {
+            requests.push(queries.request(stretch.move_index, stretch.at(part)));
+        }
+        if stretch.course != Course::Cubic || stretch.fitted {
+            requests
+                .push(queries.request(stretch.move_index, stretch.at(stretch.irregular_part())));
+        }
+    }
+    let mut answers = queries.evaluate(&requests)?.into_iter();
+    let mut answer = || answers.next().unwrap_or_default();
+    for i in wants {
+        let stretch = &mut open[i];
+        stretch.quarters = Some([answer(), answer()]);
+        if stretch.course != Course::Cubic || stretch.fitted {
+            stretch.irregular = Some((stretch.irregular_part(), answer()));
+        }
+    }
+    Ok(())
+}
+
+/// Accepts the good stretches and halves the others.
+fn next_round(
+    path: &Path,
+    open: Vec<Stretch>,
+    options: &WriteOptions,
+    nodes: &mut Vec<Node>,
+    accepted: &mut Vec<Accepted>,
+) -> Vec<Stretch> {
+    let mut next = Vec::new();
+    for stretch in open {
+        let (Some(middle), move_index) = (stretch.middle, stretch.move_index) else {
+            continue;
+        };
+        let [from, to] = stretch.share;
+        let [first, last] = stretch.ends;
+        let share = stretch.at(0.5);
+        match stretch.decide(path, options) {
+            Decision::Accept | Decision::Refine => stretch.accepted(accepted),
+            Decision::Jump => {
+                // No piece is short enough: the correction jumps here. The tool steps at one place.
+                nodes.push(Node {
+                    before: first,
+                    after: last,
+                    bracket: stretch.share,
+                    ..Node::smooth(move_index, share, first)
+                });
+                for (share, value) in [(from, first), (share, last)] {
+                    accepted.push(Accepted {
+                        move_index,
+                        share,
+                        values: [value; 5],
+                    });
+                }
+            }
+            Decision::Halve => {
+                nodes.push(Node::smooth(move_index, share, middle));
+                let [low, high] = match stretch.quarters {
+                    Some([low, high]) => [Some(low), Some(high)],
+                    None => [None, None],
+                };
+                let half = |share, ends: [Vector6<f64>; 2], begins, middle| Stretch {
+                    share,
+                    ends,
+                    begins,
+                    middle,
+                    move_index,
+                    course: stretch.course,
+                    entire: false,
+                    fitted: stretch.fitted,
+                    quarters: None,
+                    irregular: None,
+                };
+                next.push(half([from, share], [first, middle], stretch.begins, low));
+                next.push(half([share, to], [middle, last], middle, high));
+            }
+        }
+    }
+    next
+}

@@ -1,0 +1,167 @@
+//! A stretch of a move: whether the correction on it is known well enough, and bends little enough.
+
+use nalgebra::Vector6;
+
+use crate::field::request::Course;
+use crate::irregular::irregular;
+use crate::number::larger;
+use crate::path::curve::Curve;
+use crate::path::moves::{Move, Path};
+use crate::writing::departure::{Values, departure, parabola, polynomial, remainder};
+use crate::writing::merge::Accepted;
+use crate::writing::options::WriteOptions;
+
+/// Seed of the irregular places of a division; a check takes another.
+const SEED: u64 = 1;
+
+/// Part of the tolerance that may be unknown between the places evaluated.
+const UNKNOWN: f64 = 0.1;
+
+/// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
+const SURPRISE: f64 = 0.25;
+
+/// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
+const BENT: f64 = 20.0;
+
+/// A stretch of a move that is not accepted yet.
+pub(crate) struct Stretch {
+    pub move_index: usize,
+    pub course: Course,
+    /// The whole of a straight move, or a chord of an arc: what is good as it is needs no joining.
+    pub entire: bool,
+    /// Arcs are fitted to its move.
+    pub fitted: bool,
+    pub share: [f64; 2],
+    pub ends: [Vector6<f64>; 2],
+    /// Where the piece begins that the tool goes along; differs from the first end where a jump too
+    /// small for a step is taken up.
+    pub begins: Vector6<f64>,
+    pub middle: Option<Vector6<f64>>,
+    pub quarters: Option<[Vector6<f64>; 2]>,
+    /// An irregular part of the stretch and the correction there.
+    pub irregular: Option<(f64, Vector6<f64>)>,
+}
+
+/// What becomes of a stretch with the values known of it.
+pub(crate) enum Decision {
+    Accept,
+    /// More places decide it.
+    Refine,
+    Halve,
+    /// Too short to be halved, and still off: the correction jumps.
+    Jump,
+}
+
+impl Stretch {
+    /// The share at a part of the stretch.
+    pub fn at(&self, part: f64) -> f64 {
+        self.share[0] + (self.share[1] - self.share[0]) * part
+    }
+
+    fn node_values(&self) -> Option<Values> {
+        let middle = self.middle?;
+        let [first, last] = self.ends;
+        Some(match self.quarters {
+            Some([low, high]) => [first, low, middle, high, last],
+            None => parabola(first, middle, last),
+        })
+    }
+
+    /// The part of the stretch that follows no pattern.
+    pub fn irregular_part(&self) -> f64 {
+        // Not near the places that are evaluated anyway.
+        let place = irregular(SEED, self.move_index as u64, self.share[0].to_bits());
+        0.25 * ((4.0 * place).floor() + 0.2 + 0.6 * (4.0 * place).fract())
+    }
+
+    /// What becomes of it.
+    pub fn decide(&self, path: &Path, options: &WriteOptions) -> Decision {
+        let Some(values) = self.node_values() else {
+            return Decision::Refine;
+        };
+        let motion = &path.moves[self.move_index];
+        let [from, to] = self.share;
+        // Of a move that turns the tool, the way of a point of the tool where that is longer.
+        let turned = motion.way_with_turn_mm(options.turn_lever_mm) * (to - from);
+        let length = larger(motion.length_between_mm(from, to), turned);
+        let tolerance = options.tolerance_mm;
+        let all_requested = self.quarters.is_some();
+        let off = departure(&values, [self.begins, self.ends[1]]);
+        let (unknown, needs_quarters) = match self.course {
+            Course::Cubic if !self.fitted => (0.0, true),
+            Course::Cubic => (self.unknown_round(motion, &values), true),
+            Course::Smooth { radius_mm } => {
+                // That nothing was seen yet does not make it small: it counts as the tolerance at least.
+                let seen = self.irregular.iter().map(|(_, value)| value);
+                let size = values
+                    .iter()
+                    .chain(seen)
+                    .map(Vector6::norm)
+                    .fold(tolerance, larger);
+                let radius = match &motion.curve {
+                    Curve::Line => radius_mm,
+                    Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),
+                };
+                // A turn of the tool is a way as well.
+                let turn = motion.turn_ratio(radius) * (to - from);
+                let way = larger(motion.length_between_mm(from, to), turn * radius);
+                let points = if all_requested { 5 } else { 3 };
+                let change = (self.ends[1] - self.ends[0]).norm();
+                (
+                    remainder(points, size, way, radius),
+                    off > 0.25 * tolerance || change > tolerance,
+                )
+            }
+        };
+        let surprised = self.irregular.is_some_and(|(part, value)| {
+            (value - polynomial(&values, part)).norm() > SURPRISE * tolerance
+        });
+        let bent = match self.fitted && length > options.smallest_piece_mm {
+            true => BENT * tolerance,
+            false => tolerance,
+        };
+        if off > bent || surprised {
+            let shortest =
+                length <= options.smallest_piece_mm || self.at(0.5) <= from || self.at(0.5) >= to;
+            return match (all_requested, shortest) {
+                // As ever: what is off is looked at once more before it is halved.
+                (false, _) => Decision::Refine,
+                (true, true) => Decision::Jump,
+                (true, false) => Decision::Halve,
+            };
+        }
+        if !all_requested && (needs_quarters || unknown > UNKNOWN * tolerance) {
+            return Decision::Refine;
+        }
+        if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm {
+            return Decision::Halve;
+        }
+        Decision::Accept
+    }
+
+    /// What a polynomial through five values may be off from a correction that is one of third degree along straight lines, on an
+    /// arc: along it the coordinates are no polynomials, and a stretch of an angle `a` is a straight line but for terms of `a^2`
+    /// and more. They begin with those of the fifth degree.
+    fn unknown_round(&self, motion: &Move, values: &Values) -> f64 {
+        let Curve::Arc(arc) = &motion.curve else {
+            return 0.0;
+        };
+        let angle = arc.sweep * (self.share[1] - self.share[0]);
+        let varies = values.iter().map(|value| (value - values[0]).norm());
+        0.02 * angle * angle * varies.fold(0.0, larger)
+    }
+
+    /// Remembers what was found inside, for [`merge`].
+    pub fn accepted(&self, accepted: &mut Vec<Accepted>) {
+        if self.entire {
+            return;
+        }
+        if let Some(values) = self.node_values() {
+            accepted.push(Accepted {
+                move_index: self.move_index,
+                share: self.share[0],
+                values,
+            });
+        }
+    }
+}
