@@ -155,6 +155,12 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         })
     }));
     if !faults.is_empty() {
+        let place = |fault: &PathError| {
+            let files = &mut program.files.iter();
+            let file = files.position(|file| file.name() == fault.file);
+            (file, fault.line)
+        };
+        faults.sort_by_key(place);
         return Err(faults);
     }
     let mut maker = Maker {
