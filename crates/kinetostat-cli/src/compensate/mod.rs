@@ -207,7 +207,7 @@ fn in_other_language(
 fn refuse_turn_without_words(setting: &Setting) -> Answer<()> {
     match setting.free_turn {
         FreeTurnWord::AsStated => Ok(()),
-        FreeTurnWord::Choose => Err(setting.within(Failure::input(
+        FreeTurnWord::Choose | FreeTurnWord::Stiff => Err(setting.within(Failure::input(
             "this language has no words for the turn of a tool about its own axis, so that what is chosen could not be written: write the program for the robot, with --to krl, rapid or ls (to = \"krl\" under [robot]); `kinetostat deflect --free-turn` shows what the turn is worth",
         ))),
     }

@@ -40,6 +40,9 @@ pub(crate) struct ConvertArgs {
     /// joints, away from singular postures, in one configuration
     #[arg(long, value_name = "MODEL", help_heading = "Free turn")]
     pub(crate) free_turn: Option<String>,
+    /// Choose that turn so that the tip of the tool yields little to a force, too
+    #[arg(long, requires = "free_turn", help_heading = "Free turn")]
+    pub(crate) stiff_turn: bool,
     /// Picture of that turn along the path (SVG)
     #[arg(
         long,

@@ -69,7 +69,7 @@ pub(crate) fn for_run(
     };
     template.template.most_points.get_or_insert(most);
     let turn = match setting.free_turn {
-        FreeTurnWord::Choose => {
+        FreeTurnWord::Choose | FreeTurnWord::Stiff => {
             let mut turn = free_turn(&setting, &template.template, model, read.path())?;
             turn.description = in_source(&setting, &turn.description);
             Some(turn)

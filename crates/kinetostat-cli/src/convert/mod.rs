@@ -37,6 +37,7 @@ use crate::job::robot::joint_arm::give_arm;
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::setting::{Setting, setting};
 use crate::job::target_word::TargetWord;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
@@ -63,6 +64,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     )?;
     let mut setting = setting(&files, job.as_ref(), &flags(args), &writing(args))?;
     setting.inputs.extend(args.template.iter().cloned());
+    if args.stiff_turn {
+        setting.free_turn = FreeTurnWord::Stiff;
+    }
     // Of the source.
     let flat_program = Written {
         what: FLAT_PROGRAM,

@@ -37,7 +37,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.points.clone_from(&args.program.points);
     chosen.turn_plot = (args.program.turn.turn_plot.clone()).filter(|_| {
         // Without a turn that is chosen there is nothing to draw.
-        setting.free_turn == FreeTurnWord::Choose
+        setting.free_turn != FreeTurnWord::AsStated
     });
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);

@@ -70,6 +70,13 @@ fn text(language: &Language, table: &Table) -> String {
     let mut text = wrapped(&format!("{}: {}", language.name, language.title), 0);
     text.push('\n');
     text.push_str(&wrapped(language.written, 2));
+    if let Some(made) = language.made {
+        let limits = made.limits_in_words();
+        text.push_str(&wrapped(
+            &format!("Converted from another language: {limits}."),
+            2,
+        ));
+    }
     for (treatment, title) in [
         ("followed", "Followed"),
         ("carried", "Carried byte for byte"),

@@ -2,13 +2,19 @@
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Placement, RunInputs, TurnChoice, TurnError, TurnTask, choose_turns, with_turns,
+    Placement, RunInputs, TipCompliance, TurnChoice, TurnCriterion, TurnError, TurnTask,
+    choose_turns, with_turns,
 };
 use kinetostat_program::Path as ToolPath;
 
 use crate::job::setting::Setting;
+use crate::job::turn_arguments::FreeTurnWord;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::item;
+use crate::ui::numbers::number;
+
+/// How much stiffness counts where it is asked for, beside limits, singular postures and evenness with 1 each.
+const STIFFNESS_WEIGHT: f64 = 2.0;
 
 /// The path with the tool turned about its axis.
 pub(crate) struct FreeTurn {
@@ -52,13 +58,36 @@ pub(crate) fn chosen(
             "--free-turn is for programs of one tool, and this one takes several: give the parts of the program with each of them one by one",
         )));
     }
-    let task = TurnTask::new(mechanism, path, placement);
+    let mut task = TurnTask::new(mechanism, path, placement);
+    let is_stiff = setting.free_turn == FreeTurnWord::Stiff;
+    if is_stiff {
+        task.criteria.push(TurnCriterion::Compliance {
+            weight: STIFFNESS_WEIGHT,
+            of: TipCompliance::Worst,
+        });
+    }
     let choice = choose_turns(&task).map_err(|error| refused(setting, &error))?;
     let turned = with_turns(&task, &choice).map_err(|error| refused(setting, &error))?;
     Ok(FreeTurn {
         path: turned.path,
-        description: choice.description(),
+        description: match is_stiff {
+            true => choice.description() + &softest(&choice),
+            false => choice.description(),
+        },
         choice,
+    })
+}
+
+/// Where the tip yields most, of turns that were chosen to be stiff.
+fn softest(choice: &TurnChoice) -> String {
+    let stations = choice.stations.iter();
+    let most = stations.max_by(|a, b| a.compliance_m_per_n.total_cmp(&b.compliance_m_per_n));
+    most.map_or(String::new(), |most| {
+        format!(
+            ". Chosen to be stiff, too: without weights and loads the tip yields at most {} um/N (line {})",
+            number(1e6 * most.compliance_m_per_n, 4),
+            most.line
+        )
     })
 }
 

@@ -247,9 +247,16 @@ pub(crate) fn setting(
 fn free_turn(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<FreeTurnWord> {
     let table = job.and_then(|j| j.job.robot.as_ref());
     let in_job = table.map_or(FreeTurnWord::AsStated, |table| table.get_ref().free_turn);
-    let chosen = match flags.turn.free_turn {
-        true => FreeTurnWord::Choose,
-        false => in_job,
+    let chosen = match (flags.turn.stiff_turn, flags.turn.free_turn) {
+        (true, true) => FreeTurnWord::Stiff,
+        (true, false) if in_job == FreeTurnWord::AsStated => {
+            return Err(Failure::input(
+                "--stiff-turn says how the turn of the tool is chosen: give --free-turn, too (free_turn = \"stiff\" under [robot] says both)",
+            ));
+        }
+        (true, false) => FreeTurnWord::Stiff,
+        (false, true) if in_job == FreeTurnWord::AsStated => FreeTurnWord::Choose,
+        (false, _) => in_job,
     };
     match (chosen, &flags.turn.turn_plot) {
         (FreeTurnWord::AsStated, Some(_)) => Err(Failure::input(

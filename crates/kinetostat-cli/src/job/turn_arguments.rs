@@ -14,6 +14,8 @@ pub(crate) enum FreeTurnWord {
     AsStated,
     /// It is chosen along the whole path.
     Choose,
+    /// It is chosen so that the arm is stiff, too.
+    Stiff,
 }
 
 /// Options for the turn of a round tool about its own axis.
@@ -23,6 +25,9 @@ pub(crate) struct TurnFlags {
     /// postures, in one configuration
     #[arg(long, help_heading = "Free turn")]
     pub(crate) free_turn: bool,
+    /// Choose that turn so that the tip of the tool yields little to a force, too
+    #[arg(long, help_heading = "Free turn")]
+    pub(crate) stiff_turn: bool,
     /// Picture of that turn along the path (SVG)
     #[arg(long, value_name = "FILE", help_heading = "Free turn")]
     pub(crate) turn_plot: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! The languages that programs are made in, and what each of them takes.
 
 use crate::file_form::FileForm;
+use crate::making::template::Template;
 
 /// A language that a program is made in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +58,11 @@ const RAPID_SWEEP_RAD: f64 = 4.0 * std::f64::consts::PI / 180.0;
 const LS_MOST_POINTS: usize = 32_766;
 
 impl MakeLanguage {
+    /// Whether the controller of an arm runs it.
+    pub(crate) fn is_of_an_arm(self) -> bool {
+        matches!(self, Self::Krl | Self::Rapid | Self::FanucLs)
+    }
+
     pub(crate) fn limits(self) -> Limits {
         let robot = Limits {
             arcs: Arcs::Through,
@@ -102,6 +108,49 @@ impl MakeLanguage {
                 ..robot
             },
         }
+    }
+
+    /// What a program that is made in it keeps, in words: the limits that the maker goes by.
+    ///
+    /// ```
+    /// use kinetostat_formats::MakeLanguage;
+    ///
+    /// let limits = MakeLanguage::FanucLs.limits_in_words();
+    /// assert!(limits.contains("5000 places a file") && limits.contains("at most 1 decimal"));
+    /// assert!(MakeLanguage::Krl.limits_in_words().contains("24 characters"));
+    /// ```
+    #[must_use]
+    pub fn limits_in_words(self) -> String {
+        let limits = self.limits();
+        let mut all = vec![format!("its name has at most {} characters", limits.name)];
+        all.push(match limits.points {
+            Some((usual, most)) => format!(
+                "at most {usual} places a file (most_points in the template, up to {most}), beyond that a main program and numbered parts"
+            ),
+            None => "one file, however many places".to_owned(),
+        });
+        let defaults = Template::default();
+        all.push(format!(
+            "places with {} decimals of mm unless the template says otherwise",
+            defaults.position_decimals
+        ));
+        all.push(match limits.speed_decimals {
+            1 => "speeds with at most 1 decimal unless the template says otherwise".to_owned(),
+            more => format!("speeds with at most {more} decimals"),
+        });
+        let chord = limits.least_chord_mm;
+        all.push(match limits.arcs {
+            Arcs::None => "arcs become lines".to_owned(),
+            Arcs::AboutZ => "arcs about z, rising where asked; others become lines".to_owned(),
+            Arcs::Through if limits.least_sweep_rad > 0.0 => format!(
+                "flat arcs through places at least {chord} mm apart, of at least {:.0} deg; others become lines",
+                limits.least_sweep_rad.to_degrees()
+            ),
+            Arcs::Through => format!(
+                "flat arcs through places at least {chord} mm apart; others become lines"
+            ),
+        });
+        all.join("; ")
     }
 
     /// How the name of its files ends.

@@ -4,6 +4,7 @@ use kinetostat_program::Path;
 
 use crate::making::again::read_again;
 use crate::making::compare::{Kept, compare};
+use crate::making::crowded::crowded;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
@@ -105,6 +106,9 @@ pub fn make(
     let parts = motions.map(|motion| (motion.source, motion.shares));
     let parts = parts.collect();
     let mut findings = planned.findings;
+    if language.is_of_an_arm() {
+        findings.extend(crowded(steps));
+    }
     taken_for_granted(steps, template, language, &kept, &mut findings);
     findings.sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
     Ok(Made {
@@ -125,11 +129,7 @@ fn taken_for_granted(
     findings: &mut Vec<MakeFinding>,
 ) {
     let mut say = |message: String| findings.push(MakeFinding::of(None, message));
-    let robot = matches!(
-        language,
-        MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
-    );
-    if robot {
+    if language.is_of_an_arm() {
         say("the first motion is a joint motion: on which way the arm comes there, the controller decides".to_owned());
         of_frames(template, language, &mut say);
         if template.configuration.is_none() {

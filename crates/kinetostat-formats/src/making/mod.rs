@@ -7,6 +7,7 @@
 pub(crate) mod again;
 pub(crate) mod apt;
 pub(crate) mod compare;
+pub(crate) mod crowded;
 pub(crate) mod csv;
 pub(crate) mod events;
 pub(crate) mod fault;

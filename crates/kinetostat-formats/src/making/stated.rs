@@ -5,6 +5,12 @@ use crate::making::limits::MakeLanguage;
 use crate::making::names::is_identifier;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 
+/// Beyond this a base is no place in a plant, mm.
+const FARTHEST_BASE_MM: f64 = 1e6;
+
+/// Beyond this from the flange no tip of a tool is, mm.
+const LONGEST_TOOL_MM: f64 = 1e4;
+
 /// Everything that is wrong with a template.
 pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeError> {
     let mut faults = Vec::new();
@@ -105,6 +111,18 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
                 "state its number, or its pose",
             ));
         }
+    }
+    let farthest = match what {
+        "tool" => LONGEST_TOOL_MM,
+        _ => FARTHEST_BASE_MM,
+    };
+    let position = frame.pose.as_ref().map(|pose| pose.translation.vector);
+    let too_far = |value: &&f64| value.is_nan() || value.abs() > farthest;
+    if let Some(value) = position.iter().flatten().find(too_far) {
+        faults.push(MakeError::of(
+            format!("pose of the {what}: position_mm has {value:e}, farther than {farthest} mm"),
+            "check the number and its unit, mm",
+        ));
     }
     let most = match (language, what) {
         (MakeLanguage::FanucLs, "tool") => 29,

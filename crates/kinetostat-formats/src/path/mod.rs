@@ -8,6 +8,7 @@ pub(crate) mod axis_angles;
 pub(crate) mod axis_turns;
 pub(crate) mod circle;
 pub(crate) mod correctable;
+pub(crate) mod far_places;
 pub(crate) mod fault;
 pub(crate) mod header;
 pub(crate) mod kept_lines;

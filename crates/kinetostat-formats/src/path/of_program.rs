@@ -18,6 +18,7 @@ use crate::model::target::Target;
 use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
 use crate::path::axis_turns::{axis_turns, first_leaning, is_by_axis};
 use crate::path::circle::about;
+use crate::path::far_places::too_far;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, warnings_of};
@@ -138,6 +139,10 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             "write a speed above zero",
         ))
     }));
+    faults.extend(program.motions.iter().filter_map(|motion| {
+        let (reason, remedy) = too_far(motion)?;
+        Some(fault(motion, reason, remedy))
+    }));
     faults.extend(program.motions.windows(2).filter_map(|pair| {
         let [from, to] = [&pair[0], &pair[1]].map(|motion| motion.target.pose());
         let way = to?.position_mm - from?.position_mm;
@@ -151,6 +156,12 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         })
     }));
     if !faults.is_empty() {
+        let place = |fault: &PathError| {
+            let files = &mut program.files.iter();
+            let file = files.position(|file| file.name() == fault.file);
+            (file, fault.line)
+        };
+        faults.sort_by_key(place);
         return Err(faults);
     }
     let mut maker = Maker {

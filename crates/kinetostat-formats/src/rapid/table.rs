@@ -31,7 +31,8 @@ const MOVED_FRAME: Treatment = Refused {
     reason: "the work object moves with the conveyor",
     remedy: "a moving work piece is not corrected: take this statement into a program of its own",
 };
-const EXTERNAL: Treatment = Refused {
+/// Of an instruction that moves external axes while the arm stands still.
+pub(crate) const EXTERNAL: Treatment = Refused {
     reason: "it moves external axes alone",
     remedy: "take it into a program of its own, or read with external axes carried",
 };

@@ -37,6 +37,7 @@ pub(crate) struct Targets {
 
 const WRITE_IT: &str =
     "write the motion with a literal or declared target, or leave it as written when reading";
+const IN_NUMBERS: &str = "write the target in numbers: [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[six external axes]], with q1 to q4 of length 1 in all";
 const IS_COMPUTED: &str = "where it goes is computed while the program runs";
 
 impl Targets {
@@ -61,8 +62,7 @@ impl Targets {
         match &expression.value {
             Value::List(_) => {
                 let literal = target_of(file, expression);
-                let (text, pose) =
-                    literal.map_err(|reason| (reason.to_owned(), "write the target in numbers"))?;
+                let (text, pose) = literal.map_err(|reason| (reason.to_owned(), IN_NUMBERS))?;
                 Ok(Found {
                     pose,
                     site: TargetSite::Literal(text),

@@ -119,7 +119,8 @@ impl Notes<'_, '_, '_, '_> {
                 let parameters = &self.symbols.routines[index].routine.parameters;
                 parameters.iter().any(|parameter| parameter.changes)
             }
-            None => row(&name).is_none_or(|row| row.treatment != Treatment::Carried),
+            // Of an instruction that is refused nothing else is to be said.
+            None => row(&name).is_none_or(|row| row.treatment == Treatment::Understood),
         };
         if changes {
             for at in tokens.start + 1..tokens.end {

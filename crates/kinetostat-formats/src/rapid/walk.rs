@@ -8,11 +8,11 @@ use std::collections::BTreeSet;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
-use crate::options::{ReadOptions, UnknownTargets};
+use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
 use crate::rapid::motion::{Followed, Instruction, follow};
-use crate::rapid::table::{motion_row, row};
+use crate::rapid::table::{EXTERNAL, motion_row, row};
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
 use crate::table::Treatment;
@@ -60,6 +60,7 @@ pub(crate) fn walk(
         values,
         targets,
         unknown: options.unknown_targets,
+        external: options.external_axes,
         faults,
         motions: Vec::new(),
         places: Vec::new(),
@@ -98,6 +99,7 @@ struct Walker<'w, 'p> {
     values: &'w mut Values<'p>,
     targets: &'w mut Targets,
     unknown: UnknownTargets,
+    external: ExternalAxes,
     faults: &'w mut Vec<ProgramError>,
     motions: Vec<Followed>,
     /// Routine and place at the beginning of each motion.
@@ -293,6 +295,8 @@ impl<'p> Walker<'_, 'p> {
         }
         let place = self.functions(tokens.start + 1..tokens.end, place);
         match name.as_ref().and_then(row).map(|row| row.treatment) {
+            // The arm stands still, and the user says that nothing else matters.
+            Some(EXTERNAL) if self.external == ExternalAxes::Carried => place,
             Some(Treatment::Refused { reason, remedy }) => {
                 note(self.faults, || {
                     ProgramError::at(file.source, span, reason, remedy)

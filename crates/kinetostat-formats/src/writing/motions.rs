@@ -6,6 +6,7 @@ use std::ops::Range;
 use nalgebra::UnitQuaternion;
 
 use crate::error::WriteError;
+use crate::model::external::moving_external_axes;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
@@ -45,9 +46,13 @@ pub(crate) fn write_with(
         demands: Demands::default(),
         names: Names::default(),
     };
+    let with_others = moving_external_axes(program);
     for (index, motion) in program.motions.iter().enumerate() {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
-        let written = writer.motion(motion, pieces);
+        let written = match pieces.len() > 1 && with_others.contains(&index) {
+            true => Err(MOVES_OTHERS),
+            false => writer.motion(motion, pieces),
+        };
         written.map_err(|(reason, remedy)| WriteError::Motion {
             file: program.files[motion.file].name().to_owned(),
             line: motion.line,
@@ -119,6 +124,11 @@ const NO_END: Reason = (
 const PARTIAL: Reason = (
     "it states only some of X, Y, Z, A, B, C: the others are those of before",
     "write all of them",
+);
+
+const MOVES_OTHERS: Reason = (
+    "an external axis moves with it, and would make all of its way in the first of the pieces into which it is divided",
+    "move external axes where the tool is in air, with a joint motion or one at rapid speed, or write the motion in short steps of both",
 );
 
 const NO_JOINTS: Reason = (
@@ -214,7 +224,7 @@ impl Writer<'_> {
         if let Some(reason) = motion.site.indivisible {
             return Err((
                 reason,
-                "give it one piece, at its end, or write it otherwise",
+                "write it so that several motions can take its place: with a speed instead of a time, what it starts at a motion of its own, its IF over several lines",
             ));
         }
         if becomes_straight {

@@ -259,3 +259,35 @@ fn a_first_motion_turns_by_nothing() {
         path.warnings
     );
 }
+
+/// A wrong unit or a mistyped number is named by its line, in every language, before anything is solved.
+#[test]
+fn places_that_no_machine_reaches_are_refused_by_line() {
+    let target = |x: &str| format!("[[{x},0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]");
+    let rapid = format!(
+        "MODULE M\nPROC main()\nMoveL {},v20,fine,tool0;\nMoveL {},v20,fine,tool0;\nMoveC {},{},v20,fine,tool0;\nMoveL {},v20,fine,tool0;\nENDPROC\nENDMODULE\n",
+        target("1E6"),
+        target("9E9"),
+        target("-2000000"),
+        target("5"),
+        target("7"),
+    );
+    let csv = "x_mm,y_mm,z_mm,qw,qx,qy,qz,speed_mm_per_s\n0,0,0,1,0,0,0,5\n1e300,0,0,1,0,0,0,5\n1,0,0,1,0,0,0,5\n";
+    let apt = "UNITS/MM\nFEDRAT/100,MMPM\nGOTO/0,0,0\nGOTO/0,5000000,0\nGOTO/1,0,0\n";
+    for (language, name, text, expected) in [
+        (Language::Rapid, "m.mod", rapid.as_str(), &[4, 5][..]),
+        (Language::Poses, "m.csv", csv, &[3]),
+        (Language::Apt, "m.apt", apt, &[4]),
+    ] {
+        let files = vec![SourceFile::new(name, text)];
+        let program = read(language, files, &ReadOptions::default()).unwrap();
+        let faults = path_of(&program, &PathOptions::default()).unwrap_err();
+        let lines: Vec<usize> = faults.iter().map(|fault| fault.line).collect();
+        assert_eq!(lines, expected, "{faults:?}");
+        assert!(
+            faults
+                .iter()
+                .all(|fault| fault.reason.contains("farther than any machine"))
+        );
+    }
+}

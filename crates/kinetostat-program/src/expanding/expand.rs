@@ -38,7 +38,7 @@ use crate::text::library::only_definitions;
 /// ```
 ///
 /// # Errors
-/// The first line that is not followed, or that makes a block that [`crate::interpret`] refuses; a program that does not end; a contour that the tool cannot follow.
+/// The first line that is not followed ([`expansion_faults`] lists them all), or that makes a block that [`crate::interpret`] refuses; a program that does not end; a contour that the tool cannot follow.
 pub fn expand(
     bytes: impl Into<Vec<u8>>,
     options: &ExpandOptions,
@@ -59,4 +59,35 @@ pub fn expand(
         warnings,
         files,
     })
+}
+
+/// Everything that is refused while a program is run once, in the order of the lines, those of its subprograms behind those of
+/// the program; empty where [`expand`] takes it.
+///
+/// Of a refused line the words that are understood are followed: where it ends, its modes. A line on which the rest depends, such as
+/// the condition of a loop, ends the list and says so.
+///
+/// ```
+/// use kinetostat_program::{ExpandOptions, NoSubprograms, expansion_faults};
+///
+/// let text = "G21 G90\nG0 X0 Y0 Z0\nM98 P77\nG38.2 Z-10\nO1 if [1/0]\nG0 X1\nO1 endif\nM2\n";
+/// let found = expansion_faults(text, &ExpandOptions::default(), &NoSubprograms);
+/// assert_eq!(found.iter().map(|fault| fault.line).collect::<Vec<_>>(), [3, 4, 5]);
+/// assert!(found[2].remedy.contains("lines behind this one were not run"));
+/// ```
+pub fn expansion_faults(
+    bytes: impl Into<Vec<u8>>,
+    options: &ExpandOptions,
+    subprograms: &dyn Subprograms,
+) -> Vec<ProgramError> {
+    let bytes = bytes.into();
+    if let Some(library) = only_definitions(&bytes) {
+        return vec![library];
+    }
+    let mut runner = Runner::new(bytes, options, subprograms);
+    let mut found = runner.refused_lines();
+    if found.is_empty() {
+        found.extend(runner.flat.finish().err());
+    }
+    found
 }

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, excerpt};
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
 use crate::path::moves::{Path, Warning};
+use crate::reading::faults::take_over_understood;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::text::program::{Program, Reader};
 
@@ -22,6 +23,8 @@ pub(crate) struct Flat<'o> {
     /// What the path does not say.
     warnings: Vec<Warning>,
     options: &'o ExpandOptions,
+    /// Whether the places in the plane of arcs rested on a refused line when the last block came.
+    was_unsure: bool,
 }
 
 impl<'o> Flat<'o> {
@@ -34,6 +37,7 @@ impl<'o> Flat<'o> {
             comments: options.origin_comments,
             warnings: Vec::new(),
             options,
+            was_unsure: false,
         }
     }
 
@@ -47,6 +51,7 @@ impl<'o> Flat<'o> {
             comments: OriginComments::Left,
             warnings: Vec::new(),
             options: self.options,
+            was_unsure: false,
         }
     }
 
@@ -85,7 +90,7 @@ impl<'o> Flat<'o> {
 
     /// Adds a block that came from a line of a file; what is wrong with it is said of that line.
     pub fn add(&mut self, text: &[u8], origin: Origin) -> Result<(), ProgramError> {
-        if self.origins.len() >= self.options.most_blocks {
+        if self.is_full() {
             return Err(self.too_many(text, origin));
         }
         let commented = match self.comments {
@@ -95,9 +100,17 @@ impl<'o> Flat<'o> {
             }
             OriginComments::Left => None,
         };
+        self.was_unsure = self.is_unsure_in_plane();
+        let bare = text.len();
         let text = commented.as_deref().unwrap_or(text);
         let file = self.files.get(&origin.file).map_or("", String::as_str);
-        let of_source = |error: ProgramError| of_source(error, origin.line, file);
+        let of_source = |mut error: ProgramError| {
+            // The comment with the line stands in no file of the user.
+            if let Some(found) = error.found.strip_suffix(excerpt(&text[bare..]).as_str()) {
+                error.found = found.trim_ascii_end().to_owned();
+            }
+            of_source(error, origin.line, file)
+        };
         self.reader.add_line(text).map_err(of_source)?;
         self.origins.push(origin);
         let index = self.origins.len() - 1;
@@ -105,17 +118,50 @@ impl<'o> Flat<'o> {
         self.interpreter.run_line(program, index).map_err(of_source)
     }
 
+    /// Whether no further block is allowed.
+    pub fn is_full(&self) -> bool {
+        self.origins.len() >= self.options.most_blocks
+    }
+
+    /// Takes over what is understood of a line that was refused, so that the lines behind it have no fault because of it.
+    pub fn take_over(&mut self, text: &[u8], origin: Origin) {
+        // What is wrong with it is reported already.
+        let _ = self.reader.add_line(text);
+        self.origins.push(origin);
+        let program = self.reader.program();
+        if let Some(index) = program.lines().len().checked_sub(1) {
+            take_over_understood(&mut self.interpreter, program, index);
+        }
+    }
+
+    /// Where the tool is now is not known, and is not asked for.
+    pub fn doubt_places(&mut self) {
+        self.interpreter.places.doubt();
+    }
+
+    /// Whether the places in the plane of arcs rested on a refused line when the last block came.
+    pub fn came_from_nowhere(&self) -> bool {
+        self.was_unsure
+    }
+
+    fn is_unsure_in_plane(&self) -> bool {
+        let plane = self.interpreter.modes.plane;
+        plane[..2]
+            .iter()
+            .any(|axis| self.interpreter.places.unsure[*axis])
+    }
+
     fn too_many(&self, text: &[u8], origin: Origin) -> ProgramError {
         ProgramError {
             kind: crate::error::ProgramErrorKind::Malformed,
             line: origin.line,
             span: 0..0,
-            found: crate::error::excerpt(text),
+            found: excerpt(text),
             reason: format!(
                 "the program has more than {} blocks when it is written flat",
                 self.options.most_blocks
             ),
-            remedy: "check the ends of its loops, or allow more blocks".to_owned(),
+            remedy: "check the ends of its loops, or divide the program".to_owned(),
         }
     }
 

@@ -35,7 +35,7 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
         let unsure = interpreter.places.unsure;
         let in_plane = interpreter.modes.plane;
         if let Err(fault) = interpreter.run_line(&program, index) {
-            follow(&mut interpreter, &program, index);
+            take_over_understood(&mut interpreter, &program, index);
             let from_nowhere = in_plane[..2].iter().any(|axis| unsure[*axis]);
             if fault.kind != ProgramErrorKind::Arc || !from_nowhere {
                 found.push(fault);
@@ -55,7 +55,11 @@ pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramEr
 }
 
 /// Takes over what is understood of a refused line, so that the lines behind it have no fault because of it.
-fn follow(interpreter: &mut Interpreter<'_>, program: &Program, index: usize) {
+pub(crate) fn take_over_understood(
+    interpreter: &mut Interpreter<'_>,
+    program: &Program,
+    index: usize,
+) {
     interpreter.modes.go_on_after_fault();
     interpreter.places.take_as_known();
     let block = Block::understood(program, index);

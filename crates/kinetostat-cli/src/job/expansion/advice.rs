@@ -25,6 +25,8 @@ pub(crate) fn advice(
     options.reading = reading.clone();
     options.most_blocks = MOST_BLOCKS;
     match expand(bytes, &options, &Folders::new(program, &[])) {
+        // Nothing moves with an expansion, either.
+        Ok(expanded) if expanded.path.moves.is_empty() => None,
         Ok(expanded) => Some(format!(
             "{ADD}: run once and written flat, it is {} that can be followed. As it stands: ",
             counted(expanded.program.block_count(), "block")

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{FileRead, FlatProgram};
-use kinetostat_program::{Expanded, ProgramError, expand};
+use kinetostat_program::{Expanded, ProgramError, expand, expansion_faults};
 
 use crate::job::expansion::folders::{Folders, SubprogramFile};
 use crate::job::expansion::settings::ExpandSettings;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::fault_list::fault_list_text;
 
 /// A program that was run once and written flat.
 pub(crate) struct Flattened {
@@ -27,9 +28,20 @@ pub(crate) fn flattened(
     settings: &ExpandSettings,
 ) -> Answer<Flattened> {
     let folders = Folders::new(program, &settings.folders);
-    let done = expand(bytes, &settings.options, &folders);
+    let done = expand(bytes.as_slice(), &settings.options, &folders);
+    let all = match &done {
+        Ok(_) => Vec::new(),
+        Err(_) => expansion_faults(bytes, &settings.options, &folders),
+    };
     let files = folders.into_read();
-    let expanded = done.map_err(|error| refused(&error, name, &files))?;
+    let expanded = done.map_err(|error| match all.as_slice() {
+        [] => refused(&error, name, &files),
+        [only] => refused(only, name, &files),
+        all => {
+            let list = fault_list_text("lines", &error, all, |fault| fault.reason.as_str());
+            Failure::input(list).within(name)
+        }
+    })?;
     let index = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let sources = expanded.origins.iter();
     let sources = sources.map(|origin| (index(origin.file), index(origin.line)));

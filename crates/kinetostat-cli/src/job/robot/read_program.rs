@@ -75,6 +75,15 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             motion.line
         )));
     }
+    let mut calls = program.findings.iter();
+    let call = calls.find(|finding| finding.message.contains("if it moves the tool"));
+    if let (true, Some(first)) = (program.motions.is_empty(), call) {
+        let file = program.files.get(first.file).map_or("", |file| file.name());
+        return Err(Failure::input(format!(
+            "{file}, line {}: the program has no motion of its own, and {}; compensate the files with the motions one by one",
+            first.line, first.message
+        )));
+    }
     let mut path = path_of(&program, &settings.making)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
     if path.file != 0 {

@@ -93,3 +93,42 @@ fn tools_of_several_are_taken_in_their_parts() {
         }
     }
 }
+
+/// Places that follow one another faster than an arm's controller plans are named; single ones, and those of other machines, are not.
+#[test]
+fn crowded_places_are_named() {
+    let dense = |count: usize| {
+        let mut text = "G21 G90\nG0 X0 Y0 Z0\nG1 X0.05 F6000\n".to_owned();
+        for index in 2..=count {
+            text.push_str(&format!("X{:.3}\n", 0.05 * index as f64));
+        }
+        text
+    };
+    let said = |text: &str, language: MakeLanguage| {
+        let (_, path) = gcode(text);
+        let made = make(&path, &[], &cell(), language).unwrap();
+        let all = made.findings.iter();
+        let found = all.filter(|finding| finding.message.contains("may slow down"));
+        found.cloned().collect::<Vec<_>>()
+    };
+    for language in [
+        MakeLanguage::Krl,
+        MakeLanguage::Rapid,
+        MakeLanguage::FanucLs,
+    ] {
+        let found = said(&dense(40), language);
+        assert_eq!(found.len(), 1);
+        // 0.05 mm at 100 mm/s: 0.5 ms; the 16th of them is on line 18.
+        assert_eq!(found[0].line, Some(18));
+        let message = &found[0].message;
+        assert!(
+            message.starts_with("40 motions are shorter than 8 ms"),
+            "{message}"
+        );
+        assert!(message.contains("0.050 mm, up to 2000"), "{message}");
+        assert!(said(&dense(15), language).is_empty());
+        let slow = dense(40).replace("F6000", "F300");
+        assert!(said(&slow, language).is_empty());
+    }
+    assert!(said(&dense(40), MakeLanguage::Csv).is_empty());
+}

@@ -149,7 +149,17 @@ fn names_too_long_or_strange() {
 #[test]
 fn templates_that_cannot_be_written() {
     type Change = fn(&mut Template);
-    let broken: [(MakeLanguage, Change, &str); 21] = [
+    let broken: [(MakeLanguage, Change, &str); 23] = [
+        (
+            MakeLanguage::Krl,
+            |t| t.base.pose = Some(Isometry3::translation(1e12, 0.0, 0.0)),
+            "pose of the base: position_mm has 1e12",
+        ),
+        (
+            MakeLanguage::Rapid,
+            |t| t.tool.frame.pose = Some(Isometry3::translation(0.0, 0.0, -1e30)),
+            "pose of the tool: position_mm has -1e30",
+        ),
         (
             MakeLanguage::Krl,
             |t| t.rapid_speed_mm_per_s = 0.0,

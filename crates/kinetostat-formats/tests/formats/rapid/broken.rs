@@ -280,3 +280,31 @@ fn files_of_nothing_but_faults_are_bounded() {
         1
     );
 }
+
+#[test]
+fn a_refused_instruction_makes_no_other_line_wrong() {
+    let found = errors(
+        "MODULE A\nPERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPROC main()\nMoveL <T>,v10,z1,t;\nCapL <T>,v10,c,z1,t;\nSearchL di1,q,<T>,v10,t;\nMoveL <T>,v10,z1,t;\nENDPROC\nENDMODULE",
+    );
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [5, 6], "{found:?}");
+}
+
+#[test]
+fn external_axes_that_are_carried_may_move_alone() {
+    let text = format!(
+        "MODULE A\nPROC main()\nMoveL {T},v10,z1,tool0;\nMoveExtJ [[0,0,0,0,0,0],[5,9E9,9E9,9E9,9E9,9E9]],vrot10,fine;\nMoveL {T},v20,z1,tool0;\nENDPROC\nENDMODULE"
+    );
+    let files = || vec![SourceFile::new("a.mod", text.as_str())];
+    let mut options = ReadOptions::default();
+    let refused = read_rapid(files(), &options).unwrap_err();
+    assert!(
+        refused[0].remedy.contains("external axes carried"),
+        "{refused:?}"
+    );
+    options.external_axes = ExternalAxes::Carried;
+    let program = read_rapid(files(), &options).unwrap();
+    assert_eq!(program.motions.len(), 2);
+    let written = write(&program, &[], &WriteOptions::default()).unwrap();
+    assert_eq!(written[0].1, text.as_bytes());
+}

@@ -150,7 +150,10 @@ impl Runner<'_> {
         }
         let times = times.unwrap_or(1.0);
         if times.fract() != 0.0 || !(0.0..1e6).contains(&times) {
-            return Err(self.refuse("M98 is repeated a whole number of times (L)", "correct L"));
+            return Err(self.refuse(
+                "M98 is repeated a whole number of times (L), fewer than 1000000",
+                "correct L",
+            ));
         }
         if times >= 1.0 {
             let (file, line) = self.find_program(number)?;

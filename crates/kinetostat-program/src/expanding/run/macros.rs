@@ -98,7 +98,10 @@ impl Runner<'_> {
             ));
         };
         if times.fract() != 0.0 || !(0.0..MOST_REPEATS).contains(&times) {
-            return Err(self.refuse("G65 is repeated a whole number of times (L)", "correct L"));
+            return Err(self.refuse(
+                "G65 is repeated a whole number of times (L), fewer than 1000000",
+                "correct L",
+            ));
         }
         if times >= 1.0 {
             let (file, line) = self.find_program(number as u32)?;

@@ -11,6 +11,7 @@ pub(crate) mod macros;
 pub(crate) mod modal;
 pub(crate) mod offsets;
 pub(crate) mod parameters;
+pub(crate) mod refused_lines;
 pub(crate) mod runner;
 pub(crate) mod saves;
 pub(crate) mod source;

@@ -28,10 +28,10 @@ impl Runner<'_> {
                 }
             }
             self.steps += 1;
-            if self.steps > LINES_PER_BLOCK * self.options.most_blocks {
+            if self.has_run_too_long() {
                 return Err(self.refuse(
                     "the program does not end: its loops run on and on",
-                    "check the conditions of its loops, or allow more blocks",
+                    "check the conditions of its loops",
                 ));
             }
             self.frame_mut().next = index + 1;
@@ -39,6 +39,11 @@ impl Runner<'_> {
                 return self.end();
             }
         }
+    }
+
+    /// Loops that only count are not endless, but bounded.
+    pub fn has_run_too_long(&self) -> bool {
+        self.steps > LINES_PER_BLOCK.saturating_mul(self.options.most_blocks)
     }
 
     fn end(&mut self) -> Result<(), ProgramError> {

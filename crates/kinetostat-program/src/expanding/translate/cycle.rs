@@ -107,7 +107,7 @@ pub(crate) fn cycle(
     };
     if repeats.fract() != 0.0 || !(least..=MOST_REPEATS).contains(&repeats) {
         return wrong(
-            "a cycle is repeated a whole number of times (L)",
+            format!("a cycle is repeated a whole number of times (L), at most {MOST_REPEATS}"),
             "correct L",
         );
     }

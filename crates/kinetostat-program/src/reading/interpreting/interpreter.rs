@@ -20,13 +20,13 @@ use crate::reading::tools::ToolWords;
 pub(crate) struct Interpreter<'o> {
     pub(in crate::reading) options: &'o ReadOptions,
     pub(super) rotary: RotaryWords<'o>,
-    pub(in crate::reading) modes: Modes,
+    pub(crate) modes: Modes,
     pub(in crate::reading) offset: PositionOffset,
     pub(in crate::reading) shifts: Shifts,
     /// Origins of the work coordinate systems, mm, part frame; none where they are not stated.
     pub(in crate::reading) origins_mm: [Option<Vector3<f64>>; 9],
     pub(super) rotary_origins: RotaryOrigins,
-    pub(in crate::reading) places: Places,
+    pub(crate) places: Places,
     pub(in crate::reading) ended: Option<usize>,
     pub(super) no_feed_warned: bool,
     pub(super) repeated: Repeated,

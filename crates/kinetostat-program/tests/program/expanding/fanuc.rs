@@ -1,6 +1,10 @@
 //! Words of Fanuc's dialect: G65, vacant parameters, fine boring, repeats by K, levels of a row of cycles.
 
-use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, ProgramError, expand};
+use kinetostat_program::{
+    Dialect, ExpandOptions, NoSubprograms, OriginComments, ProgramError, expand,
+};
+
+use super::flat;
 
 const BEGIN: &str = "G21 G90 G17 F200\nG0 X0 Y0 Z15\n";
 
@@ -130,4 +134,33 @@ fn what_dialects_disagree_on_is_refused_with_both_readings() {
             assert!(error.reason.contains(needle), "{text}: {error}");
         }
     }
+}
+
+/// A controller that is sent a program takes its number from its first line, and waits for the closing tape mark.
+#[test]
+fn number_and_tape_marks_of_the_program_stay() {
+    let text = "%\nO0001 (PART)\nG21 G90\nG0 X0 Y0 Z0\nM98 P2\nM30\nO0002\nG1 X5 F100\nM99\n%\n";
+    let expected = "%\nO0001 (PART)\nG21 G90\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n%\n";
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::Fanuc;
+    let expanded = expand(text, &options, &NoSubprograms).unwrap();
+    assert_eq!(String::from_utf8_lossy(expanded.program.bytes()), expected);
+    let lines: Vec<usize> = expanded.origins.iter().map(|origin| origin.line).collect();
+    assert_eq!(lines, [1, 2, 3, 4, 8, 6, 10]);
+    // The number is carried once, and what is not there is not added.
+    let text = "O5\nG21 G90\nG0 X0 Y0 Z0\nM30\n";
+    assert_eq!(flat(text), text);
+    for text in [
+        "%\nG21 G90\nG0 X0 Y0 Z0\nM30\n",
+        "G21 G90\nG0 X0 Y0 Z0\nM30\n%\n",
+    ] {
+        assert_eq!(flat(text), text);
+    }
+    // The number is no block with a line behind it: what stands there is the program's name.
+    options.origin_comments = OriginComments::Written;
+    let expanded = expand("O5 (NAME)\nG21 G90\nM30\n", &options, &NoSubprograms).unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(expanded.program.bytes()),
+        "O5 (NAME)\nG21 G90 (line 2)\nM30 (line 3)\n"
+    );
 }

@@ -1,5 +1,6 @@
 //! Programs that are run once and written flat.
 
+mod all_faults;
 mod bounds;
 mod broken;
 mod control;

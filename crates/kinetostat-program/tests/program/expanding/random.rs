@@ -1,6 +1,8 @@
 //! Random programs with macros: whatever they are, they are expanded or refused with a line, at once; what is expanded is plain.
 
-use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, expand, interpret};
+use kinetostat_program::{
+    Dialect, ExpandOptions, NoSubprograms, expand, expansion_faults, interpret,
+};
 use nalgebra::Vector3;
 
 /// Pieces of programs: what belongs together stands in one.
@@ -198,7 +200,12 @@ pub fn check(seed: u64) -> Result<bool, String> {
     let lines = text.lines().count().max(1);
     let expanded = match expand(text.as_str(), &options, &NoSubprograms) {
         Err(error) if error.line >= 1 && error.line <= lines && !error.reason.is_empty() => {
-            return Ok(false);
+            let all = expansion_faults(text.as_str(), &options, &NoSubprograms);
+            let lines: Vec<usize> = all.iter().map(|fault| fault.line).collect();
+            return match lines.contains(&error.line) && lines.is_sorted_by(|a, b| a < b) {
+                true => Ok(false),
+                false => Err(format!("seed {seed}: {error}, among {lines:?}\n{text}")),
+            };
         }
         Err(error) => return Err(format!("seed {seed}: line {}: {error}\n{text}", error.line)),
         Ok(expanded) => expanded,
