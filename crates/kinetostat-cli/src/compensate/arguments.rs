@@ -50,7 +50,7 @@ pub(crate) struct CompensateArgs {
     /// What becomes of arcs where they are corrected: arcs again, or straight pieces [default: fit]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Tolerances")]
     pub(crate) arcs: Option<ArcsWord>,
-    /// Shortest block that the controller takes, mm: blocks are divided evenly for it, and lines with shorter ones are named
+    /// Shortest block that the controller takes, mm: shorter pieces are shared out anew, and lines that need them are named
     #[arg(long, value_name = "MM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) min_block_mm: Option<f64>,
     /// Digits after the point in mm, one more in inches [default: 4]

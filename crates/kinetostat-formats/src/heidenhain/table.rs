@@ -17,7 +17,7 @@ const ROUNDED: Treatment = Refused {
     remedy: "write the program flat first (--expand): the arc becomes a block of its own",
 };
 const CHAMFERED: Treatment = Refused {
-    reason: "the control breaks the corner, and its manuals say of the number both that it is the length of the chamfer and that of its sides",
+    reason: "the control breaks the corner, and whether its number is the length of the chamfer or of its sides is not certain here",
     remedy: "let the CAM system write the corner as L blocks",
 };
 const APPROACH: Treatment = Refused {
