@@ -139,7 +139,9 @@ impl Resolver<'_, '_> {
                 }
             }
         }
-        let beyond = motion.follows.is_some_and(|index| self.beyond[index]);
+        // A routine may follow a motion that stands behind it in the file, and is not known yet.
+        let beyond = (motion.follows)
+            .is_some_and(|index| self.beyond.get(index).is_none_or(|beyond| *beyond));
         let mut fill = |target: &mut Target, open: Option<[Option<f64>; 6]>| {
             let (Some(open), Target::Pose(pose)) = (open, &mut *target) else {
                 return;
