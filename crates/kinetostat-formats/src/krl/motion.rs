@@ -58,6 +58,16 @@ pub(crate) fn follow(
     } = *statement;
     let file = values.file(routine);
     let ends = ends_of(file, tokens, row.ends);
+    if row.ends == Ends::Circular
+        && let Some(via) = ends.first()
+        && via.end < tokens.end
+        && !file.is(via.end, b',')
+    {
+        return Err((
+            "no comma stands between the place on the circle and its end".to_owned(),
+            "write  CIRC place, end",
+        ));
+    }
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
     let next = file
         .tokens

@@ -324,3 +324,27 @@ fn folds_that_are_not_paired_are_reported_and_carried() {
         |finding| finding.line == 6 && finding.message.starts_with("this FOLD has no ENDFOLD")
     ));
 }
+
+/// A broken head makes a routine go on from a motion that stands behind it.
+#[test]
+fn a_routine_that_calls_itself_behind_a_broken_head() {
+    let source = "DEF part()\nDEF sub()\nLIN XP1\nDEF par, A -64.2, B 74.1, C 26} C_,INT i\nlin XP1 C_DIS\nsub()";
+    assert!(!refused(source, &format!("{DATA}ENDDAT\n")).is_empty());
+}
+
+#[test]
+fn a_circle_without_its_comma() {
+    each_is_refused(&[
+        (
+            "CIRC XP1 XP1:{X 5,Y 6,Z 7}",
+            &[(
+                3,
+                "no comma stands between the place on the circle and its end; write  CIRC place, end",
+            )],
+        ),
+        (
+            "CIRC XP1",
+            &[(3, "the motion has no end; write its target")],
+        ),
+    ]);
+}

@@ -162,19 +162,6 @@ fn angles_that_are_kept_are_those_that_were_written() {
     }
 }
 
-#[test]
-fn an_end_that_goes_on_from_a_motion_further_down_is_refused_by_line() {
-    let text = "DEF inner()\nLIN {Z 3}\nEND\nDEF part()\nPTP {X 1,Y 2,Z 30,A 0,B 0,C 180}\nLIN {X 4,Y 2,Z 30,A 0,B 0,C 180}\ninner()\nEND\n";
-    let files = vec![SourceFile::new("part.src", text)];
-    let errors = read_krl(files, &ReadOptions::default()).expect_err("it is refused");
-    assert_eq!((errors.len(), errors[0].line), (1, 2), "{errors:#?}");
-    assert!(
-        errors[0].reason.contains("only some of X, Y, Z"),
-        "{}",
-        errors[0]
-    );
-}
-
 /// A pose in braces of which some members are missing; at least one is there.
 fn some(chance: &mut Chance) -> String {
     let sizes = [
