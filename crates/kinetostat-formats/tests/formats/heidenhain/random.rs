@@ -339,6 +339,19 @@ fn flattened(bytes: &[u8], options: &ReadOptions) -> Result<(), String> {
     }
 }
 
+/// The largest factor of a program that scales, at least 1: by so much its last decimal counts.
+fn largest_scaling(bytes: &[u8]) -> f64 {
+    let text = String::from_utf8_lossy(bytes).replace(',', ".");
+    let behind = text.split("SCL").skip(1);
+    let factors = behind.filter_map(|rest| {
+        let rest = rest.trim_start();
+        let is_part = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+        let length = rest.bytes().take_while(is_part).count();
+        rest[..length].parse().ok()
+    });
+    kinetostat_testing::largest(factors.chain([1.0]))
+}
+
 /// One case of the fuzz.
 pub fn check(seed: u64) -> Result<bool, String> {
     let mut chance = Chance::new(seed);
@@ -351,6 +364,7 @@ pub fn check(seed: u64) -> Result<bool, String> {
         _ => program(&mut chance),
     };
     let bytes = broken(&mut chance, &whole, &kind);
+    kind.place_mm *= largest_scaling(&bytes);
     flattened(&bytes, &kind.options).map_err(|what| format!("case {seed}: {what}"))?;
     match crate::harness::check(seed, &mut chance, std::slice::from_ref(&bytes), &kind) {
         // Corrections by chance of what such a block begins with are refused by line.
