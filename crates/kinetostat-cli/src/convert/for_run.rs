@@ -128,11 +128,14 @@ pub(crate) fn for_run(
         // Their lines are those of the source: said above.
         forces.findings.clear();
         let read = read_program(&setting)?;
-        let motions = read.robot().map(|robot| robot.path.motions.clone());
-        let parts = motions.into_iter().flatten();
-        let parts: Option<Vec<_>> = parts
-            .map(|motion| made.parts.get(motion).copied())
-            .collect();
+        let parts = read.robot().and_then(|robot| {
+            // The motion to the joints at which a program begins goes along no move of the path.
+            let before = robot.program.motions.len().checked_sub(made.parts.len())?;
+            let motions = robot.path.motions.iter();
+            motions
+                .map(|motion| made.parts.get(motion.checked_sub(before)?).copied())
+                .collect::<Option<Vec<_>>>()
+        });
         let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
         let Some(parts) = parts else {
             return Err(Failure::input(

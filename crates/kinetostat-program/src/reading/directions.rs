@@ -86,13 +86,6 @@ impl RotaryWords<'_> {
                 "let the CAM system write angles (G43.4)",
             );
         }
-        if block.value(b'Q').is_some_and(|angle| angle != 0.0) {
-            return refuse(
-                b'Q',
-                "Q leans the tool from the direction of I, J and K",
-                "let the CAM system write the direction of the tool itself, without Q",
-            );
-        }
         if states_direction(block) {
             return refuse(
                 b'I',
@@ -114,6 +107,20 @@ impl RotaryWords<'_> {
                     axis.letter
                 ),
             ),
+        }
+    }
+
+    /// An angle by which the tool leans from how it is stated otherwise, in any block under tool centre point control.
+    pub fn refuse_lean(self, block: &Block<'_>, modes: &Modes) -> Result<(), ProgramError> {
+        let leans = block.value(b'Q').is_some_and(|angle| angle != 0.0);
+        match leans && modes.tool_centre_point {
+            false => Ok(()),
+            true => Err(block.refuse(
+                ProgramErrorKind::Ambiguous,
+                block.word(b'Q'),
+                "Q leans the tool from the direction that is stated",
+                "let the CAM system write the direction of the tool itself, without Q",
+            )),
         }
     }
 

@@ -116,6 +116,16 @@ fn broken_programs_are_refused_with_line_and_reason() {
             "Q leans the tool",
         ),
         (
+            format!("{VECTORS}G1 X20 I0.3 J0 K1 Q5 F600\n"),
+            4,
+            "Q leans the tool",
+        ),
+        (
+            "G21 G90\nG0 X0 Y0 Z50 A0 C0\nG43.4 H1 Z50\nG1 X20 A5 Q5 F600\n".to_owned(),
+            4,
+            "Q leans the tool",
+        ),
+        (
             begun(VECTORS, "G1 X9 I0 J0 K0 F100\n"),
             4,
             "the direction I, J, K has no length",

@@ -79,6 +79,7 @@ impl Interpreter<'_> {
             .extra
             .count_from(self.rotary_origins[self.modes.work_offset]);
         self.rotary.set_tool_centre_point(block, &mut self.modes)?;
+        self.rotary.refuse_lean(block, &self.modes)?;
         if block.codes.tool_centre_point {
             self.modes.directions = self.rotary.law_of_directions(block, &self.modes)?;
         }
