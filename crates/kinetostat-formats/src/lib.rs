@@ -78,7 +78,7 @@ pub use making::fault::{MakeError, MakeFinding};
 pub use making::joint_table::{JointStart, JointTable, JointTableError, joint_table};
 pub use making::limits::MakeLanguage;
 pub use making::make::{Made, make};
-pub use making::of_robot::make_of_robot;
+pub use making::of_robot::{base_of_robot, make_of_robot};
 pub use making::robot_events::events_of_robot;
 pub use making::template::{PlacesUnknown, Rapids, StatedFrame, StatedTool, Template, Zones};
 pub use model::frame::{Frame, FrameUse};

@@ -8,7 +8,7 @@ use kinetostat_model::Model;
 use nalgebra::Isometry3;
 
 use crate::convert::completed::{complete, refuse_leaning_tool, up};
-use crate::convert::free_turn::free_turn;
+use crate::convert::free_turn::{base_of_source, free_turn};
 use crate::convert::made::made;
 use crate::convert::template_file::TemplateFile;
 use crate::job::arguments::ProgramArgs;
@@ -70,7 +70,7 @@ pub(crate) fn for_run(
     template.template.most_points.get_or_insert(most);
     let turn = match setting.free_turn {
         FreeTurnWord::Choose | FreeTurnWord::Stiff => {
-            let mut turn = free_turn(&setting, &template.template, model, read.path())?;
+            let mut turn = free_turn(&setting, &template.template, model, &read)?;
             turn.description = in_source(&setting, &turn.description);
             Some(turn)
         }
@@ -129,12 +129,15 @@ pub(crate) fn for_run(
         forces.findings.clear();
         let read = read_program(&setting)?;
         let parts = read.robot().and_then(|robot| {
-            // The motion to the joints at which a program begins goes along no move of the path.
+            // The motion to the joints at which a program begins goes along no move of the path: it stands where that begins.
             let before = robot.program.motions.len().checked_sub(made.parts.len())?;
+            let (first, _) = *made.parts.first()?;
+            let part = |motion: &usize| match motion.checked_sub(before) {
+                Some(own) => made.parts.get(own).copied(),
+                None => Some((first, [0.0; 2])),
+            };
             let motions = robot.path.motions.iter();
-            motions
-                .map(|motion| made.parts.get(motion.checked_sub(before)?).copied())
-                .collect::<Option<Vec<_>>>()
+            motions.map(part).collect::<Option<Vec<_>>>()
         });
         let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
         let Some(parts) = parts else {
@@ -197,7 +200,9 @@ impl Stated {
         };
         let of_robot = || robot.and_then(|robot| robot.work_object.as_ref().and_then(of_source));
         Self {
-            base: template.base.pose.or_else(of_robot),
+            base: base_of_source(read)
+                .or(template.base.pose)
+                .or_else(of_robot),
             tools,
         }
     }

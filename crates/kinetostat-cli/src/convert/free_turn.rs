@@ -1,13 +1,13 @@
 //! Where tool and part are for the free turn of a program that is converted.
 
 use kinetostat::Pose;
-use kinetostat_formats::{StatedFrame, Template};
+use kinetostat_formats::{StatedFrame, Template, base_of_robot};
 use kinetostat_machining::Placement;
 use kinetostat_model::Model;
-use kinetostat_program::Path as ToolPath;
 use nalgebra::Isometry3;
 
 use crate::job::free_turn::{FreeTurn, chosen};
+use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
 
@@ -16,9 +16,12 @@ pub(crate) fn free_turn(
     setting: &Setting,
     template: &Template,
     model: &Model,
-    path: &ToolPath,
+    read: &ReadProgram<'_>,
 ) -> Answer<FreeTurn> {
-    let base = known(&template.base, "where the part is: pose under [base]")?;
+    let base = match base_of_source(read) {
+        Some(base) => in_metres(&base),
+        None => known(&template.base, "where the part is: pose under [base]")?,
+    };
     let tool = known(
         &template.tool.frame,
         "where the tip of the tool is: pose under [tool]",
@@ -34,7 +37,13 @@ pub(crate) fn free_turn(
         tool_orientation: base.rotation * orientation,
         ..Placement::at(base.translation.vector)
     };
-    chosen(setting, &mechanism, path, placement)
+    chosen(setting, &mechanism, read.path(), placement)
+}
+
+/// The robot's base, where the places of the source are in its axes and not in those of a part, mm.
+pub(crate) fn base_of_source(read: &ReadProgram<'_>) -> Option<Isometry3<f64>> {
+    let robot = read.robot()?;
+    base_of_robot(robot.program, &robot.path)?.pose
 }
 
 fn known(frame: &StatedFrame, what: &str) -> Answer<Pose> {

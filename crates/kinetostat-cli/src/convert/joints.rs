@@ -11,7 +11,7 @@ use kinetostat_model::Model;
 use kinetostat_program::{Knowledge, Move};
 use nalgebra::Isometry3;
 
-use crate::convert::free_turn::in_metres;
+use crate::convert::free_turn::{base_of_source, in_metres};
 use crate::job::program::ReadProgram;
 use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::robot_arguments::JointRowsWord;
@@ -146,15 +146,10 @@ fn frames(template: &Template, read: &ReadProgram<'_>) -> Answer<(Isometry3<f64>
         ));
     }
     let of_source = |frame: &FrameUse| frame.known().copied();
-    let base = template
-        .base
-        .pose
-        .or_else(|| match robot.map(|path| &path.work_object) {
-            // Of several work objects the path is in axes of the base.
-            Some(None) => Some(Isometry3::identity()),
-            Some(Some(frame)) => of_source(frame),
-            None => None,
-        });
+    let base = base_of_source(read).or(template.base.pose).or_else(|| {
+        let frame = robot.and_then(|path| path.work_object.as_ref());
+        frame.and_then(of_source)
+    });
     let numbered = template.tools.values().next();
     let of_template = numbered.map_or(template.tool.frame.pose, |tool| tool.frame.pose);
     let tool = of_template.or_else(|| robot.and_then(|path| of_source(path.tools.first()?)));

@@ -97,7 +97,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Answer<()> {
     let turned = match &args.free_turn {
         Some(named) => {
             let (model, _) = files.model(named, Path::new(""))?;
-            let turned = free_turn(&setting, &template.template, &model, read.path())?;
+            let turned = free_turn(&setting, &template.template, &model, &read)?;
             Some(turned)
         }
         None => None,

@@ -111,6 +111,51 @@ fn joint_values_give_the_poses_of_the_program() {
     run(here, &words(line)).answered();
 }
 
+/// Joint values are places in the robot's base, whatever base the template has for parts.
+#[test]
+fn joint_values_stay_where_they_are_beside_a_base_of_the_template() {
+    let here = place();
+    let here = here.path();
+    let based = CELL.replace(
+        "[tool]",
+        "[base]\npose = { position_mm = [100, 50, -100], a_b_c_kuka_deg = [10, 0, 0] }\n[tool]",
+    );
+    std::fs::write(here.join("based.toml"), based).unwrap();
+    let joints = |name: &str| -> Vec<Vec<f64>> {
+        let text = std::fs::read_to_string(here.join(name)).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with(['#', 'j']));
+        rows.map(|row| {
+            row.split(',')
+                .take(6)
+                .map(|cell| cell.parse().unwrap())
+                .collect()
+        })
+        .collect()
+    };
+    let line = "convert part.mod --to joints --model heavy_6r --joint-rows linear --out first.csv";
+    run(here, &words(line)).answered();
+    for (to, name) in [("krl", "part2.src"), ("rapid", "part2.mod")] {
+        let line = format!(
+            "convert first.csv --to {to} --model heavy_6r --joint-rows linear --template based.toml --out {name}"
+        );
+        let said = run(here, &words(&line)).answered();
+        let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            text.contains("the base of the template is not used"),
+            "{text}"
+        );
+        let line = format!(
+            "convert {name} --to joints --model heavy_6r --joint-rows linear --out again.csv --force-overwrite"
+        );
+        run(here, &words(&line)).answered();
+        let (first, again) = (joints("first.csv"), joints("again.csv"));
+        assert!(first.len() > 3 && again.len() == first.len(), "{to}");
+        let off = first.iter().flatten().zip(again.iter().flatten());
+        let off = largest(off.map(|(a, b)| (a - b).abs()));
+        assert!(off < 1e-5, "{to}: {off} deg");
+    }
+}
+
 #[test]
 fn what_is_missing_is_named() {
     let here = place();

@@ -256,6 +256,14 @@ fn forces_that_are_computed_from_the_cut_act_on_the_program_of_the_robot() {
     for to in ["krl", "rapid", "ls"] {
         let here = place(&job);
         is_the_same(here.path(), &format!("--to {to} --template cell.toml"));
+        // A motion to stated joints before all others goes along nothing of the path.
+        let here = place(&job);
+        let started = CELL.replace(
+            "[base]",
+            "start_joints_deg = [0, -90, 90, 0, 45, 0]\n[base]",
+        );
+        std::fs::write(here.path().join("cell.toml"), started).unwrap();
+        is_the_same(here.path(), &format!("--to {to} --template cell.toml"));
     }
     // A tool that leans is no tool of such forces.
     let here = place(&job.replace("[160, 0, 180]", "[160, 20, 180]"));

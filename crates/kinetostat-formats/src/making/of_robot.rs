@@ -8,6 +8,7 @@ use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs, Zone};
 use crate::model::program::RobotProgram;
+use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::tool_number;
 
@@ -40,16 +41,11 @@ pub fn make_of_robot(
         return Err(faults);
     }
     let mut template = template.clone();
-    if template.base == StatedFrame::default() {
-        template.base = match &robot.work_object {
-            Some(frame) => stated(frame, None, language),
-            // Of several work objects the path is in the axes of the robot's base.
-            None => StatedFrame {
-                number: Some(0),
-                pose: Some(nalgebra::Isometry3::identity()),
-                ..StatedFrame::default()
-            },
-        };
+    let given = template.base.clone();
+    if let Some(base) = base_of_robot(program, robot) {
+        template.base = base;
+    } else if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
+        template.base = stated(frame, None, language);
     }
     if template.tools.is_empty() && template.tool == StatedTool::default() {
         let tool = |index: usize, frame: &FrameUse| {
@@ -73,6 +69,12 @@ pub fn make_of_robot(
         }
     }
     let mut made = make(&robot.path, &events_of_robot(program), &template, language)?;
+    if given != StatedFrame::default() && given.pose != template.base.pose {
+        made.findings.push(MakeFinding::of(
+            None,
+            "the places of the source are those in the robot's base (joint values, or several work objects), and are written so: the base of the template is not used",
+        ));
+    }
     if matches!(
         language,
         MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
@@ -80,6 +82,29 @@ pub fn make_of_robot(
         made.findings.extend(zones(program));
     }
     Ok(made)
+}
+
+/// The robot's base as the frame of a made program, where the path is in its axes: of joint values, and of several work objects.
+///
+/// ```
+/// use kinetostat_formats::*;
+///
+/// let text = "MODULE M\nPROC main()\n\
+///     MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+///     ENDPROC\nENDMODULE\n";
+/// let program = read_rapid(vec![SourceFile::new("m.mod", text)], &ReadOptions::default()).unwrap();
+/// let robot = path_of(&program, &PathOptions::default()).unwrap();
+/// assert!(base_of_robot(&program, &robot).is_none());
+/// ```
+#[must_use]
+pub fn base_of_robot(program: &RobotProgram, robot: &RobotPath) -> Option<StatedFrame> {
+    let of_joints = |motion: &Motion| matches!(motion.site.target, TargetSite::Joints(_));
+    let is_in_base = robot.work_object.is_none() || program.motions.iter().any(of_joints);
+    is_in_base.then(|| StatedFrame {
+        number: Some(0),
+        pose: Some(nalgebra::Isometry3::identity()),
+        ..StatedFrame::default()
+    })
 }
 
 /// What becomes of exact stops and zones of the source.
