@@ -366,6 +366,8 @@ def survey(tree, linuxcnc, expand, folder, write):
             print(f"  {kind}: {taken} of {taken + refused} taken, {bare} without options")
     if linuxcnc is not None:
         print(f"  {compared} moves of programs compared with LinuxCNC's, largest difference {largest:.2e} mm")
+        figure = dict(name="LinuxCNC's nc_files, expanded: canonical moves beside LinuxCNC's own", measured=largest, asked=f"at most {PLACE_MM}", unit="mm", holds=bool(compared) and not wrong)
+        print("figure " + json.dumps(figure))
     for row in rows:
         if not write and row["file"] not in known:
             wrong.append(f"{row['file']} is not in {TABLE.name}")
@@ -388,6 +390,17 @@ def tree_folder(named):
     return None
 
 
+def unpacked_libraries(tree):
+    """A package that was unpacked, not installed: its libraries lie beside its programs."""
+    if tree is None or tree.parts[-4:] != ("usr", "share", "linuxcnc", "ncfiles"):
+        return
+    usr = tree.parents[2]
+    found = [usr / "lib", *usr.glob("lib/*-linux-gnu")]
+    os.environ["LD_LIBRARY_PATH"] = ":".join([os.environ.get("LD_LIBRARY_PATH", ""), *map(str, found)]).strip(":")
+    modules = usr / "lib" / "python3" / "dist-packages"
+    os.environ["PYTHONPATH"] = f"{os.environ.get('PYTHONPATH', '')}:{modules}".strip(":")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("programs", nargs="*", type=pathlib.Path, metavar="PROGRAM")
@@ -396,8 +409,9 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--expand", type=pathlib.Path, help="the example `expand`, if it is built already")
     options = parser.parse_args()
-    python = linuxcnc_python()
     tree = tree_folder(options.tree)
+    unpacked_libraries(tree)
+    python = linuxcnc_python()
     if python is None:
         print("SKIPPED: LinuxCNC's Python module `gcode` is not installed (Debian: linuxcnc-uspace); nothing was compared with it")
     if tree is None and not options.programs:

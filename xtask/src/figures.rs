@@ -43,7 +43,7 @@ impl Figure {
         }
     }
 
-    fn yes(name: impl Into<String>, holds: bool) -> Self {
+    pub fn yes(name: impl Into<String>, holds: bool) -> Self {
         Self {
             name: name.into(),
             measured: holds.into(),
@@ -136,54 +136,61 @@ pub fn measure(folder: &Path, arguments: &[&str]) -> Result<Used> {
     })
 }
 
+/// Adds the figures of a part.
+type Measure = fn(&mut Vec<Figure>) -> Result<()>;
+
 /// Measures everything and prints it.
+#[allow(clippy::print_stdout)] // this is the output that was requested
 pub fn run(options: &[&str]) -> Result<()> {
-    let (mut json, mut quick, mut only_builds, mut only_cutting) = (false, false, false, false);
+    let (mut json, mut quick, mut only) = (false, false, None);
     for option in options {
         match *option {
             "--json" => json = true,
             "--quick" => quick = true,
-            "--builds" => only_builds = true,
-            "--cutting" => only_cutting = true,
+            "--builds" => only = Some(builds::measured as Measure),
+            "--cutting" => only = Some(cutting::measured as Measure),
+            "--programs" => only = Some(programs::measured as Measure),
             other => bail!(
-                "figures: unknown option {other}; there are --json, --quick, --builds and --cutting"
+                "figures: unknown option {other}; there are --json, --quick, --builds, --cutting and --programs"
             ),
         }
     }
-    let mut figures = Vec::new();
-    if only_builds {
-        builds::measured(&mut figures)?;
-        return print(&figures, json);
+    let all: [Measure; 9] = [
+        demo,
+        pocket,
+        maps,
+        real_programs,
+        |figures| golden(figures, &GOLDEN),
+        cutting::measured,
+        programs::measured,
+        cost_growth,
+        speed,
+    ];
+    let mut parts: Vec<Measure> = only.map_or_else(|| all.to_vec(), |part| vec![part]);
+    if only.is_none() && !quick {
+        parts.push(clean_clone);
     }
     step(
         "build",
         cargo().args(["build", "--release", "--quiet", "-p", "kinetostat-cli"]),
     )?;
-    if only_cutting {
-        cutting::measured(&mut figures)?;
-        return print(&figures, json);
+    let mut figures = Vec::new();
+    for part in parts {
+        let known = figures.len();
+        part(&mut figures)?;
+        // All of them take half an hour: what is measured is shown.
+        if !json {
+            print(&figures[known..]);
+        }
     }
-    demo(&mut figures)?;
-    pocket(&mut figures)?;
-    maps(&mut figures)?;
-    real_programs(&mut figures)?;
-    golden(&mut figures, &GOLDEN)?;
-    cutting::measured(&mut figures)?;
-    programs::measured(&mut figures)?;
-    cost_growth(&mut figures)?;
-    speed(&mut figures)?;
-    if !quick {
-        clean_clone(&mut figures)?;
+    if json {
+        println!("{}", serde_json::to_string_pretty(&figures)?);
     }
-    print(&figures, json)
+    Ok(())
 }
 
 #[allow(clippy::print_stdout)] // this is the output that was requested
-fn print(figures: &[Figure], json: bool) -> Result<()> {
-    if json {
-        println!("{}", serde_json::to_string_pretty(figures)?);
-        return Ok(());
-    }
+fn print(figures: &[Figure]) {
     for f in figures {
         let measured = match &f.measured {
             Value::Number(n) => n
@@ -197,7 +204,6 @@ fn print(figures: &[Figure], json: bool) -> Result<()> {
             mark, f.name, measured, f.unit, f.asked
         );
     }
-    Ok(())
 }
 
 fn number(value: &Value, name: &str) -> f64 {
@@ -519,8 +525,8 @@ pub fn golden(figures: &mut Vec<Figure>, crates: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// The figures in what a test or an example printed.
-fn printed(text: &str) -> Result<Vec<Figure>> {
+/// The figures in what a test, an example or a script printed.
+pub fn printed(text: &str) -> Result<Vec<Figure>> {
     let lines = text.lines().filter_map(|line| {
         let at = line.find("figure {")?;
         let figure = serde_json::from_str(&line[at + 7..])

@@ -1,14 +1,49 @@
-//! Figures of programs of robots and machines: how fast they are read and written, and what becomes of arcs.
+//! Figures of programs of robots and machines: which are read, what they come to, how fast they are read and written.
 
 use std::fs;
+use std::process::{Command, Stdio};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
-use crate::figures::{Figure, Scratch, measure, tables};
+use crate::figures::{Figure, Scratch, golden, measure, printed, tables};
+use crate::root;
 
-/// Blocks and residual of the demonstration's groove, with arcs and with straight pieces, and the speed of every language.
+/// Those of the tests, of LinuxCNC's interpreter, of the demonstration's groove, and the speed of every language.
 pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
+    let crates = [
+        "kinetostat-program",
+        "kinetostat-formats",
+        "kinetostat-machining",
+    ];
+    golden(figures, &crates)?;
+    linuxcnc(figures)?;
+    groove(figures)?;
+    tables(figures, &["kinetostat-formats", "--example", "speed"])
+}
+
+/// LinuxCNC's own programs through its interpreter, as they are and run flat. The script says what it leaves out.
+fn linuxcnc(figures: &mut Vec<Figure>) -> Result<()> {
+    let script = "scripts/nc_files_with_linuxcnc.py";
+    let output = Command::new("python3")
+        .arg(script)
+        .current_dir(root())
+        .stderr(Stdio::inherit())
+        .output()
+        .with_context(|| format!("cannot run {script}"))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    for line in text.lines().filter(|line| !line.starts_with("figure {")) {
+        eprintln!("{line}");
+    }
+    figures.append(&mut printed(&text)?);
+    if !output.status.success() {
+        figures.push(Figure::yes(format!("{script} finds no difference"), false));
+    }
+    Ok(())
+}
+
+/// Blocks and residual of the demonstration's groove, with arcs and with straight pieces.
+fn groove(figures: &mut Vec<Figure>) -> Result<()> {
     let scratch = Scratch::new("arcs")?;
     let used = measure(&scratch.0, &["demo", "--out", "demo"])?;
     if !used.success {
@@ -52,5 +87,5 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
             "mm",
         ));
     }
-    tables(figures, &["kinetostat-formats", "--example", "speed"])
+    Ok(())
 }

@@ -59,6 +59,17 @@ pub fn programs_with(folder: &str, endings: &[&str]) -> Vec<(String, Vec<u8>)> {
     all.filter(|(name, _)| ends(name)).collect()
 }
 
+/// Prints a number of public programs of others: eight of each language are asked for.
+fn public(what: &str, count: usize) -> bool {
+    let measured = f64::from(u32::try_from(count).expect("few"));
+    kinetostat_testing::figure::at_least(
+        &format!("public programs: {what}"),
+        measured,
+        8.0,
+        "files",
+    )
+}
+
 /// Ends of names, and motions of what is read with the options as they are.
 const READ: [(&str, usize); 7] = [
     ("voorbeeld_main.prg", 0),
@@ -74,7 +85,7 @@ const READ: [(&str, usize); 7] = [
 const MALFORMED: [&str; 2] = ["letters.mod", "Stena_obluk_MainModule.mod"];
 
 #[test]
-fn rapid_programs_come_back_byte_for_byte() {
+fn figure_rapid_programs_come_back_byte_for_byte() {
     let mut read = Vec::new();
     let mut left = Vec::new();
     let all = programs("rapid");
@@ -110,6 +121,10 @@ fn rapid_programs_come_back_byte_for_byte() {
         return;
     }
     assert_eq!(left.len(), all.len() - MALFORMED.len());
+    assert!(public(
+        "RAPID files that come back byte for byte",
+        left.len()
+    ));
     assert_eq!(read.len(), READ.len());
     for (end, motions) in READ {
         assert!(
@@ -128,7 +143,7 @@ fn rapid_programs_come_back_byte_for_byte() {
 }
 
 #[test]
-fn corrected_rapid_programs_are_read_again_at_the_corrected_places() {
+fn figure_corrected_rapid_programs_are_read_again_at_the_corrected_places() {
     let all = programs("rapid");
     let mut corrected = 0;
     for (name, bytes) in all.clone() {
@@ -170,6 +185,7 @@ fn corrected_rapid_programs_are_read_again_at_the_corrected_places() {
     }
     // Those of `READ` and one on a track.
     assert!(all.is_empty() || corrected == READ.len() + 1, "{corrected}");
+    assert!(all.is_empty() || public("RAPID files corrected and read again", corrected));
 }
 
 /// What is stated for programs that are not wholly known from their text.
@@ -245,7 +261,8 @@ fn come_back(folder: &str, language: Language, plain: &[(&str, usize)], refused:
         return;
     }
     assert_eq!(left, all.len() - refused.len());
-    assert!(left >= 8);
+    let what = "files that come back byte for byte, are corrected and read again";
+    assert!(public(&format!("{language:?} {what}"), left));
     assert_eq!(read_plain.len(), plain.len(), "{read_plain:?}");
     for (end, motions) in plain {
         let found = |(name, count): &(&str, usize)| name.ends_with(end) && count == motions;
@@ -319,14 +336,15 @@ fn moved(name: &str, program: &RobotProgram) {
 }
 
 #[test]
-fn fanuc_programs_come_back_byte_for_byte() {
+fn figure_fanuc_programs_come_back_byte_for_byte() {
     come_back("ls", Language::FanucLs, &READ_LS, &REFUSED_LS);
 }
 
 #[test]
-fn apt_files_come_back_byte_for_byte() {
+fn figure_apt_files_come_back_byte_for_byte() {
     come_back("apt", Language::Apt, &READ_APT, &REFUSED_APT);
 }
+
 /// Ends of the names of KRL modules, and motions of what is read with the options as they are.
 const KRL_READ: [(&str, usize); 6] = [
     ("_My_Job", 839),
@@ -367,7 +385,7 @@ fn krl_modules() -> Vec<(String, Vec<SourceFile>)> {
 }
 
 #[test]
-fn krl_programs_come_back_byte_for_byte() {
+fn figure_krl_programs_come_back_byte_for_byte() {
     let (mut read, mut left, mut files_left, mut files_all) = (Vec::new(), Vec::new(), 0, 0);
     for (name, files) in krl_modules() {
         files_all += files.len();
@@ -400,7 +418,8 @@ fn krl_programs_come_back_byte_for_byte() {
     if files_all == 0 {
         return;
     }
-    assert!(files_left >= 8, "{left:?}");
+    let what = "KRL files that come back byte for byte";
+    assert!(public(what, files_left), "{left:?}");
     assert_eq!(read.len(), KRL_READ.len(), "{read:?}");
     for (end, motions) in KRL_READ {
         assert!(
@@ -418,8 +437,11 @@ fn krl_programs_come_back_byte_for_byte() {
 }
 
 #[test]
-fn corrected_krl_programs_are_read_again_at_the_corrected_places() {
-    for (name, files) in krl_modules() {
+fn figure_corrected_krl_programs_are_read_again_at_the_corrected_places() {
+    let all = krl_modules();
+    let mut corrected = 0;
+    for (name, files) in all.clone() {
+        let count = files.len();
         let mut options = ReadOptions::default();
         options.external_axes = ExternalAxes::Carried;
         options.unknown_targets = UnknownTargets::LeftAsWritten;
@@ -449,5 +471,7 @@ fn corrected_krl_programs_are_read_again_at_the_corrected_places() {
             let away = (found - piece.position_mm).norm();
             assert!(away <= 1e-3, "{name}: {away} mm");
         }
+        corrected += usize::from(!pieces.is_empty()) * count;
     }
+    assert!(all.is_empty() || public("KRL files corrected and read again", corrected));
 }

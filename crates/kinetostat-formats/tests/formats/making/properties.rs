@@ -3,6 +3,8 @@
 
 use kinetostat_formats::*;
 use kinetostat_program::{Program, ReadOptions as Reading, interpret};
+use kinetostat_testing::Worst;
+use kinetostat_testing::figure::at_most;
 
 use super::{ROBOTS, cell};
 use crate::harness::Chance;
@@ -44,8 +46,9 @@ fn random(chance: &mut Chance, moves: usize) -> String {
 }
 
 #[test]
-fn random_paths_are_kept() {
+fn figure_random_paths_are_kept() {
     let mut done = 0;
+    let (mut away, mut turned) = (Worst::new(), Worst::new());
     for seed in 0..100 {
         let mut chance = Chance::new(seed);
         let text = random(&mut chance, 30);
@@ -67,6 +70,8 @@ fn random_paths_are_kept() {
                 "{seed} {into:?} {:?}",
                 made.kept
             );
+            away.add(made.kept.position_mm);
+            turned.add(made.kept.orientation_rad);
             assert!(
                 made.kept.chord_mm < 0.0101 && made.kept.arc_mm < 1e-2,
                 "{seed} {into:?} {:?}",
@@ -81,8 +86,13 @@ fn random_paths_are_kept() {
                 "{seed} {into:?} {:?}",
                 made.kept
             );
+            away.add(made.kept.position_mm);
         }
         done += 1;
     }
     assert!(done > 50, "{done}");
+    let name = "converted programs, read again: places beside those of the path";
+    assert!(at_most(name, away.value(), 1e-6, "mm"), "{away:?}");
+    let name = "converted programs, read again: orientations beside those of the path";
+    assert!(at_most(name, turned.value(), 1e-9, "rad"), "{turned:?}");
 }

@@ -6,6 +6,7 @@ use kinetostat_machining::internal::configuration_at;
 use kinetostat_machining::{
     Placement, TurnBounds, TurnChoice, TurnRate, TurnTask, TurnedPath, choose_turns, with_turns,
 };
+use kinetostat_testing::figure::{at_least, at_most};
 use kinetostat_testing::{Worst, largest};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -77,7 +78,7 @@ fn start_of(choice: &TurnChoice) -> [f64; 6] {
 
 /// At constant turn the wrist is straight in the middle of the line. The turns that are chosen stay away from that, and keep the rate.
 #[test]
-fn a_planted_singular_posture_is_gone_around() {
+fn figure_a_planted_singular_posture_is_gone_around() {
     let (mechanism, path, placement) = across_a_straight_wrist();
     let mut task = TurnTask::new(&mechanism, &path, placement);
     task.bounds = TurnBounds {
@@ -101,7 +102,8 @@ fn a_planted_singular_posture_is_gone_around() {
     let turned = with_turns(&task, &choice).expect("a path");
     let found = follow(&mechanism, &placement, &turned, &start_of(&choice), 300);
     assert!(found.samples > 900, "{}", found.samples);
-    assert!(found.least >= 0.1, "{}", found.least);
+    let name = "free turn: smallest singular value beside a planted singular posture";
+    assert!(at_least(name, found.least, 0.1, "1"), "{}", found.least);
     // What is reported is what is there, but for places between those that were looked at.
     assert!(
         (found.least - choice.smallest_singular_value).abs() < 2e-3,
@@ -132,8 +134,9 @@ fn the_tool_turns_where_it_must() {
 
 /// Between any two samples of the path that is written the tool turns no faster than allowed, and about nothing but its axis.
 #[test]
-fn no_step_is_above_the_rate() {
+fn figure_no_step_is_above_the_rate() {
     let (mechanism, path, placement) = around_the_base();
+    let mut by_rate = Worst::new();
     for (rate, station_mm) in [(0.06, 50.0), (0.045, 60.0), (0.1, 37.0)] {
         let mut task = task_around(&mechanism, &path, placement);
         task.station_mm = station_mm;
@@ -159,6 +162,7 @@ fn no_step_is_above_the_rate() {
                     );
                     if way > 1e-3 {
                         fastest = largest([fastest, turn / way]);
+                        by_rate.add(turn / way / rate);
                         turned_by += turn;
                     }
                     steps += 1;
@@ -176,6 +180,8 @@ fn no_step_is_above_the_rate() {
             "{fastest} {reported}"
         );
     }
+    let name = "free turn: fastest turn along the written path, share of the rate allowed";
+    assert!(at_most(name, by_rate.value(), 1.001, "1"), "{by_rate:?}");
 }
 
 /// By time: at twice the feed the tool turns half as far on a millimetre.
