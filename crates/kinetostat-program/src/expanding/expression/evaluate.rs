@@ -1,9 +1,13 @@
 //! Values of expressions.
 
 use crate::expanding::expression::tree::{Expression, Function, Operator, Parameter};
+use crate::expanding::options::Dialect;
 
 /// Two numbers that differ by less are equal (LinuxCNC 2.9, `TOLERANCE_EQUAL`; later ones have 1e-6).
 const EQUAL: f64 = 1e-4;
+
+/// Two numbers whose difference, as a share, is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// A whole number may be off by this.
 const WHOLE: f64 = 1e-4;
@@ -14,19 +18,16 @@ pub(crate) trait Parameters {
     fn numbered(&self, number: u32) -> Result<f64, String>;
     /// The value of a named one; none where it has not been given any.
     fn named(&self, name: &str) -> Result<Option<f64>, String>;
-    /// Whether a numbered parameter has not been given a value; none where that makes no difference (LinuxCNC).
-    fn is_vacant(&self, number: u32) -> Option<bool>;
+    /// Whether a numbered parameter has not been given a value.
+    fn is_vacant(&self, number: u32) -> bool;
+    /// Whose rules hold.
+    fn rules(&self) -> Dialect;
     /// Whether a number is that of a parameter.
     fn has_number(&self, number: u32) -> bool;
 }
 
 impl Expression {
-    /// `#0`, which never has a value.
-    pub fn is_number_zero(&self) -> bool {
-        matches!(self, Self::Parameter(of) if **of == Parameter::Number(Self::Number(0.0)))
-    }
-
-    /// Whether this is a parameter that has not been given a value (Fanuc).
+    /// Whether this is a parameter that has not been given a value: Fanuc's vacant one.
     pub fn is_vacant(&self, parameters: &dyn Parameters) -> Result<bool, String> {
         let Self::Parameter(of) = self else {
             return Ok(false);
@@ -34,11 +35,7 @@ impl Expression {
         match &**of {
             Parameter::Number(number) => {
                 let number = whole(number.value(parameters)?, "a parameter")?;
-                match parameters.is_vacant(number) {
-                    Some(vacant) => Ok(vacant),
-                    None if number == 0 => Err("#0 is no parameter".to_owned()),
-                    None => Ok(false),
-                }
+                Ok(parameters.is_vacant(number))
             }
             Parameter::Name(_) => Ok(false),
         }
@@ -63,28 +60,33 @@ impl Expression {
                 Parameter::Name(name) => parameters.named(name)?.is_some(),
             }),
             Self::Negative(of) => -of.value(parameters)?,
-            Self::Function(function @ (Function::Floor | Function::Ceiling), of)
-                if parameters.is_vacant(0).is_some() =>
-            {
-                // Fanuc's FIX drops the digits behind the point, its FUP goes away from zero.
-                let value = of.value(parameters)?;
-                value.signum() * function.of(value.abs())?
+            Self::Function(function, of) => {
+                let of = of.value(parameters)?;
+                of_controller(parameters.rules(), function.of(of)?, || {
+                    function.of_fanuc(of)
+                })?
             }
-            Self::Function(function, of) => function.of(of.value(parameters)?)?,
             Self::ArcTangent(y, x) => {
-                let (y, x) = (y.value(parameters)?, x.value(parameters)?);
-                y.atan2(x).to_degrees()
+                let angle = y
+                    .value(parameters)?
+                    .atan2(x.value(parameters)?)
+                    .to_degrees();
+                of_controller(parameters.rules(), angle, || Ok(full_turn(angle)))?
             }
-            Self::Operation(operator @ (Operator::Equal | Operator::NotEqual), left, right)
-                if left.is_number_zero() || right.is_number_zero() =>
-            {
-                let [left, right] = [left, right].map(|side| side.is_vacant(parameters));
-                let same = left? == right?;
+            Self::Operation(operator @ (Operator::Equal | Operator::NotEqual), left, right) => {
+                let same = are_equal(left, right, parameters)?;
                 truth(same == (*operator == Operator::Equal))
             }
             Self::Operation(operator, left, right) => {
-                operator.of(left.value(parameters)?, right.value(parameters)?)?
+                let (left, right) = (left.value(parameters)?, right.value(parameters)?);
+                let value = operator.of(left, right)?;
+                of_controller(parameters.rules(), value, || operator.of_fanuc(left, right))?
             }
+            Self::Unbracketed(of) if parameters.rules() == Dialect::Fanuc => {
+                let _ = of;
+                return Err("AND, OR or XOR beside other operations: in which order they are done depends on the controller; put brackets around each".to_owned());
+            }
+            Self::Unbracketed(of) => of.value(parameters)?,
         };
         match value.is_finite() {
             true => Ok(value),
@@ -104,6 +106,72 @@ pub(crate) fn whole(value: f64, what: &str) -> Result<u32, String> {
 
 fn truth(holds: bool) -> f64 {
     f64::from(u8::from(holds))
+}
+
+/// The value of a controller's rules; refused where they are not known and it makes a difference.
+fn of_controller(
+    rules: Dialect,
+    linuxcnc: f64,
+    fanuc: impl FnOnce() -> Result<f64, String>,
+) -> Result<f64, String> {
+    match rules {
+        Dialect::LinuxCnc => Ok(linuxcnc),
+        Dialect::Fanuc => fanuc(),
+        Dialect::Undecided => match fanuc() {
+            Ok(fanuc) if fanuc == linuxcnc => Ok(linuxcnc),
+            Ok(fanuc) => Err(format!(
+                "for LinuxCNC the value is {linuxcnc}, for Fanuc {fanuc}; name the dialect (--dialect)"
+            )),
+            Err(reason) => Err(format!(
+                "for LinuxCNC the value is {linuxcnc}, for Fanuc: {reason}; name the dialect (--dialect)"
+            )),
+        },
+    }
+}
+
+/// An angle of Fanuc's ATAN and ASIN as the controller is delivered (parameter 6004, NAT = 0): none is negative.
+fn full_turn(angle: f64) -> f64 {
+    match angle < 0.0 {
+        true => angle + 360.0,
+        false => angle,
+    }
+}
+
+/// Whether two values are equal. Fanuc's vacant parameter equals another vacant one and no number, not even 0 (B-63944EN, 16.1).
+fn are_equal(
+    left: &Expression,
+    right: &Expression,
+    parameters: &dyn Parameters,
+) -> Result<bool, String> {
+    let rules = parameters.rules();
+    let vacant = match rules {
+        Dialect::LinuxCnc => [false; 2],
+        Dialect::Fanuc | Dialect::Undecided => {
+            [left.is_vacant(parameters)?, right.is_vacant(parameters)?]
+        }
+    };
+    if rules == Dialect::Fanuc && vacant != [false; 2] {
+        return Ok(vacant[0] == vacant[1]);
+    }
+    let (left, right) = (left.value(parameters)?, right.value(parameters)?);
+    let apart = (left - right).abs();
+    if rules == Dialect::Undecided && vacant[0] != vacant[1] && apart < EQUAL {
+        return Err("a parameter without a value: for LinuxCNC it equals 0, for Fanuc it does not; give it a value before, or name the dialect (--dialect)".to_owned());
+    }
+    if rules != Dialect::LinuxCnc && apart > ROUNDING * left.abs().max(1.0) && apart < EQUAL {
+        return Err(format!(
+            "{left} and {right} are nearly equal: LinuxCNC takes them for equal, Fanuc does not; round them, or compare with LT or GT"
+        ));
+    }
+    Ok(apart < EQUAL)
+}
+
+/// The bits of a whole number, for Fanuc's AND, OR and XOR.
+fn bits(value: f64) -> Result<u32, String> {
+    whole(
+        value,
+        "bits (AND, OR and XOR of Fanuc take whole numbers that are not negative)",
+    )
 }
 
 impl Function {
@@ -130,7 +198,33 @@ impl Function {
     }
 }
 
+impl Function {
+    /// As Fanuc's controllers have it: FIX drops the digits behind the point, FUP goes away from zero.
+    fn of_fanuc(self, x: f64) -> Result<f64, String> {
+        match self {
+            Self::Floor | Self::Ceiling => Ok(x.signum() * self.of(x.abs())?),
+            Self::ArcSine => Ok(full_turn(self.of(x)?)),
+            _ => self.of(x),
+        }
+    }
+}
+
 impl Operator {
+    /// As Fanuc's controllers have it: AND, OR and XOR bit by bit.
+    fn of_fanuc(self, left: f64, right: f64) -> Result<f64, String> {
+        Ok(match self {
+            Self::And => f64::from(bits(left)? & bits(right)?),
+            Self::Or => f64::from(bits(left)? | bits(right)?),
+            Self::ExclusiveOr => f64::from(bits(left)? ^ bits(right)?),
+            Self::Modulo if left < 0.0 || right < 0.0 => {
+                return Err(
+                    "the sign of MOD with a negative number depends on the controller".to_owned(),
+                );
+            }
+            _ => self.of(left, right)?,
+        })
+    }
+
     fn of(self, left: f64, right: f64) -> Result<f64, String> {
         let equal = (left - right).abs() < EQUAL;
         Ok(match self {

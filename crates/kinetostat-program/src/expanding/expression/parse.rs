@@ -109,13 +109,13 @@ impl<'l> Cursor<'l> {
     /// What may stand behind the sign of an assignment: Fanuc's controllers take operations without brackets there, and nothing
     /// else could be meant elsewhere.
     pub fn assigned(&mut self) -> Read<Expression> {
-        self.deeper(|cursor| cursor.operations(0))
+        self.deeper(|cursor| Ok(cursor.operations(0)?.0))
     }
 
     /// `[ ... ]`.
     pub fn bracketed(&mut self) -> Read<Expression> {
         self.expect(b'[', "before an expression")?;
-        let found = self.deeper(|cursor| cursor.operations(0))?;
+        let (found, _) = self.deeper(|cursor| cursor.operations(0))?;
         self.expect(b']', "behind an expression")?;
         Ok(found)
     }
@@ -146,18 +146,24 @@ impl<'l> Cursor<'l> {
         }
     }
 
-    /// Operations whose operators bind more than `above`.
-    fn operations(&mut self, above: u8) -> Read<Expression> {
-        let mut left = self.value()?;
+    /// Operations whose operators bind more than `above`, and the last one that was done, where there is one.
+    fn operations(&mut self, above: u8) -> Read<(Expression, Option<Operator>)> {
+        let (mut left, mut last) = (self.value()?, None);
         while let Some((operator, behind)) = self.operator() {
             if operator.precedence() <= above {
                 break;
             }
             self.at = behind;
-            let right = self.deeper(|cursor| cursor.operations(operator.precedence()))?;
+            let (right, of_right) =
+                self.deeper(|cursor| cursor.operations(operator.precedence()))?;
             left = Expression::Operation(operator, Box::new(left), Box::new(right));
+            let others = [last, of_right].into_iter().flatten();
+            if operator.is_logical() && others.into_iter().any(|other| other != operator) {
+                left = Expression::Unbracketed(Box::new(left));
+            }
+            last = Some(operator);
         }
-        Ok(left)
+        Ok((left, last))
     }
 
     /// The operator that stands here, and where it ends.

@@ -13,6 +13,8 @@ pub(crate) enum Expression {
     /// `ATAN[y]/[x]`.
     ArcTangent(Box<Self>, Box<Self>),
     Operation(Operator, Box<Self>, Box<Self>),
+    /// An operation with AND, OR or XOR beside others without brackets: LinuxCNC does it last, Fanuc has AND with `*`, OR and XOR with `+`.
+    Unbracketed(Box<Self>),
 }
 
 /// A place that holds a value.
@@ -100,6 +102,11 @@ impl Operator {
         ("OR", Self::Or),
         ("XOR", Self::ExclusiveOr),
     ];
+
+    /// AND, OR or XOR.
+    pub fn is_logical(self) -> bool {
+        matches!(self, Self::And | Self::Or | Self::ExclusiveOr)
+    }
 
     /// The higher is done first.
     pub fn precedence(self) -> u8 {

@@ -2,7 +2,8 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
-use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened, Rules};
+use crate::expanding::options::Dialect;
+use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
 use crate::text::lex::{Token, tokens_of};
@@ -13,7 +14,7 @@ impl Runner<'_> {
         if values.len() > LOCAL {
             return Err(self.refuse("a call takes at most 30 values", "give it fewer"));
         }
-        let mut numbered = Locals::new(Rules::LinuxCnc);
+        let mut numbered = Locals::new(Dialect::LinuxCnc);
         for (number, value) in (1..).zip(values) {
             numbered.set(number, self.value(value)?);
         }

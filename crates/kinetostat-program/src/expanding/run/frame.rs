@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::expanding::options::Dialect;
 use crate::expanding::run::modal::Context;
 
 /// Numbered parameters that are a subprogram's own: 1 to 30.
@@ -10,25 +11,18 @@ pub(crate) const LOCAL: usize = 30;
 /// So many are they on Fanuc: 1 to 33.
 const LOCAL_OF_FANUC: usize = 33;
 
-/// Whose rules parameters follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Rules {
-    LinuxCnc,
-    /// A number that was not given is vacant: `#1 EQ #0`.
-    Fanuc,
-}
-
 /// Numbered parameters of an open subprogram.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Locals {
     values: [f64; LOCAL_OF_FANUC],
     /// Bit n: number n has been given.
     given: u64,
-    pub rules: Rules,
+    /// Whose rules they follow. Fanuc: a number that was not given is vacant, `#1 EQ #0`.
+    pub rules: Dialect,
 }
 
 impl Locals {
-    pub fn new(rules: Rules) -> Self {
+    pub fn new(rules: Dialect) -> Self {
         Self {
             values: [0.0; LOCAL_OF_FANUC],
             given: 0,
@@ -39,8 +33,8 @@ impl Locals {
     /// Whether a number is one of a subprogram's own.
     pub fn has(&self, number: u32) -> bool {
         let most = match self.rules {
-            Rules::LinuxCnc => LOCAL,
-            Rules::Fanuc => LOCAL_OF_FANUC,
+            Dialect::LinuxCnc | Dialect::Undecided => LOCAL,
+            Dialect::Fanuc => LOCAL_OF_FANUC,
         };
         (1..=most).contains(&(number as usize))
     }
@@ -128,7 +122,7 @@ impl Frame {
             next: first,
             first,
             opened,
-            numbered: Locals::new(Rules::LinuxCnc),
+            numbered: Locals::new(Dialect::LinuxCnc),
             arguments: None,
             named: BTreeMap::new(),
             loops: Vec::new(),

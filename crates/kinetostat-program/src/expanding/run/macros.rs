@@ -6,7 +6,7 @@
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Parameter;
 use crate::expanding::options::Dialect;
-use crate::expanding::run::frame::{Frame, Locals, Opened, Rules};
+use crate::expanding::run::frame::{Frame, Locals, Opened};
 use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
 
@@ -63,7 +63,7 @@ impl Runner<'_> {
                 "write an O word with call, or name the dialect (--dialect fanuc)",
             ));
         }
-        let (mut arguments, mut called, mut times) = (Locals::new(Rules::Fanuc), None, 1.0);
+        let (mut arguments, mut called, mut times) = (Locals::new(Dialect::Fanuc), None, 1.0);
         for (letter, value) in words {
             match (letter, number_of(letter)) {
                 (b'N', _) => {}
@@ -114,14 +114,14 @@ impl Runner<'_> {
         Ok(true)
     }
 
-    /// `#1 = #0`.
+    /// `#1 = #0`, or another one that has no value.
     pub fn vacate(&mut self, to: &Parameter) -> Result<(), ProgramError> {
         match self.number_of(to)? {
             Some(number) if self.frame().numbered.has(number) => {
                 self.frame_mut().numbered.vacate(number);
                 Ok(())
             }
-            Some(number @ 100..=999) => {
+            Some(number @ 34..=999) => {
                 self.shared.numbered.remove(&number);
                 Ok(())
             }

@@ -17,4 +17,5 @@ pub(crate) mod saves;
 pub(crate) mod source;
 pub(crate) mod splines;
 pub(crate) mod steps;
+pub(crate) mod system_variables;
 pub(crate) mod taps;

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::expanding::expression::evaluate::Parameters;
 use crate::expanding::expression::tree::Parameter;
-use crate::expanding::run::frame::{Frame, Rules};
+use crate::expanding::options::Dialect;
+use crate::expanding::run::frame::Frame;
+use crate::expanding::run::system_variables::{may_be_given, not_given};
 use crate::reading::interpreting::interpreter::Interpreter;
 
 /// Numbers below this are parameters (LinuxCNC, `RS274NGC_MAX_PARAMETERS`).
@@ -27,6 +29,8 @@ pub(crate) struct Seen<'r, 'o> {
     pub state: &'r Interpreter<'o>,
     /// Whether the place of the tool is another one than the programmed one.
     pub place_is_hidden: bool,
+    /// Whether coordinates are scaled, mirrored or turned.
+    pub is_turned: bool,
     /// Open subprograms.
     pub depth: usize,
 }
@@ -34,8 +38,9 @@ pub(crate) struct Seen<'r, 'o> {
 impl Parameters for Seen<'_, '_> {
     fn numbered(&self, number: u32) -> Result<f64, String> {
         match number {
-            0 => Err("#0 is no parameter".to_owned()),
-            5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
+            0 if self.rules() == Dialect::Fanuc => Ok(0.0),
+            0 => Err("#0 is no parameter; Fanuc's controllers have it for one without a value (--dialect fanuc)".to_owned()),
+            5001..=5003 | 5420..=5428 if self.place_is_hidden => Err(HIDDEN.to_owned()),
             n if self.frame.numbered.has(n) => Ok(self.frame.numbered.value(n)),
             n if n < NUMBERS => match self.state.numbered_state(n) {
                 // Where the state does not know it, the user may.
@@ -44,7 +49,13 @@ impl Parameters for Seen<'_, '_> {
                     given.copied().ok_or(reason)
                 }),
                 // As a controller has it that nobody has told a value.
-                None => Ok(self.shared.numbered.get(&n).copied().unwrap_or(0.0)),
+                None => match self.shared.numbered.get(&n) {
+                    Some(given) => Ok(*given),
+                    None => {
+                        let own = not_given(n, self.rules(), self.state, self.is_turned);
+                        own.unwrap_or(Ok(0.0))
+                    }
+                },
             },
             _ => Err(format!(
                 "#{number} is no parameter; they end with #{}",
@@ -67,17 +78,21 @@ impl Parameters for Seen<'_, '_> {
         }
     }
 
-    fn is_vacant(&self, number: u32) -> Option<bool> {
+    fn is_vacant(&self, number: u32) -> bool {
         let own = &self.frame.numbered;
-        match own.rules {
-            Rules::LinuxCnc => None,
-            Rules::Fanuc if number == 0 => Some(true),
-            Rules::Fanuc if own.has(number) => Some(own.is_vacant(number)),
-            Rules::Fanuc => {
-                let kept = self.state.numbered_state(number).is_some();
-                Some(!kept && !self.shared.numbered.contains_key(&number))
+        match own.has(number) {
+            true => own.is_vacant(number),
+            false => {
+                number < NUMBERS
+                    && self.state.numbered_state(number).is_none()
+                    && !self.shared.numbered.contains_key(&number)
+                    && not_given(number, self.rules(), self.state, self.is_turned).is_none()
             }
         }
+    }
+
+    fn rules(&self) -> Dialect {
+        self.frame.numbered.rules
     }
 
     fn has_number(&self, number: u32) -> bool {
@@ -91,7 +106,7 @@ pub(crate) fn assign(
     value: f64,
     frame: &mut Frame,
     shared: &mut Shared,
-) -> Result<(), String> {
+) -> Result<(), (String, &'static str)> {
     match (parameter, number) {
         (Parameter::Name(name), _) if name.starts_with('_') => {
             shared.named.insert(name.clone(), value);
@@ -104,13 +119,22 @@ pub(crate) fn assign(
         }
         (Parameter::Number(_), Some(n)) if (1..NUMBERS).contains(&n) => {
             if matches!(n, 5161..=5390 | 5400..=5428) {
-                return Err(format!(
-                    "#{n} is kept by the controller: offsets, tools or the place of the tool"
+                return Err((
+                    format!(
+                        "#{n} is kept by the controller: offsets, tools or the place of the tool"
+                    ),
+                    "use another parameter, or G10 and work offsets",
                 ));
             }
+            may_be_given(n, frame.numbered.rules)?;
             shared.numbered.insert(n, value);
         }
-        (Parameter::Number(_), _) => return Err("a parameter that there is not".to_owned()),
+        (Parameter::Number(_), _) => {
+            return Err((
+                "a parameter that there is not".to_owned(),
+                "use #1 to #33 or #100 to #999",
+            ));
+        }
     }
     Ok(())
 }

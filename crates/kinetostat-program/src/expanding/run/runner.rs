@@ -8,7 +8,7 @@ use crate::expanding::expression::tree::{Expression, Parameter};
 use crate::expanding::flat::Flat;
 use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::stage::Radius;
-use crate::expanding::run::frame::{Frame, Label, Locals, Opened, Rules};
+use crate::expanding::run::frame::{Frame, Label, Locals, Opened};
 use crate::expanding::run::modal::Functions;
 use crate::expanding::run::parameters::{Seen, Shared, assign};
 use crate::expanding::run::source::{Source, Subprograms};
@@ -49,12 +49,8 @@ pub(crate) struct Runner<'o> {
 
 /// The frame of the program itself.
 fn program_frame(dialect: Dialect) -> Frame {
-    let rules = match dialect {
-        Dialect::Fanuc => Rules::Fanuc,
-        Dialect::LinuxCnc | Dialect::Undecided => Rules::LinuxCnc,
-    };
     Frame {
-        numbered: Locals::new(rules),
+        numbered: Locals::new(dialect),
         ..Frame::new(0, 0, Opened::Program)
     }
 }
@@ -138,7 +134,7 @@ impl<'o> Runner<'o> {
         found.map_err(|reason| self.refuse(&reason, "correct the expression"))
     }
 
-    /// Whether an expression is a parameter without a value (Fanuc).
+    /// Whether an expression is a parameter without a value.
     pub fn is_vacant(&self, of: &Expression) -> Result<bool, ProgramError> {
         let found = of.is_vacant(&self.seen());
         found.map_err(|reason| self.refuse(&reason, "correct the expression"))
@@ -150,6 +146,7 @@ impl<'o> Runner<'o> {
             frame: self.frame(),
             state: self.state(),
             place_is_hidden: self.radius.hides_the_place(),
+            is_turned: self.coordinates.interpreter().is_some(),
             depth: self.frames.len() - 1,
         }
     }
@@ -183,13 +180,14 @@ impl<'o> Runner<'o> {
         let last = self.frames.len() - 1;
         let (frame, shared) = (&mut self.frames[last], &mut self.shared);
         let done = assign((to, number), value, frame, shared);
-        done.map_err(|reason| {
-            self.refuse(&reason, "use another parameter, or G10 and work offsets")
-        })
+        done.map_err(|(reason, remedy)| self.refuse(&reason, remedy))
     }
 
-    /// `THEN #1 = ...`.
+    /// `THEN #1 = ...`; what has no value gives none.
     pub fn assign_value(&mut self, to: &Parameter, of: &Expression) -> Result<(), ProgramError> {
+        if self.frame().numbered.rules == Dialect::Fanuc && self.is_vacant(of)? {
+            return self.vacate(to);
+        }
         let value = self.value(of)?;
         let number = self.number_of(to)?;
         self.assign(to, number, value)

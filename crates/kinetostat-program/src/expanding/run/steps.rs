@@ -2,11 +2,12 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
+use crate::expanding::expression::tree::Expression;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
-use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
+use crate::expanding::run::system_variables::STOP;
 use crate::expanding::source::statement::{Piece, Statement};
 use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::cycle::{cycle, is_cycle};
@@ -101,7 +102,8 @@ impl Runner<'_> {
         let mut text = Vec::new();
         let mut polar = Polar::default();
         let mut assignments = Vec::new();
-        let fanuc = self.frame().numbered.rules == Rules::Fanuc;
+        let rules = self.frame().numbered.rules;
+        let fanuc = rules == Dialect::Fanuc;
         let mut assigns = false;
         for piece in pieces {
             match piece {
@@ -111,6 +113,7 @@ impl Runner<'_> {
                 // A word without a value is as if it were not there (Fanuc).
                 Piece::Word(_, of, _) if fanuc && self.is_vacant(of)? => {}
                 Piece::Word(letter, of, _) => {
+                    self.has_a_value(of)?;
                     let value = self.value(of)?;
                     match letter {
                         b'@' => polar.radius = Some(value),
@@ -123,13 +126,14 @@ impl Runner<'_> {
                 }
                 Piece::Assignment(to, of) if fanuc => {
                     // At once, and from left to right.
-                    match of.is_number_zero() {
-                        true => self.vacate(to)?,
+                    match self.number_of(to)? == Some(STOP) {
+                        true => text.extend_from_slice(b"M0"),
                         false => self.assign_value(to, of)?,
                     }
                     assigns = true;
                 }
                 Piece::Assignment(to, of) => {
+                    self.has_a_value(of)?;
                     let value = self.value(of)?;
                     assignments.push((to, self.number_of(to)?, value));
                 }
@@ -145,6 +149,17 @@ impl Runner<'_> {
         match !text.trim_ascii().is_empty() || polar.is_there() {
             true => self.emit(text, polar),
             false => Ok(Next::Line),
+        }
+    }
+
+    /// A parameter without a value is refused where it is not known whose rules hold.
+    fn has_a_value(&self, of: &Expression) -> Result<(), ProgramError> {
+        match self.frame().numbered.rules == Dialect::Undecided && self.is_vacant(of)? {
+            true => Err(self.refuse(
+                "a parameter without a value: for LinuxCNC it is 0, Fanuc leaves the word out",
+                "give it a value before, or name the dialect (--dialect)",
+            )),
+            false => Ok(()),
         }
     }
 

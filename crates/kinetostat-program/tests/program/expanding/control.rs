@@ -158,14 +158,14 @@ fn subprograms_in_files() {
 #[test]
 fn block_delete_is_followed() {
     let mut options = ExpandOptions::default();
-    let text = "G21\nG0 X0 Y0 Z0\n/ #1 = 3\nX#1\nM2\n";
+    let text = "G21\nG0 X0 Y0 Z0\n#1 = 2\n/ #1 = 3\nX#1\nM2\n";
     let with = |options: &ExpandOptions| {
         let expanded = expand(text, options, &NoSubprograms).unwrap();
         String::from_utf8(expanded.program.bytes().to_vec()).unwrap()
     };
     assert!(with(&options).contains("X3\n"));
     options.reading.block_delete = kinetostat_program::BlockDelete::Skip;
-    assert!(with(&options).contains("X0\nM2"));
+    assert!(with(&options).contains("X2\nM2"));
 }
 
 #[test]

@@ -4,13 +4,17 @@
 
 use kinetostat_testing::Worst;
 
+use kinetostat_program::{Dialect, ExpandOptions, NoSubprograms, expand};
+
 use super::{flat, refused};
 
-/// The value of an expression, as the flat program has it behind X.
+/// The value of an expression for LinuxCNC, as the flat program has it behind X.
 fn value(expression: &str) -> f64 {
-    let text = flat(&format!(
-        "#3 = 15 #<depth> = -2.5 #<_all> = 7\nG21 G0 X[{expression}] Y0 Z0\n"
-    ));
+    let text = format!("#3 = 15 #<depth> = -2.5 #<_all> = 7\nG21 G0 X[{expression}] Y0 Z0\n");
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::LinuxCnc;
+    let expanded = expand(text, &options, &NoSubprograms).unwrap();
+    let text = String::from_utf8_lossy(expanded.program.bytes());
     let word = text.split_whitespace().find(|word| word.starts_with('X'));
     word.unwrap()[1..].parse().unwrap()
 }
@@ -111,7 +115,8 @@ fn what_has_no_value_is_refused_by_its_line() {
         ("[-8] ** 0.5", "to the power of"),
         ("EXP[1000]", "no number"),
         ("#<nothing>", "#<nothing> has no value"),
-        ("#0", "#0 is no parameter"),
+        ("1 + #0", "#0 is no parameter"),
+        ("#0", "a parameter without a value"),
         ("#6000", "#6000 is no parameter"),
         ("#[1.5]", "1.5 is no number of a parameter"),
         ("#5401", "kept by the controller"),

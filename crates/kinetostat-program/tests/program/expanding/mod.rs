@@ -8,6 +8,7 @@ mod coordinates;
 mod cycles;
 mod expressions;
 mod fanuc;
+mod fanuc_values;
 mod modes;
 mod offsets;
 mod polar;

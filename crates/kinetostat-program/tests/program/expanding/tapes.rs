@@ -14,7 +14,7 @@ fn a_tape_stays_one_with_its_number() {
         ),
         // It ends with it.
         (
-            "%\nO7\nG21 G90\nG0 X#1 Y0 Z5\n%\n",
+            "%\nO7\nG21 G90\nG0 X[1-1] Y0 Z5\n%\n",
             "%\nO7\nG21 G90\nG0 X0 Y0 Z5\n%\n",
         ),
         // Subprograms lie between the end and the mark.
