@@ -154,6 +154,47 @@ fn where_the_arm_does_not_come_the_turn_is_named() {
     said.answered();
 }
 
+/// The turn is chosen for one tool: the one of `[[tools]]` that the program takes. Two are refused, and each by itself goes through.
+#[test]
+fn the_turn_is_chosen_for_the_one_tool_that_the_program_takes() {
+    let tools = "[[tools]]\nnumber = 1\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n[[tools]]\nnumber = 2\npose = { position_mm = [180, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n";
+    let (before, load) = JOB.split_once("[tool]").unwrap();
+    let (_, load) = load.split_once("[load]").unwrap();
+    let numbered = format!("{before}{tools}[load]{load}");
+    let other = CELL.replace("[tool]\nnumber = 2\n", "");
+    let parts = [
+        "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG1 X40 F600\nG0 Z5\n",
+        "T2 M6\nG0 X0 Y0 Z6\nG1 Z-1 F300\nG1 X40 F600\nG0 Z5\n",
+    ];
+    let here = place(&numbered);
+    let here = here.path();
+    std::fs::write(here.join("cell.toml"), other).unwrap();
+    let line = "compensate job.toml --to krl --template cell.toml --free-turn --force-overwrite";
+    std::fs::write(here.join("part.ngc"), parts.concat()).unwrap();
+    let said = run(here, &words(line));
+    assert_eq!(said.code, 1, "{said:?}");
+    let text = one_line(&said.err);
+    assert!(
+        text.contains("part.ngc: line 8: the tool 2 moves here, and the tool 1 before: --free-turn"),
+        "{text}"
+    );
+    for part in [parts[0].to_owned(), format!("G21 G90\n{}", parts[1])] {
+        std::fs::write(here.join("part.ngc"), part).unwrap();
+        let said = run(here, &words(line)).answered();
+        assert!(one_line(&said.out).contains("Turn of the tool about its axis"));
+    }
+    // Without [[tools]] the same tool gives the same turn; an analysis takes the tool of the table, too.
+    let turn = |job: &str| {
+        std::fs::write(here.join("job.toml"), job).unwrap();
+        let said = run(here, &words("deflect job.toml --free-turn")).answered();
+        let text = one_line(&said.out);
+        let (_, turn) = text.split_once("Turn of the tool about its axis").unwrap();
+        turn.to_owned()
+    };
+    let one = turn(&JOB.replace("[200, 0, 100]", "[180, 0, 100]"));
+    assert_eq!(turn(&numbered), one);
+}
+
 #[test]
 fn what_cannot_be_written_so_is_said() {
     let twice = CELL.replace(
