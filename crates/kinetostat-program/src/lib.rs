@@ -59,7 +59,7 @@ pub use checking::field::{Farthest, FieldCheck, verify_against_field};
 pub use checking::verifier::Verification;
 pub use checking::verify::verify_written;
 pub use error::{MapError, ProgramError, ProgramErrorKind, WriteError};
-pub use expanding::expand::{expand, expansion_faults};
+pub use expanding::expand::{expand, expand_or_faults, expansion_faults};
 pub use expanding::expanded::{Expanded, Origin};
 pub use expanding::options::{Dialect, ExpandOptions, OriginComments};
 pub use expanding::run::source::{NoSubprograms, Subprograms};

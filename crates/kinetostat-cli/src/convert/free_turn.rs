@@ -27,7 +27,9 @@ pub(crate) fn free_turn(
     let tool = match numbered {
         Some((number, tool)) => known(
             &tool.frame,
-            &format!("where the tip of the tool {number} is: pose under [[tools]], in_program = {number}"),
+            &format!(
+                "where the tip of the tool {number} is: pose under [[tools]], in_program = {number}"
+            ),
         )?,
         None => known(
             &template.tool.frame,

@@ -176,6 +176,8 @@ pub(crate) fn setting(
     let mut program_files = vec![origin::file("program", &path, &program)];
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
+    // Where faults of a job are looked for, what its program holds is none of them.
+    let expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
     let mut robot_flat = None;
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
@@ -199,8 +201,6 @@ pub(crate) fn setting(
         Ok(source)
     });
     let robot = robot.transpose()?;
-    // Where faults of a job are looked for, what follows from one of them is none.
-    let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
     let mut expansion_warnings = Vec::new();
     let (program, flat) = match (robot_flat, expand) {
         (Some((program, flat)), _) => (program, Some(flat)),

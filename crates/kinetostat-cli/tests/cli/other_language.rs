@@ -175,7 +175,9 @@ fn the_turn_is_chosen_for_the_one_tool_that_the_program_takes() {
     assert_eq!(said.code, 1, "{said:?}");
     let text = one_line(&said.err);
     assert!(
-        text.contains("part.ngc: line 8: the tool 2 moves here, and the tool 1 before: --free-turn"),
+        text.contains(
+            "part.ngc: line 8: the tool 2 moves here, and the tool 1 before: --free-turn"
+        ),
         "{text}"
     );
     for part in [parts[0].to_owned(), format!("G21 G90\n{}", parts[1])] {
