@@ -125,7 +125,7 @@ impl Setting {
         let Some(source) = &self.robot else {
             return Ok(None);
         };
-        let read = read_robot(source).map_err(|failure| self.of_flat(failure))?;
+        let read = read_robot(source).map_err(|failure| self.of_flat(failure).of_program())?;
         Ok(Some(RobotFrames::of(&read)))
     }
 
@@ -165,7 +165,7 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let expand = wanted(job, &flags.expansion, &reading)?;
+    let expand = wanted(job, flags, &reading)?;
     let form = match expand {
         Some(_) => Form::Flat,
         None => Form::AsItStands,

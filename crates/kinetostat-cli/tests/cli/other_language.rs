@@ -81,6 +81,39 @@ fn one_command_converts_and_compensates() {
     }
 }
 
+/// The converted program is a flat one: option and job name it without an expansion, too.
+#[test]
+fn the_converted_program_goes_where_it_is_named() {
+    let output = "[output]\nflat_program = \"named.src\"\n";
+    let robot = "[robot]\nto = \"krl\"\ntemplate = \"cell.toml\"\n";
+    for (job, options) in [
+        (
+            JOB.to_owned(),
+            "--to krl --template cell.toml --flat-program named.src",
+        ),
+        (format!("{JOB}{output}"), "--to krl --template cell.toml"),
+        (format!("{JOB}{robot}{output}"), ""),
+    ] {
+        let here = place(&job);
+        let here = here.path();
+        run(here, &words(&format!("compensate job.toml {options}"))).answered();
+        assert!(read(here, "named.src").contains("DEF "), "{options}");
+        if job.contains(robot) {
+            run(here, &words("check job.toml")).answered();
+        }
+    }
+    // Where nothing is converted there is none.
+    let here = place(JOB);
+    let said = run(
+        here.path(),
+        &words("compensate job.toml --flat-program named.ngc"),
+    );
+    assert!(
+        said.code == 1 && said.err.contains("add --expand"),
+        "{said:?}"
+    );
+}
+
 /// The turn is chosen along the path, written into every pose, drawn, and solved.
 #[test]
 fn a_chosen_turn_is_written() {
