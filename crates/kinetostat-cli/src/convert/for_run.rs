@@ -3,7 +3,7 @@
 use kinetostat_formats::{
     FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
 };
-use kinetostat_machining::{FlatProgram, Unwatched, Warning, WarningCode};
+use kinetostat_machining::{FlatProgram, ForceAlongPath, Unwatched, Warning, WarningCode};
 use kinetostat_model::Model;
 use nalgebra::Isometry3;
 
@@ -124,35 +124,36 @@ pub(crate) fn for_run(
     });
     let target = setting.targets.flat.take();
     setting.write_flat_to(target);
-    if let Some(mut forces) = forces {
-        // Their lines are those of the source: said above.
-        forces.findings.clear();
-        let read = read_program(&setting)?;
-        let parts = read.robot().and_then(|robot| {
-            // The motion to the joints at which a program begins goes along no move of the path: it stands where that begins.
-            let before = robot.program.motions.len().checked_sub(made.parts.len())?;
-            let (first, _) = *made.parts.first()?;
-            let part = |motion: &usize| match motion.checked_sub(before) {
-                Some(own) => made.parts.get(own).copied(),
-                None => Some((first, [0.0; 2])),
-            };
-            let motions = robot.path.motions.iter();
-            motions.map(part).collect::<Option<Vec<_>>>()
-        });
-        let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
-        let Some(parts) = parts else {
-            return Err(Failure::input(
-                "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
-            ));
-        };
-        drop(read);
-        setting.forces = Some(forces.on_parts(&parts));
+    if let Some(forces) = forces {
+        setting.forces = Some(on_motions(forces, &setting, &made)?);
     }
     Ok(Converted {
         setting,
         turn,
         findings,
     })
+}
+
+/// Forces along the source as they act along the made program; what they found is said of the source.
+fn on_motions(
+    mut forces: ForceAlongPath,
+    setting: &Setting,
+    made: &Made,
+) -> Answer<ForceAlongPath> {
+    forces.findings.clear();
+    let read = read_program(setting)?;
+    let parts = read.robot().and_then(|robot| {
+        let motions = robot.path.motions.iter();
+        let part = |motion: &usize| made.parts.get(*motion).copied();
+        motions.map(part).collect::<Option<Vec<_>>>()
+    });
+    let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
+    let Some(parts) = parts else {
+        return Err(Failure::input(
+            "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
+        ));
+    };
+    Ok(forces.on_parts(&parts))
 }
 
 /// Speeds tell cuts from rapids in a program of a robot.

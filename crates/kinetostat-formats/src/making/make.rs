@@ -27,7 +27,8 @@ pub struct Made {
     /// Of every motion its line in the first of the files, and the line of the source that it came from; empty where the motions stand in
     /// several files.
     pub lines: Vec<[usize; 2]>,
-    /// Of every motion the move of the path that it goes along, and from which share of its length to which.
+    /// Of every motion the move of the path that it goes along, and from which share of its length to which. A motion to the joint
+    /// values at which the program begins goes along none: it stands where the first of the others begins, `[0.0, 0.0]`.
     pub parts: Vec<(usize, [f64; 2])>,
 }
 
@@ -104,6 +105,10 @@ pub fn make(
     };
     let motions = steps.iter().filter_map(Step::motion);
     let parts = motions.map(|motion| (motion.source, motion.shares));
+    let begins_at_joints = language.is_of_an_arm() && template.start_joints_deg.is_some();
+    let start = steps.iter().find_map(Step::motion);
+    let start = start.map(|motion| (motion.source, [0.0; 2]));
+    let parts = start.filter(|_| begins_at_joints).into_iter().chain(parts);
     let parts = parts.collect();
     let mut findings = planned.findings;
     if language.is_of_an_arm() {
