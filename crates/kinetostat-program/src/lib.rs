@@ -90,7 +90,7 @@ pub use reading::interpreting::interpret::interpret;
 pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
-pub use writing::accounting::Accounting;
+pub use writing::accounting::{Accounting, ShortBlocksOfLine};
 pub use writing::jump::Turn;
 pub use writing::options::{Arcs, Circles, WriteOptions};
 pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};
