@@ -29,18 +29,23 @@ mod platforms;
 /// Numbers of coordinates; a cantilever has the next multiple of six.
 const SIZES: [usize; 8] = [10, 30, 60, 100, 180, 300, 1000, 3000];
 
+/// Time of one run, s: the shortest of four batches of at least five runs.
+fn shortest<T>(run: impl FnMut() -> T) -> f64 {
+    of_batches(4, 5, run)
+}
+
 /// Time of one run, s: the shortest of several batches, since what disturbs only makes it longer.
 /// A batch is long against the steps in which a system counts time.
-fn shortest<T>(mut run: impl FnMut() -> T) -> f64 {
+fn of_batches<T>(batches: usize, least_runs: u32, mut run: impl FnMut() -> T) -> f64 {
     let start = Instant::now();
     let mut best = f64::INFINITY;
-    for _ in 0..4 {
+    for _ in 0..batches {
         let (before, mut runs) = (computed_s(start), 0);
         let used = loop {
             std::hint::black_box(run());
             runs += 1;
             let used = computed_s(start) - before;
-            if used > 0.1 && runs >= 5 {
+            if used > 0.1 && runs >= least_runs {
                 break used;
             }
         };
@@ -233,16 +238,9 @@ fn other_ways() -> kinetostat::Result<()> {
     Ok(())
 }
 
-/// Time of one run, s, the shorter of two: these take long enough.
-fn shorter<T>(mut run: impl FnMut() -> T) -> f64 {
-    let start = Instant::now();
-    let mut best = f64::INFINITY;
-    for _ in 0..2 {
-        let before = computed_s(start);
-        std::hint::black_box(run());
-        best = best.min(computed_s(start) - before);
-    }
-    best
+/// Time of one run, s: the shorter of two batches, of one run each where that takes long enough.
+fn shorter<T>(run: impl FnMut() -> T) -> f64 {
+    of_batches(2, 1, run)
 }
 
 fn many_platforms() -> kinetostat::Result<()> {

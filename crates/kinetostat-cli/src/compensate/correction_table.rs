@@ -152,10 +152,11 @@ pub(crate) fn from_map(
     if let Some(index) = flat_out {
         outputs.fill(index, &setting.program)?;
     }
+    let files = setting.as_files(written)?;
     if let Some(index) = out {
-        outputs.fill(index, &setting.as_file(&written.bytes)?.0)?;
+        outputs.fill(index, &files.program)?;
     }
-    for (index, (_, bytes)) in further.iter().zip(&written.beside) {
+    for (index, bytes) in further.iter().zip(&files.beside) {
         outputs.fill(*index, bytes)?;
     }
     let paths = outputs.commit()?;

@@ -6,22 +6,21 @@
 //! says it; the core's `machine/inverse` finds it).
 
 pub(crate) mod arguments;
+mod copy;
 mod correction_table;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use kinetostat_machining::number::counted;
 use kinetostat_model::Model;
-use kinetostat_program::{Program, RotaryAxes, interpret};
 
 use crate::compensate::arguments::CompensateArgs;
+use crate::compensate::copy::{copy, rotary_of_copy};
 use crate::convert::for_run::{Converted, for_run};
 use crate::convert::targets::{Named, in_language};
 use crate::convert::template_file::{TemplateAsked, TemplateFile};
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
-use crate::files::outputs::{self, Existing, Outputs};
+use crate::files::outputs::{self, Existing};
 use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::file_endings::refuse_other_endings;
@@ -37,8 +36,6 @@ use crate::program::aim::Aim;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::layout::wrapped;
-use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);
@@ -80,7 +77,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     }
     if args.no_compensation {
         let known = args.run.model.is_some() || job.is_some_and(|j| j.job.model.is_some());
-        if known && setting.robot.is_none() {
+        if known {
             let named = (job, args.run.model.as_deref());
             setting.turned_by(rotary_of_copy(files, named, flags));
         }
@@ -240,53 +237,4 @@ fn job_after_json(args: &mut CompensateArgs) {
     if taken && args.run.job.is_none() {
         args.run.job = args.run.json.replace(PathBuf::from("-"));
     }
-}
-
-/// The rotary axes of the model that a copy is given: whether its program could be compensated depends on them.
-fn rotary_of_copy(
-    files: &InputFiles,
-    (job, model): (Option<&JobFile>, Option<&str>),
-    flags: &ProgramArgs,
-) -> Option<Arc<RotaryAxes>> {
-    // A copy needs no machine: what is wrong with it stops nothing.
-    let machine = machine_setup(files, job, model, flags, (None, &mut Vec::new()));
-    machine.ok()?.0.rotary
-}
-
-/// The program as it was read.
-fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
-    if setting.robot.is_some() {
-        return Err(Failure::input(
-            "--no-compensation writes a program in G-code as it was read; a program of a robot would be its own copy: leave it where it is",
-        ));
-    }
-    let refuse = |error| setting.within(Failure::input(error));
-    let program = Program::read(setting.program.clone()).map_err(refuse)?;
-    let mut outputs = Outputs::new(existing, setting.inputs.clone());
-    let mut text = wrapped(
-        &format!(
-            "{}: {} in {}, {}.",
-            setting.program_name,
-            counted(program.block_count(), "block"),
-            counted(program.line_count(), "line"),
-            match setting.flat {
-                Some(_) => "run once and written flat, without a correction",
-                None => "written as read, byte for byte",
-            }
-        ),
-        0,
-    );
-    if let Err(error) = interpret(&program, &setting.reading) {
-        text.push_str(&wrapped(
-            &format!("It could not be compensated as it is: {error}."),
-            0,
-        ));
-    }
-    if let Some(target) = &setting.targets.program {
-        let index = outputs.claim("program", target)?;
-        outputs.fill(index, program.bytes())?;
-    }
-    let paths = outputs.commit()?;
-    text.push_str(&outputs::written(&paths));
-    screen::print(Stream::Out, &text)
 }

@@ -3,7 +3,7 @@
 use kinetostat_formats::{
     FrameUse, Language, Made, MakeLanguage, Motion, SourceFile, Template, read,
 };
-use kinetostat_machining::{FlatProgram, Unwatched, Warning, WarningCode};
+use kinetostat_machining::{FlatProgram, ForceAlongPath, Unwatched, Warning, WarningCode};
 use kinetostat_model::Model;
 use nalgebra::Isometry3;
 
@@ -17,6 +17,7 @@ use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
+use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings;
 use crate::job::robot::source::RobotSource;
@@ -83,14 +84,7 @@ pub(crate) fn for_run(
         refuse_what_breaks_the_tool(forces.as_ref(), &setting)?;
     }
     let made = made((&setting, &template), &read, turn.as_ref(), language)?;
-    let [(_, bytes)] = made.files.as_slice() else {
-        return Err(Failure::input(format!(
-            "the program needs {} files in {}: a run compensates one; convert it first (`kinetostat convert`), and compensate its parts",
-            made.files.len(),
-            language.title()
-        )));
-    };
-    let bytes = bytes.clone();
+    let whole = whole(&setting, &made, (of_robot, language))?;
     let axis = match (read.robot(), &turn) {
         (Some(robot), None) if states_orientation => robot.path.path.tool_axis,
         _ => up(&template.template),
@@ -100,7 +94,7 @@ pub(crate) fn for_run(
     found.making.tool_axis = axis;
     // Straight rapids have this speed, but for the last digit.
     found.making.rapid_from_mm_per_s = Some(0.999_999 * template.template.rapid_speed_mm_per_s);
-    let file = SourceFile::new(setting.program_name.as_str(), bytes.as_slice());
+    let Whole { file, divided } = whole;
     let stated = Stated::of(&read, &template.template);
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
     let of_cut = warnings_of_moves(forces.as_ref());
@@ -109,9 +103,12 @@ pub(crate) fn for_run(
         Some(flat) => warning.with_sources(flat),
         None => warning.of_file(setting.program_name.clone()),
     }));
-    let flat = flat(&setting, &made, language, &file);
+    let flat = flat(&setting, (&made, divided.as_ref()), language, &file);
     drop(read);
-    setting.program = bytes;
+    let out = setting.targets.program.clone().unwrap_or_default();
+    let parts = made.files.iter().skip(1);
+    setting.targets.beside = parts.map(|(name, _)| out.with_file_name(name)).collect();
+    setting.program = file.bytes().to_vec();
     setting.flat = Some(flat);
     setting.expansion_warnings.clear();
     setting.robot = Some(RobotSource {
@@ -120,39 +117,76 @@ pub(crate) fn for_run(
         paths: Vec::new(),
         settings: found,
         parquet: None,
+        divided,
         reading: Reading::new(),
     });
     let target = setting.targets.flat.take();
     setting.write_flat_to(target);
-    if let Some(mut forces) = forces {
-        // Their lines are those of the source: said above.
-        forces.findings.clear();
-        let read = read_program(&setting)?;
-        let parts = read.robot().and_then(|robot| {
-            // The motion to the joints at which a program begins goes along no move of the path: it stands where that begins.
-            let before = robot.program.motions.len().checked_sub(made.parts.len())?;
-            let (first, _) = *made.parts.first()?;
-            let part = |motion: &usize| match motion.checked_sub(before) {
-                Some(own) => made.parts.get(own).copied(),
-                None => Some((first, [0.0; 2])),
-            };
-            let motions = robot.path.motions.iter();
-            motions.map(part).collect::<Option<Vec<_>>>()
-        });
-        let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
-        let Some(parts) = parts else {
-            return Err(Failure::input(
-                "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
-            ));
-        };
-        drop(read);
-        setting.forces = Some(forces.on_parts(&parts));
+    if let Some(forces) = forces {
+        setting.forces = Some(on_motions(forces, &setting, &made)?);
     }
     Ok(Converted {
         setting,
         turn,
         findings,
     })
+}
+
+/// The made program in one file.
+struct Whole {
+    file: SourceFile,
+    /// Its files, where there are several.
+    divided: Option<Divided>,
+}
+
+fn whole(
+    setting: &Setting,
+    made: &Made,
+    (of_robot, language): (Language, MakeLanguage),
+) -> Answer<Whole> {
+    let name = setting.program_name.as_str();
+    if let [(_, bytes)] = made.files.as_slice() {
+        return Ok(Whole {
+            file: SourceFile::new(name, bytes.as_slice()),
+            divided: None,
+        });
+    }
+    let files = made.files.iter();
+    let files = files.map(|(name, bytes)| SourceFile::new(name.as_str(), bytes.as_slice()));
+    let Some(divided) = Divided::of(of_robot, files.collect()) else {
+        return Err(Failure::input(format!(
+            "the program needs {} files in {}, and a run compensates one with at most {MOST_POINTS_OF_LS} places: state no smaller most_points in the template, or divide the program and run each part by itself",
+            made.files.len(),
+            language.title()
+        )));
+    };
+    let joined = divided.joined()?;
+    Ok(Whole {
+        file: SourceFile::new(name, joined.bytes()),
+        divided: Some(divided),
+    })
+}
+
+/// Forces along the source as they act along the made program; what they found is said of the source.
+fn on_motions(
+    mut forces: ForceAlongPath,
+    setting: &Setting,
+    made: &Made,
+) -> Answer<ForceAlongPath> {
+    forces.findings.clear();
+    let read = read_program(setting)?;
+    let parts = read.robot().and_then(|robot| {
+        let motions = robot.path.motions.iter();
+        let part = |motion: &usize| made.parts.get(*motion).copied();
+        motions.map(part).collect::<Option<Vec<_>>>()
+    });
+    let parts = parts.filter(|parts| parts.len() == read.path().moves.len());
+    let Some(parts) = parts else {
+        return Err(Failure::input(
+            "the forces of the cut do not go with the motions of the made program; nothing was written, please report this",
+        ));
+    };
+    Ok(forces.on_parts(&parts))
 }
 
 /// Speeds tell cuts from rapids in a program of a robot.
@@ -297,13 +331,19 @@ fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
 }
 
 /// Where the lines of the made program came from: each from that of the motion on it or behind it.
-fn flat(setting: &Setting, made: &Made, language: MakeLanguage, file: &SourceFile) -> FlatProgram {
+fn flat(
+    setting: &Setting,
+    (made, divided): (&Made, Option<&Divided>),
+    language: MakeLanguage,
+    file: &SourceFile,
+) -> FlatProgram {
     let count = file.line_count();
     let last = made.lines.last().map_or(1, |[_, source]| *source);
     let mut origins = vec![last; count];
     let mut from = 0;
     for [line, source] in &made.lines {
-        let end = (*line).min(count);
+        let line = divided.map_or(*line, |divided| divided.line_of(*line));
+        let end = line.min(count);
         if from < end {
             origins[from..end].fill(*source);
         }

@@ -6,7 +6,7 @@ use kinetostat_machining::Placement;
 use kinetostat_model::Model;
 use nalgebra::Isometry3;
 
-use crate::job::free_turn::{FreeTurn, chosen};
+use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::program::ReadProgram;
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
@@ -22,10 +22,20 @@ pub(crate) fn free_turn(
         Some(base) => in_metres(&base),
         None => known(&template.base, "where the part is: pose under [base]")?,
     };
-    let tool = known(
-        &template.tool.frame,
-        "where the tip of the tool is: pose under [tool]",
-    )?;
+    let number = only_tool(setting, read.path())?;
+    let numbered = number.and_then(|number| Some((number, template.tools.get(&number)?)));
+    let tool = match numbered {
+        Some((number, tool)) => known(
+            &tool.frame,
+            &format!(
+                "where the tip of the tool {number} is: pose under [[tools]], in_program = {number}"
+            ),
+        )?,
+        None => known(
+            &template.tool.frame,
+            "where the tip of the tool is: pose under [tool]",
+        )?,
+    };
     let Some(orientation) = template.tool_orientation else {
         return Err(Failure::input(
             "--free-turn turns the tool about its axis from an orientation that is stated: tool_orientation in the template, or --tool-orientation",

@@ -83,6 +83,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         files: vec![SourceFile::new(name.to_string_lossy(), bytes)],
         paths: Vec::new(),
         parquet: None,
+        divided: None,
         reading: Reading::new(),
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };

@@ -114,6 +114,7 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
                 text: text.clone(),
                 job,
                 left_out: taken.iter().map(|(key, _)| key.clone()).collect(),
+                is_searched: true,
             };
             let Err(failure) = part(&job) else { break };
             if failure.code != Code::WrongInput {
@@ -131,8 +132,9 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             }
         }
     }
-    // The program's own faults, where everything that says how to read it is right.
-    if let Ok(job) = JobFile::read(files, path)
+    // The program's own faults, where everything that says how to read it is right; those that were found are not looked for again.
+    if !first.is_of_program
+        && let Ok(job) = JobFile::read(files, path)
         && let Ok(mut setting) = setting(files, Some(&job), query.program, &query.writing)
         && let Err(failure) = give_arm(
             setting.robot.as_mut(),

@@ -41,6 +41,26 @@ impl FreeTurn {
     }
 }
 
+/// The number of the tool that the whole path is made with, where the program says one: the turn is chosen for one tool, and it would
+/// jump where another is taken.
+pub(crate) fn only_tool(setting: &Setting, path: &ToolPath) -> Answer<Option<u32>> {
+    let mut used: Vec<(u32, usize)> = Vec::new();
+    for motion in &path.moves {
+        if let Some(number) = path.tool_on(motion.line)
+            && used.iter().all(|(known, _)| *known != number)
+        {
+            used.push((number, motion.line));
+        }
+    }
+    match used.as_slice() {
+        [] => Ok(None),
+        [(only, _)] => Ok(Some(*only)),
+        [(first, _), (second, line), ..] => Err(setting.within(Failure::input(format!(
+            "line {line}: the tool {second} moves here, and the tool {first} before: --free-turn (free_turn under [robot]) is for programs of one tool. Divide the program where the tool changes and run each part by itself ([[tools]] of job and template may stay), or leave the free turn out"
+        )))),
+    }
+}
+
 /// Chooses the turn along a path of positions for an arm with its tool.
 pub(crate) fn chosen(
     setting: &Setting,
@@ -51,11 +71,6 @@ pub(crate) fn chosen(
     if path.moves.iter().any(|motion| motion.tool_turn.is_some()) {
         return Err(setting.within(Failure::input(
             "--free-turn is for programs of positions, and this one states the orientation of its tool: leave it out",
-        )));
-    }
-    if path.tool_changes.len() > 1 {
-        return Err(setting.within(Failure::input(
-            "--free-turn is for programs of one tool, and this one takes several: give the parts of the program with each of them one by one",
         )));
     }
     let mut task = TurnTask::new(mechanism, path, placement);

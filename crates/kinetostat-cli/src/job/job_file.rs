@@ -18,6 +18,8 @@ pub(crate) struct JobFile {
     pub(crate) job: Job,
     /// Keys that were left out because they are wrong, where the rest is looked at.
     pub(crate) left_out: Vec<String>,
+    /// Its faults are looked for: its program is not run once and written flat for them.
+    pub(crate) is_searched: bool,
 }
 
 impl JobFile {
@@ -33,6 +35,7 @@ impl JobFile {
             text,
             job,
             left_out: Vec::new(),
+            is_searched: false,
         })
     }
 

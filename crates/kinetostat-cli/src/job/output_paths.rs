@@ -22,11 +22,16 @@ pub(crate) const TURN_PLOT: &str = "picture of the turn";
 /// What further files of a program are called among outputs.
 pub(crate) const BESIDE: &str = "file of the compensated program";
 
-/// Where a further file of a program goes: beside the program, with the name of that where it had its name before, and behind it
-/// otherwise.
+/// Where a further file of a program goes: beside the program. It has the name of that where it had its name before; otherwise it
+/// keeps its own in another folder, and has it behind that of the program in the same one.
 pub(crate) fn beside_program(out: &Path, program: &Path, file: &Path) -> PathBuf {
+    let is_called_otherwise = file.file_stem() != program.file_stem();
+    let own = file.file_name().filter(|_| is_called_otherwise);
+    if let (Some(own), true) = (own, out.parent() != file.parent()) {
+        return out.with_file_name(own);
+    }
     let mut name = out.file_stem().unwrap_or_default().to_owned();
-    if file.file_stem() != program.file_stem() {
+    if is_called_otherwise {
         name.push("-");
         name.push(file.file_stem().unwrap_or_default());
     }
@@ -129,10 +134,15 @@ pub(crate) fn output_paths(
         beside(near, program, "-compensated")
     });
     if form == Form::Flat && targets.flat.is_none() {
-        targets.flat = Some(beside(&out, program, "-flat"));
+        targets.flat = Some(flat_beside(&out, program));
     }
     targets.program = Some(out);
     Ok(targets)
+}
+
+/// Where a flat program goes that nobody named.
+pub(crate) fn flat_beside(out: &Path, program: &Path) -> PathBuf {
+    beside(out, program, "-flat")
 }
 
 /// `part.ngc` becomes `part-compensated.ngc` in the directory of `near`.

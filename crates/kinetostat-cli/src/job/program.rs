@@ -87,7 +87,7 @@ impl ReadProgram<'_> {
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     if let Some(source) = &setting.robot {
-        let read = read_robot(source).map_err(|failure| setting.of_flat(failure))?;
+        let read = read_robot(source).map_err(|failure| setting.of_flat(failure).of_program())?;
         return Ok(ReadProgram::Robot(Box::new(read)));
     }
     let read = Program::read(setting.program.clone()).and_then(|program| {
@@ -102,7 +102,8 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
             Some(_) => None,
             None => advice(bytes, path, &setting.reading, &all),
         };
-        setting.within(Failure::input(first.unwrap_or_default() + &message))
+        let failure = Failure::input(first.unwrap_or_default() + &message);
+        setting.within(failure).of_program()
     })?;
     let states_none = path.moves.iter().all(|motion| motion.tool_turn.is_none());
     if setting.correct.directions() == Directions::ALL && states_none {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use kinetostat_formats::FileForm;
 use kinetostat_machining::{FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
-use kinetostat_program::{Arcs, ReadOptions, RotaryAxes, Warning, WriteOptions};
+use kinetostat_program::{Arcs, Corrected, ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
@@ -16,11 +16,12 @@ use crate::job::expansion::settings::wanted;
 use crate::job::format::ArcsWord;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
-use crate::job::output_paths::{Form, OutputPaths, beside_program, output_paths};
+use crate::job::output_paths::{Form, OutputPaths, beside_program, flat_beside, output_paths};
 use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
 use crate::job::robot::flat::flat_text;
 use crate::job::robot::frames::RobotFrames;
+use crate::job::robot::parts::join_parts;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
@@ -93,12 +94,32 @@ impl Setting {
         }
     }
 
-    /// A program that was written, in the form of its file, and its columns that have another type than before.
-    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<(Cow<'b, [u8]>, Vec<String>)> {
-        match &self.robot {
-            Some(source) => source.as_file(written),
-            None => Ok((Cow::Borrowed(written), Vec::new())),
+    /// A program that was written, as its files.
+    pub(crate) fn as_files<'b>(&self, written: &'b Corrected) -> Answer<WrittenFiles<'b>> {
+        let divided = self
+            .robot
+            .as_ref()
+            .and_then(|source| source.divided.as_ref());
+        if let Some(divided) = divided {
+            let mut files = divided.split(&written.bytes)?.into_iter().map(Cow::Owned);
+            return Ok(WrittenFiles {
+                program: files.next().unwrap_or_default(),
+                beside: files.collect(),
+                widened: Vec::new(),
+            });
         }
+        let (program, widened) = match &self.robot {
+            Some(source) => source.as_file(&written.bytes)?,
+            None => (Cow::Borrowed(written.bytes.as_slice()), Vec::new()),
+        };
+        let beside = written.beside.iter();
+        Ok(WrittenFiles {
+            program,
+            beside: beside
+                .map(|(_, bytes)| Cow::Borrowed(bytes.as_slice()))
+                .collect(),
+            widened,
+        })
     }
 
     /// Warnings of the expansion of the program.
@@ -125,7 +146,7 @@ impl Setting {
         let Some(source) = &self.robot else {
             return Ok(None);
         };
-        let read = read_robot(source).map_err(|failure| self.of_flat(failure))?;
+        let read = read_robot(source).map_err(|failure| self.of_flat(failure).of_program())?;
         Ok(Some(RobotFrames::of(&read)))
     }
 
@@ -137,6 +158,15 @@ impl Setting {
         }
         self.targets.flat = target;
     }
+}
+
+/// A program that was written, as its files.
+pub(crate) struct WrittenFiles<'b> {
+    pub(crate) program: Cow<'b, [u8]>,
+    /// Further files, in their order.
+    pub(crate) beside: Vec<Cow<'b, [u8]>>,
+    /// Columns of a table that have another type than before.
+    pub(crate) widened: Vec<String>,
 }
 
 /// Reads the program and everything said about it.
@@ -165,7 +195,7 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let expand = wanted(job, &flags.expansion, &reading)?;
+    let expand = wanted(job, flags, &reading)?;
     let form = match expand {
         Some(_) => Form::Flat,
         None => Form::AsItStands,
@@ -176,6 +206,8 @@ pub(crate) fn setting(
     let mut program_files = vec![origin::file("program", &path, &program)];
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
+    // Where faults of a job are looked for, what its program holds is none of them.
+    let expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
     let mut robot_flat = None;
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
@@ -190,8 +222,19 @@ pub(crate) fn setting(
             source.files = vec![text.file];
             source.paths.clear();
         }
+        let mut further = source.paths.clone();
+        if let Some(joined) = join_parts(&mut source, &path)? {
+            let found = joined.paths.iter().filter(|path| !inputs.contains(path));
+            inputs.extend(found.cloned().collect::<Vec<_>>());
+            program_files.extend(joined.read);
+            further = joined.paths;
+            if let (None, Some(out)) = (&targets.flat, &targets.program) {
+                targets.flat = Some(flat_beside(out, &path));
+            }
+            robot_flat = Some((program_of(&source), joined.flat));
+        }
         if let Some(out) = &targets.program {
-            let further = source.paths.iter();
+            let further = further.iter();
             targets.beside = further
                 .map(|file| beside_program(out, &path, file))
                 .collect();
@@ -199,8 +242,6 @@ pub(crate) fn setting(
         Ok(source)
     });
     let robot = robot.transpose()?;
-    // Where faults of a job are looked for, what follows from one of them is none.
-    let expand = expand.filter(|_| job.is_none_or(|j| j.left_out.is_empty()));
     let mut expansion_warnings = Vec::new();
     let (program, flat) = match (robot_flat, expand) {
         (Some((program, flat)), _) => (program, Some(flat)),
@@ -241,6 +282,12 @@ pub(crate) fn setting(
     };
     setting.write_flat_to(target);
     Ok(setting)
+}
+
+/// The bytes of the file with which a program begins.
+fn program_of(source: &RobotSource) -> Vec<u8> {
+    let first = source.files.first();
+    first.map_or_else(Vec::new, |file| file.bytes().to_vec())
 }
 
 /// What becomes of the turn of a round tool about its own axis.

@@ -112,10 +112,10 @@ impl RunOutputs {
             self.files.fill(index, &setting.program)?;
         }
         if let (Some(index), Some(written)) = (self.program, &run.written) {
-            let (bytes, widened) = setting.as_file(&written.bytes)?;
-            self.files.fill(index, &bytes)?;
-            self.widened = widened;
-            for (index, (_, bytes)) in self.beside.iter().zip(&written.beside) {
+            let written = setting.as_files(written)?;
+            self.files.fill(index, &written.program)?;
+            self.widened = written.widened;
+            for (index, bytes) in self.beside.iter().zip(&written.beside) {
                 self.files.fill(*index, bytes)?;
             }
         }

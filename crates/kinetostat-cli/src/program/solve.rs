@@ -11,7 +11,7 @@ use kinetostat_model::Model;
 use kinetostat_program::{MachineProgram, Path as ToolPath, WriteError};
 
 use crate::job::cut::along::{forces, measured, refuse_what_breaks_the_tool, warnings};
-use crate::job::free_turn::{FreeTurn, chosen};
+use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
@@ -171,7 +171,10 @@ pub(crate) fn turn(machine: &MachineSetup, setting: &Setting) -> Answer<Option<F
         return Ok(None);
     }
     let read = read_program(setting)?;
-    chosen(setting, &machine.mechanism, read.path(), machine.placement).map(Some)
+    let number = only_tool(setting, read.path())?;
+    let numbered = machine.tools.iter().find(|tool| number == Some(tool.0));
+    let mechanism = numbered.map_or(&machine.mechanism, |(_, with_tool, _)| with_tool);
+    chosen(setting, mechanism, read.path(), machine.placement).map(Some)
 }
 
 /// Solves the machine, with the model that it is made from, along the program.

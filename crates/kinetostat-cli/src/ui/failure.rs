@@ -34,6 +34,8 @@ pub(crate) struct Failure {
     pub(crate) styled: Option<String>,
     /// Where in the job file, bytes.
     pub(crate) place: Option<Range<usize>>,
+    /// What the program holds was refused: everything that says how to read it is right.
+    pub(crate) is_of_program: bool,
 }
 
 pub(crate) type Answer<T> = Result<T, Failure>;
@@ -60,6 +62,7 @@ impl Failure {
             plain: safe(&shortened(&message.to_string())),
             styled: None,
             place: None,
+            is_of_program: false,
         }
     }
 
@@ -76,6 +79,7 @@ impl Failure {
             plain: plain.join("\n\nerror: "),
             styled: Some(styled.join("\n\n")),
             place: None,
+            is_of_program: false,
         }
     }
 
@@ -86,6 +90,7 @@ impl Failure {
             plain,
             styled: Some(styled),
             place: Some(place),
+            is_of_program: false,
         }
     }
 
@@ -96,6 +101,14 @@ impl Failure {
             self.styled = None;
         }
         self
+    }
+
+    /// The same failure, of what the program holds.
+    pub(crate) fn of_program(self) -> Self {
+        Self {
+            is_of_program: true,
+            ..self
+        }
     }
 
     /// The same failure, reported to be in a file.
@@ -115,6 +128,7 @@ impl From<ModelError> for Failure {
             plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
             styled: Some(error.rendered(TextStyle::Terminal)),
             place: None,
+            is_of_program: false,
         }
     }
 }

@@ -54,6 +54,35 @@ fn what_cannot_be_run_is_named_and_nothing_is_written() {
     }
 }
 
+#[test]
+fn the_line_endings_of_the_file_stay() {
+    let here = tempfile::tempdir().unwrap();
+    std::fs::write(here.path().join("part.ngc"), MACRO.replace('\n', "\r\n")).unwrap();
+    std::fs::write(here.path().join("hole.ngc"), HOLE).unwrap();
+    let said = run(here.path(), &["expand", "part.ngc", "--parameter", "100=3"]).answered();
+    let lines: Vec<&str> = said.out.split_inclusive('\n').collect();
+    assert!(lines.len() > 10, "{said:?}");
+    assert!(lines.iter().all(|line| line.ends_with("\r\n")), "{said:?}");
+}
+
+/// A program without an end is run once for its fault, and the fault of a job file is found with it, not because of it.
+#[test]
+fn a_fault_of_the_program_is_said_once_in_a_job_too() {
+    let here = tempfile::tempdir().unwrap();
+    let endless =
+        "G21 G90\nG0 X0 Y0 Z0\nO1 while [1]\nO2 repeat [0]\nO2 endrepeat\nO1 endwhile\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), endless).unwrap();
+    let job = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[expand]\n[load]\nforce_n = [1, 0, 0]\n";
+    for (job, others) in [(job.to_owned(), 0), (job.replace("[1, 0, 0]", "[1, 0]"), 1)] {
+        std::fs::write(here.path().join("job.toml"), job).unwrap();
+        let said = run(here.path(), &["compensate", "job.toml"]);
+        assert_eq!(said.code, 1, "{said:?}");
+        let ends = said.err.matches("does not end").count();
+        assert_eq!(ends, 1 - others, "{said:?}");
+        assert_eq!(said.err.matches("3 values").count(), others, "{said:?}");
+    }
+}
+
 /// Main program and subprogram of a control, with the flat text and the names of the files.
 const CONTROLS: [(&str, &str, &str, &str, &str); 2] = [
     (

@@ -342,3 +342,47 @@ fn wrong_tables_and_options_are_refused_in_their_line() {
     assert_eq!(contents(here).len(), 5);
     assert_eq!(read(here, "macros/slot.ngc"), SLOT);
 }
+
+/// A program of a control is written as it was read, or flat; why it could not be compensated is said.
+#[test]
+fn programs_of_controls_are_written_as_they_were_read() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    for (name, text, flat) in [
+        (
+            "a.h",
+            "BEGIN PGM A MM\r\nFN 0: Q1 = +5\r\nL X+0 Y+0 Z+9 F200\r\nL X+Q1\r\nEND PGM A MM\r\n",
+            "L X+5\r\n",
+        ),
+        (
+            "a.mpf",
+            "G90 G71\nG0 X0 Y0 Z9\nR1=2\nAA:\nG1 X=R1 F200\nR1=R1-1\nIF R1>0 GOTOB AA\nM30\n",
+            "G1 X=2 F200\nG1 X=1 F200\nM30\n",
+        ),
+    ] {
+        put(here, name, text);
+        let line = format!(
+            "compensate --no-compensation --program {name} --force-overwrite --out b{name}"
+        );
+        let said = run(here, &words(&line)).answered();
+        assert!(
+            said.out.contains("written as read, byte for byte"),
+            "{said:?}"
+        );
+        assert!(
+            said.out.contains("could not be compensated as it is"),
+            "{said:?}"
+        );
+        assert_eq!(read(here, &format!("b{name}")), text);
+        let said = run(here, &words(&format!("{line} --expand"))).answered();
+        assert!(
+            said.out.contains("written flat, without a correction"),
+            "{said:?}"
+        );
+        let written = read(here, &format!("b{name}"));
+        assert!(
+            written.contains(flat) && !written.contains("R1"),
+            "{written}"
+        );
+    }
+}

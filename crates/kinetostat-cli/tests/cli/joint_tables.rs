@@ -244,3 +244,50 @@ fn joint_values_are_those_that_the_controller_shows_where_the_model_says_how() {
         }
     }
 }
+
+/// Rows beyond a limit of the model are said with value, limit and what to do, and the program is written.
+#[test]
+fn rows_beyond_the_limits_of_the_arm_are_said() {
+    // heavy_6r turns joint 6 by 350 deg, and joint 2 down to -65 deg.
+    let mut text = String::new();
+    for (row, line) in table("deg").lines().enumerate() {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let (3.., Ok(turn)) = (row, cells[6].parse::<f64>()) {
+            cells[6] = format!("{:.5}", turn - 400.0);
+        }
+        if row == 5 {
+            cells[2] = "-66".to_owned();
+        }
+        text.push_str(&(cells.join(",") + "\n"));
+    }
+    let here = place(&text);
+    let here = here.path();
+    std::fs::write(
+        here.join("cell.toml"),
+        "schema = 1\n[tool]\npose = { position_mm = [0, 0, 180] }\n",
+    )
+    .unwrap();
+    let line = "convert q.csv --to csv --model heavy_6r --joint-rows linear --template cell.toml --out p.csv";
+    let said = flat(&run(here, &words(line)).answered().out);
+    for needle in [
+        "line 4: joint 6 is at -414.6667 deg (and beyond it up to line 8), and its limit in the model is -350 deg",
+        "where -54.6667 deg is the same place",
+        "line 6: joint 2 is at -66 deg, and its limit in the model is -65 deg",
+    ] {
+        assert!(said.contains(needle), "{needle}: {said}");
+    }
+    assert!(here.join("p.csv").exists());
+    let within = table("deg");
+    std::fs::write(here.join("q.csv"), within).unwrap();
+    let said = run(here, &words(&format!("{line} --force-overwrite"))).answered();
+    assert!(!said.out.contains("limit"), "{said:?}");
+    // A run over the table says it, too.
+    std::fs::write(here.join("q.csv"), text.replace("-66", "7")).unwrap();
+    let line =
+        "deflect heavy_6r --program q.csv --tool-length-mm 180 --force 0 0 100 --joint-rows linear";
+    let said = flat(&run(here, &words(line)).answered().out);
+    assert!(
+        said.contains("line 4: joint 6 is at -414.6667 deg"),
+        "{said}"
+    );
+}

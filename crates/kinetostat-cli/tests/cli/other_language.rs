@@ -81,6 +81,39 @@ fn one_command_converts_and_compensates() {
     }
 }
 
+/// The converted program is a flat one: option and job name it without an expansion, too.
+#[test]
+fn the_converted_program_goes_where_it_is_named() {
+    let output = "[output]\nflat_program = \"named.src\"\n";
+    let robot = "[robot]\nto = \"krl\"\ntemplate = \"cell.toml\"\n";
+    for (job, options) in [
+        (
+            JOB.to_owned(),
+            "--to krl --template cell.toml --flat-program named.src",
+        ),
+        (format!("{JOB}{output}"), "--to krl --template cell.toml"),
+        (format!("{JOB}{robot}{output}"), ""),
+    ] {
+        let here = place(&job);
+        let here = here.path();
+        run(here, &words(&format!("compensate job.toml {options}"))).answered();
+        assert!(read(here, "named.src").contains("DEF "), "{options}");
+        if job.contains(robot) {
+            run(here, &words("check job.toml")).answered();
+        }
+    }
+    // Where nothing is converted there is none.
+    let here = place(JOB);
+    let said = run(
+        here.path(),
+        &words("compensate job.toml --flat-program named.ngc"),
+    );
+    assert!(
+        said.code == 1 && said.err.contains("add --expand"),
+        "{said:?}"
+    );
+}
+
 /// The turn is chosen along the path, written into every pose, drawn, and solved.
 #[test]
 fn a_chosen_turn_is_written() {
@@ -152,6 +185,49 @@ fn where_the_arm_does_not_come_the_turn_is_named() {
         &words("compensate job.toml --to krl --free-turn"),
     );
     said.answered();
+}
+
+/// The turn is chosen for one tool: the one of `[[tools]]` that the program takes. Two are refused, and each by itself goes through.
+#[test]
+fn the_turn_is_chosen_for_the_one_tool_that_the_program_takes() {
+    let tools = "[[tools]]\nnumber = 1\npose = { position_mm = [200, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n[[tools]]\nnumber = 2\npose = { position_mm = [180, 0, 100], a_b_c_kuka_deg = [0, 90, 0] }\n";
+    let (before, load) = JOB.split_once("[tool]").unwrap();
+    let (_, load) = load.split_once("[load]").unwrap();
+    let numbered = format!("{before}{tools}[load]{load}");
+    let other = CELL.replace("[tool]\nnumber = 2\n", "");
+    let parts = [
+        "G21 G90\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG1 X40 F600\nG0 Z5\n",
+        "T2 M6\nG0 X0 Y0 Z6\nG1 Z-1 F300\nG1 X40 F600\nG0 Z5\n",
+    ];
+    let here = place(&numbered);
+    let here = here.path();
+    std::fs::write(here.join("cell.toml"), other).unwrap();
+    let line = "compensate job.toml --to krl --template cell.toml --free-turn --force-overwrite";
+    std::fs::write(here.join("part.ngc"), parts.concat()).unwrap();
+    let said = run(here, &words(line));
+    assert_eq!(said.code, 1, "{said:?}");
+    let text = one_line(&said.err);
+    assert!(
+        text.contains(
+            "part.ngc: line 8: the tool 2 moves here, and the tool 1 before: --free-turn"
+        ),
+        "{text}"
+    );
+    for part in [parts[0].to_owned(), format!("G21 G90\n{}", parts[1])] {
+        std::fs::write(here.join("part.ngc"), part).unwrap();
+        let said = run(here, &words(line)).answered();
+        assert!(one_line(&said.out).contains("Turn of the tool about its axis"));
+    }
+    // Without [[tools]] the same tool gives the same turn; an analysis takes the tool of the table, too.
+    let turn = |job: &str| {
+        std::fs::write(here.join("job.toml"), job).unwrap();
+        let said = run(here, &words("deflect job.toml --free-turn")).answered();
+        let text = one_line(&said.out);
+        let (_, turn) = text.split_once("Turn of the tool about its axis").unwrap();
+        turn.to_owned()
+    };
+    let one = turn(&JOB.replace("[200, 0, 100]", "[180, 0, 100]"));
+    assert_eq!(turn(&numbered), one);
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::text::source::SourceFile;
 
 /// A motion as it was read again.
 pub(crate) struct ReadMotion {
-    /// Line of the made program, in its file.
+    /// Line of the made program, counted through its files.
     pub line: usize,
     pub place: Vector3<f64>,
     pub orientation: Option<UnitQuaternion<f64>>,
@@ -57,6 +57,14 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
         .map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
     let program = read(language, sources.collect(), &ReadOptions::default())
         .map_err(|faults| broken(faults.first().map(ToString::to_string).unwrap_or_default()))?;
+    let lines = files
+        .iter()
+        .map(|(_, bytes)| bytes.split_inclusive(|byte| *byte == b'\n').count());
+    let ends = lines.scan(0, |end, lines| {
+        *end += lines;
+        Some(*end)
+    });
+    let starts: Vec<usize> = std::iter::once(0).chain(ends).collect();
     let mut motions = Vec::with_capacity(program.motions.len());
     let mut before: Option<Vector3<f64>> = None;
     for (index, motion) in program.motions.iter().enumerate() {
@@ -87,7 +95,7 @@ fn of_robot(files: &[(String, Vec<u8>)], language: Language) -> Result<Vec<ReadM
         };
         let by_axis = language == Language::Apt;
         motions.push(ReadMotion {
-            line: motion.line,
+            line: starts[motion.file] + motion.line,
             place: pose.position_mm,
             orientation: (!by_axis).then_some(pose.orientation),
             axis: by_axis.then(|| pose.orientation * Vector3::z()),

@@ -24,10 +24,10 @@ pub struct Made {
     pub findings: Vec<MakeFinding>,
     /// How far it is from the path, measured on what its own reader reads.
     pub kept: Kept,
-    /// Of every motion its line in the first of the files, and the line of the source that it came from; empty where the motions stand in
-    /// several files.
+    /// Of every motion its line, counted through the files one behind the other, and the line of the source that it came from.
     pub lines: Vec<[usize; 2]>,
-    /// Of every motion the move of the path that it goes along, and from which share of its length to which.
+    /// Of every motion the move of the path that it goes along, and from which share of its length to which. A motion to the joint
+    /// values at which the program begins goes along none: it stands where the first of the others begins, `[0.0, 0.0]`.
     pub parts: Vec<(usize, [f64; 2])>,
 }
 
@@ -96,14 +96,15 @@ pub fn make(
     };
     let again = read_again(&files, language).map_err(|fault| vec![fault])?;
     let kept = compare(path, steps, &again, template, language).map_err(|fault| vec![fault])?;
-    let lines = match files.len() {
-        1 => (again.iter().zip(steps.iter().filter_map(Step::motion)))
-            .map(|(read, motion)| [read.line, motion.line])
-            .collect(),
-        _ => Vec::new(),
-    };
+    let lines = (again.iter().zip(steps.iter().filter_map(Step::motion)))
+        .map(|(read, motion)| [read.line, motion.line])
+        .collect();
     let motions = steps.iter().filter_map(Step::motion);
     let parts = motions.map(|motion| (motion.source, motion.shares));
+    let begins_at_joints = language.is_of_an_arm() && template.start_joints_deg.is_some();
+    let start = steps.iter().find_map(Step::motion);
+    let start = start.map(|motion| (motion.source, [0.0; 2]));
+    let parts = start.filter(|_| begins_at_joints).into_iter().chain(parts);
     let parts = parts.collect();
     let mut findings = planned.findings;
     if language.is_of_an_arm() {

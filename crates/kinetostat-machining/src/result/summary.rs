@@ -3,6 +3,7 @@
 use crate::load::ramp_findings::LoadRamp;
 use crate::result::largest_change::LargestChange;
 use crate::result::solving::Solving;
+use kinetostat_program::ShortBlocksOfLine;
 use serde::{Deserialize, Serialize};
 
 /// Figures of a run.
@@ -35,6 +36,9 @@ pub struct Summary {
     /// Longest of them, mm.
     #[serde(default)]
     pub largest_entry_step_mm: f64,
+    /// Blocks that are shorter than the controller takes, line by line.
+    #[serde(default)]
+    pub short_blocks: Vec<ShortBlocksOfLine>,
     /// Fastest change of the correction outside steps; none where none was written.
     #[serde(default)]
     pub largest_change_mm_per_mm: Option<LargestChange>,

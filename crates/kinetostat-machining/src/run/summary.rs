@@ -135,6 +135,7 @@ fn of_what_was_written(
     summary.largest_corner_step_mm = a.largest_corner_step_mm;
     summary.entry_steps = a.entry_steps;
     summary.largest_entry_step_mm = a.largest_entry_step_mm;
+    summary.short_blocks.clone_from(&a.short_blocks);
     summary.largest_change_mm_per_mm = of_correction(&checked.changes);
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
     summary.blocks_per_second = a.peak_blocks_per_second;

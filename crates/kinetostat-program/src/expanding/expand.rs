@@ -50,6 +50,42 @@ pub fn expand(
     }
     let mut runner = Runner::new(bytes, options, subprograms);
     runner.run()?;
+    finished(runner)
+}
+
+/// As [`expand`], in the same single run with everything that is refused, as [`expansion_faults`] lists it.
+///
+/// ```
+/// use kinetostat_program::{ExpandOptions, NoSubprograms, expand_or_faults};
+///
+/// let options = ExpandOptions::default();
+/// let flat = expand_or_faults("G21 G90\nO1 repeat [2]\nG0 X1\nO1 endrepeat\n", &options, &NoSubprograms);
+/// assert_eq!(flat.unwrap().program.bytes(), b"G21 G90\nG0 X1\nG0 X1\n");
+/// let refused = expand_or_faults("G21 G90\nM98 P77\nG38.2 Z-10\n", &options, &NoSubprograms);
+/// assert_eq!(refused.unwrap_err().len(), 2);
+/// ```
+///
+/// # Errors
+/// Everything that is refused, at least one fault.
+pub fn expand_or_faults(
+    bytes: impl Into<Vec<u8>>,
+    options: &ExpandOptions,
+    subprograms: &dyn Subprograms,
+) -> Result<Expanded, Vec<ProgramError>> {
+    let bytes = bytes.into();
+    if let Some(library) = only_definitions(&bytes) {
+        return Err(vec![library]);
+    }
+    let mut runner = Runner::new(bytes, options, subprograms);
+    let found = runner.refused_lines();
+    match found.is_empty() {
+        true => finished(runner).map_err(|fault| vec![fault]),
+        false => Err(found),
+    }
+}
+
+/// What a run that came to its end has made.
+fn finished(runner: Runner<'_>) -> Result<Expanded, ProgramError> {
     let files = runner.sources.iter().map(|s| s.name.clone()).collect();
     let (program, path, origins, warnings) = runner.flat.finish()?;
     Ok(Expanded {
@@ -80,14 +116,7 @@ pub fn expansion_faults(
     options: &ExpandOptions,
     subprograms: &dyn Subprograms,
 ) -> Vec<ProgramError> {
-    let bytes = bytes.into();
-    if let Some(library) = only_definitions(&bytes) {
-        return vec![library];
-    }
-    let mut runner = Runner::new(bytes, options, subprograms);
-    let mut found = runner.refused_lines();
-    if found.is_empty() {
-        found.extend(runner.flat.finish().err());
-    }
-    found
+    expand_or_faults(bytes, options, subprograms)
+        .err()
+        .unwrap_or_default()
 }

@@ -28,9 +28,10 @@ pub(crate) struct Flat<'o> {
 }
 
 impl<'o> Flat<'o> {
-    pub fn new(options: &'o ExpandOptions) -> Self {
+    /// A flat program whose lines end as the first one of the source does.
+    pub fn of(source: &[u8], options: &'o ExpandOptions) -> Self {
         Self {
-            reader: Reader::new(Vec::new()),
+            reader: Reader::new(Vec::new()).with_ending_of(source),
             interpreter: Interpreter::new(&options.reading),
             origins: Vec::new(),
             files: BTreeMap::new(),

@@ -7,7 +7,7 @@ use crate::error::{ProgramError, ProgramErrorKind, excerpt};
 use crate::text::after_end::acting_word;
 use crate::text::lex::{Spanned, Token, tokens_of};
 use crate::text::library::only_definitions;
-use crate::text::line::{Line, LineKind, Word};
+use crate::text::line::{Line, LineKind, Word, first_line};
 use crate::text::syntax;
 
 /// First words of the comment that marks a program as compensated.
@@ -170,6 +170,8 @@ pub(crate) struct Reader {
     /// Line of the closing tape mark.
     closed: usize,
     blocks: usize,
+    /// Line ending of lines that are added.
+    added_ending: Vec<u8>,
 }
 
 impl Reader {
@@ -186,6 +188,7 @@ impl Reader {
             tape_marks: 0,
             closed: 0,
             blocks: 0,
+            added_ending: b"\n".to_vec(),
         }
     }
 
@@ -196,16 +199,8 @@ impl Reader {
         }
         let mut start = byte_order_mark(&self.program.bytes);
         while start < self.program.bytes.len() {
-            let rest = &self.program.bytes[start..];
-            let length = rest
-                .iter()
-                .position(|byte| matches!(byte, b'\n' | b'\r'))
-                .unwrap_or(rest.len());
-            let ending = match &rest[length..] {
-                [b'\r', b'\n', ..] => 2,
-                [] => 0,
-                _ => 1,
-            };
+            let (length, ending) = first_line(&self.program.bytes[start..]);
+            let ending = ending.len();
             let content = start..start + length;
             faults.extend(self.read_line(content, start + length + ending));
             start += length + ending;
@@ -222,12 +217,24 @@ impl Reader {
         self.program
     }
 
+    /// Lines that are added end as the first line of another file does.
+    pub(crate) fn with_ending_of(self, file: &[u8]) -> Self {
+        let added_ending = match first_line(file).1 {
+            [] => b"\n".to_vec(),
+            ending => ending.to_vec(),
+        };
+        Self {
+            added_ending,
+            ..self
+        }
+    }
+
     /// Adds a line (without its line ending) behind the last.
     pub(crate) fn add_line(&mut self, text: &[u8]) -> Result<(), ProgramError> {
         let start = self.program.bytes.len();
         self.program.bytes.extend_from_slice(text);
-        self.program.bytes.push(b'\n');
-        let fault = self.read_line(start..start + text.len(), start + text.len() + 1);
+        self.program.bytes.extend_from_slice(&self.added_ending);
+        let fault = self.read_line(start..start + text.len(), self.program.bytes.len());
         fault.map_or(Ok(()), Err)
     }
 

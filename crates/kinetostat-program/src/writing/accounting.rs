@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::path::moves::{Feed, FeedMode, Move, Warning};
 
@@ -88,8 +88,23 @@ pub struct Accounting {
     pub peak_blocks_per_second: Option<f64>,
     /// The densest sixteen blocks of the input, for comparison.
     pub peak_blocks_per_second_in: Option<f64>,
+    /// Blocks that are shorter than the controller takes, line by line.
+    pub short_blocks: Vec<ShortBlocksOfLine>,
     /// What may surprise, with lines of the input.
     pub warnings: Vec<Warning>,
+}
+
+/// Blocks of the output that are shorter than a controller takes ([`crate::WriteOptions::min_block_mm`],
+/// [`crate::WriteOptions::max_blocks_per_s`]), of one line of the input.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ShortBlocksOfLine {
+    /// Line of the input, counted from 1.
+    pub line: usize,
+    /// How many of its blocks are too short.
+    pub blocks: usize,
+    /// The shortest of them, mm.
+    pub shortest_mm: f64,
 }
 
 /// Blocks in a row over which the peak rate is taken: a controller looks ahead some blocks, so a

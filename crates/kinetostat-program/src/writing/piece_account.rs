@@ -288,6 +288,7 @@ impl<'a> PieceAccount<'a> {
         self.warn_of_steps_and_feeds();
         let short = self.short.warnings(self.options);
         self.accounting.warnings.extend(short);
+        self.accounting.short_blocks = self.short.by_line();
         self.accounting.bytes_out = bytes_out;
         self.accounting.pieces = self.pieces.len();
         self.accounting.mean_blocks_per_second = self.rate.mean();

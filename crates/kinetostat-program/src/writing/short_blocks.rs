@@ -1,7 +1,8 @@
 //! Blocks that are too short for the controller: which, and what to do.
 
-use crate::number::{at_most, larger};
+use crate::number::{at_most, larger, smaller};
 use crate::path::moves::{FeedMode, Move, Warning};
+use crate::writing::accounting::ShortBlocksOfLine;
 use crate::writing::options::WriteOptions;
 
 /// Lines that a warning names.
@@ -68,10 +69,7 @@ pub(crate) enum Whose {
 #[derive(Debug, Default)]
 struct Found {
     blocks: usize,
-    /// Lines, each once; only the first ones.
-    named: Vec<usize>,
-    lines: usize,
-    last_line: usize,
+    lines: Vec<ShortBlocksOfLine>,
     shortest: Option<Shortest>,
 }
 
@@ -88,14 +86,18 @@ struct Shortest {
 impl Found {
     fn note(&mut self, line: usize, length_mm: f64, seconds: Option<f64>) {
         self.blocks += 1;
-        if line != self.last_line {
-            self.last_line = line;
-            self.lines += 1;
-            if self.named.len() < NAMED {
-                self.named.push(line);
-            }
-        }
         // What is no number is no length either, and is shown.
+        match self.lines.last_mut().filter(|last| last.line == line) {
+            Some(last) => {
+                last.blocks += 1;
+                last.shortest_mm = smaller(last.shortest_mm, length_mm);
+            }
+            None => self.lines.push(ShortBlocksOfLine {
+                line,
+                blocks: 1,
+                shortest_mm: length_mm,
+            }),
+        }
         let is_longer = |shortest: &Shortest| length_mm >= shortest.length_mm;
         if !self.shortest.as_ref().is_some_and(is_longer) {
             self.shortest = Some(Shortest {
@@ -122,9 +124,13 @@ impl Found {
             line,
             pieces,
         } = self.shortest?;
-        let named: Vec<String> = self.named.iter().map(usize::to_string).collect();
-        let more = match self.lines > self.named.len() {
-            true => format!(" and {} more", self.lines - self.named.len()),
+        let named = self.lines.iter().take(NAMED);
+        let named: Vec<String> = named.map(|of| of.line.to_string()).collect();
+        let more = match self.lines.len() > named.len() {
+            true => format!(
+                " and {} more (short_blocks in the JSON result lists every line)",
+                self.lines.len() - named.len()
+            ),
             false => String::new(),
         };
         let time = seconds.map_or_else(String::new, |seconds| {
@@ -207,6 +213,14 @@ impl ShortBlocks {
         if count > 1 {
             self.pieces.end_block(motion.line, count);
         }
+    }
+
+    /// All of them, in the order of their lines.
+    pub fn by_line(&self) -> Vec<ShortBlocksOfLine> {
+        let all = self.pieces.lines.iter().chain(&self.input.lines);
+        let mut all: Vec<ShortBlocksOfLine> = all.copied().collect();
+        all.sort_by_key(|of| of.line);
+        all
     }
 
     /// What is to be said of them.

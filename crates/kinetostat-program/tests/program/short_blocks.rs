@@ -75,6 +75,50 @@ fn short_blocks_are_named_with_their_length_time_and_remedy() {
     );
 }
 
+/// A sentence names some lines; the account has every one of them.
+#[test]
+fn every_line_of_short_blocks_is_in_the_account() {
+    let mut text = "G21 G90\nG0 X0 Y0 Z0\nG1 X5 F6000\n".to_owned();
+    for step in 1..=12 {
+        text.push_str(&format!("X{:.3}\n", 5.0 + 0.01 * f64::from(step)));
+    }
+    text.push_str("X20\nM2\n");
+    let still = |_: &Request| Ok(Vector3::zeros());
+    let mut writing = bare();
+    writing.min_block_mm = Some(0.1);
+    let (_, result) = written_with(&text, &still, &at_origin(), &writing);
+    let short = &result.accounting.short_blocks;
+    let lines: Vec<usize> = short.iter().map(|of| of.line).collect();
+    assert_eq!(lines, (4..=15).collect::<Vec<_>>());
+    for of in short {
+        assert_eq!(of.blocks, 1);
+        assert!((of.shortest_mm - 0.01).abs() < 1e-9, "{of:?}");
+    }
+    let said: Vec<&str> = result
+        .accounting
+        .warnings
+        .iter()
+        .filter(|w| w.text.contains("shorter than"))
+        .map(|w| w.text.as_str())
+        .collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(
+        said[0].contains(
+            "on the lines 4, 5, 6, 7, 8 and 7 more (short_blocks in the JSON result lists every line) are shorter"
+        ),
+        "{said:?}"
+    );
+    // Pieces of a block that is divided are counted on its line.
+    let raised = |at: &Request| Ok(Vector3::z() * (0.02 * at.position_mm.x).sin());
+    writing.min_block_mm = Some(1e3);
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X100 F600\nM2\n";
+    let (_, result) = written_with(text, &raised, &at_origin(), &writing);
+    let [of] = result.accounting.short_blocks.as_slice() else {
+        panic!("{:?}", result.accounting.short_blocks);
+    };
+    assert!(of.line == 3 && of.blocks > 3, "{of:?}");
+}
+
 #[test]
 fn limits_out_of_range_are_refused() {
     for (min_block_mm, max_blocks_per_s) in [

@@ -55,15 +55,7 @@ pub(crate) struct ExpandFlags {
     pub(crate) expand: bool,
     #[command(flatten)]
     pub(crate) with: ExpansionArgs,
-    /// File for the flat program, whose lines the messages name
+    /// File for the flat program, whose lines the messages name; of a conversion (--to) the converted one
     #[arg(long, value_name = "FILE", help_heading = "Expansion")]
     pub(crate) flat_program: Option<PathBuf>,
-}
-
-impl ExpandFlags {
-    /// The first option that means nothing without an expansion.
-    pub(crate) fn given(&self) -> Option<&'static str> {
-        let flat = self.flat_program.is_some().then_some("--flat-program");
-        self.with.given().or(flat)
-    }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{FileRead, FlatProgram};
-use kinetostat_program::{Expanded, ProgramError, expand, expansion_faults};
+use kinetostat_program::{Expanded, ProgramError, expand_or_faults};
 
 use crate::job::expansion::folders::{Folders, SubprogramFile};
 use crate::job::expansion::settings::ExpandSettings;
@@ -28,19 +28,18 @@ pub(crate) fn flattened(
     settings: &ExpandSettings,
 ) -> Answer<Flattened> {
     let folders = Folders::new(program, &settings.folders);
-    let done = expand(bytes.as_slice(), &settings.options, &folders);
-    let all = match &done {
-        Ok(_) => Vec::new(),
-        Err(_) => expansion_faults(bytes, &settings.options, &folders),
-    };
+    let done = expand_or_faults(bytes, &settings.options, &folders);
     let files = folders.into_read();
-    let expanded = done.map_err(|error| match all.as_slice() {
-        [] => refused(&error, name, &files),
-        [only] => refused(only, name, &files),
-        all => {
-            let list = fault_list_text("lines", &error, all, |fault| fault.reason.as_str());
-            Failure::input(list).within(name)
-        }
+    let expanded = done.map_err(|all| {
+        let failure = match all.as_slice() {
+            [] => Failure::input("the program is refused").within(name),
+            [only] => refused(only, name, &files),
+            [first, ..] => {
+                let list = fault_list_text("lines", first, &all, |fault| fault.reason.as_str());
+                Failure::input(list).within(name)
+            }
+        };
+        failure.of_program()
     })?;
     let index = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let sources = expanded.origins.iter();

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_program::{Dialect, ExpandOptions, OriginComments, OtherAxes, ReadOptions};
 
+use crate::job::arguments::ProgramArgs;
 use crate::job::dialect_word::DialectWord;
-use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
+use crate::job::expansion::arguments::ExpansionArgs;
 use crate::job::expansion::values::{any, diameter, of_options, of_table};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -23,23 +24,33 @@ pub(crate) struct ExpandSettings {
 /// The settings where the program of a run is to be expanded; none where it is not.
 pub(crate) fn wanted(
     job: Option<&JobFile>,
-    flags: &ExpandFlags,
+    args: &ProgramArgs,
     reading: &ReadOptions,
 ) -> Answer<Option<ExpandSettings>> {
+    let flags = &args.expansion;
     if flags.expand || job.is_some_and(|j| j.job.expand.is_some()) {
         return settings(job, &flags.with, reading).map(Some);
     }
-    if let Some(option) = flags.given() {
+    // A program that is converted is written before it is compensated, too.
+    let flat = flags.flat_program.is_some() && !args.robot.converted;
+    let flat = flat.then_some("--flat-program");
+    if let Some(option) = flags.with.given().or(flat) {
         return Err(Failure::input(format!(
             "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
         )));
     }
-    let unused = job.and_then(|j| Some((j, j.job.output.flat_program.as_ref()?)));
+    let is_converted = |j: &JobFile| match &j.job.robot {
+        Some(table) => table.get_ref().to.is_some(),
+        None => false,
+    };
+    let unused = job
+        .filter(|j| !args.robot.converted && !is_converted(j))
+        .and_then(|j| Some((j, j.job.output.flat_program.as_ref()?)));
     match unused {
         Some((j, written)) => Err(j.error(
             written,
-            "there is a flat program only where the program is expanded",
-            "add a table [expand], or leave this line out",
+            "there is a flat program only where the program is expanded or converted",
+            "add a table [expand] (of a program to convert: to under [robot]), or leave this line out",
         )),
         None => Ok(None),
     }

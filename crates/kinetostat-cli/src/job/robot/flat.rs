@@ -12,7 +12,7 @@ pub(crate) fn flat_text(source: &RobotSource) -> Answer<(FlatText, FlatProgram)>
     let files = source.files.clone();
     let names = files.iter().map(|file| file.name().to_owned()).collect();
     let done = expand(source.language, files, &source.settings.reading)
-        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+        .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
     let Some(text) = done else {
         return Err(Failure::input(
             "--expand and [expand] are for G-code, SINUMERIK and Heidenhain; a program of a robot is read as it stands, with its routines: leave them out",

@@ -12,6 +12,7 @@ use crate::files::input_files::InputFiles;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::model_named::model_named;
+use crate::job::robot::row_limits::rows_beyond_limits;
 use crate::job::robot::source::RobotSource;
 use crate::job::tools::tool;
 use crate::ui::failure::{Answer, Failure};
@@ -136,6 +137,8 @@ pub(crate) fn give_arm(
             ", and the model '{named}' is no arm of six turning joints in one chain: write poses (x_mm, y_mm, z_mm, qw, qx, qy, qz)"
         ));
     };
+    source.settings.beyond_limits =
+        rows_beyond_limits(&model, |shown| arm.model_joints(shown), &program);
     let in_mm = Isometry3::from_parts((1e3 * tool.translation.vector).into(), tool.rotation);
     let reading = &mut source.settings.reading;
     reading.frames.insert(name.clone(), in_mm);

@@ -99,6 +99,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             line: 1,
             text: words.to_owned(),
         }));
+    path.path.warnings.extend(settings.beyond_limits.clone());
     let mut moves = path.path.moves.iter();
     if settings.corrected == Directions::ALL && moves.all(|motion| motion.tool_turn.is_none()) {
         return Err(Failure::input(

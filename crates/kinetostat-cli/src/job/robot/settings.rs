@@ -6,6 +6,7 @@ use kinetostat_formats::{
     TurnAboutAxis, UnknownTargets, WriteOptions as TextOptions,
 };
 use kinetostat_model::schema::{Axis, AxisName};
+use kinetostat_program::Warning;
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
@@ -30,6 +31,8 @@ pub(crate) struct RobotSettings {
     pub(crate) joint_rows: Option<BetweenRows>,
     /// What the joint values of a table are, in words.
     pub(crate) joints_are: Option<&'static str>,
+    /// Rows of a table of joint values that are beyond limits of the model.
+    pub(crate) beyond_limits: Vec<Warning>,
 }
 
 /// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
@@ -128,6 +131,7 @@ pub(crate) fn settings(
             JointRowsWord::Linear => BetweenRows::Linear,
         }),
         joints_are: None,
+        beyond_limits: Vec::new(),
     })
 }
 

@@ -10,6 +10,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
+use crate::job::robot::divided::Divided;
 use crate::job::robot::parquet;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
@@ -26,6 +27,8 @@ pub(crate) struct RobotSource {
     pub(crate) settings: RobotSettings,
     /// The program in Parquet of which `files` hold the text.
     pub(crate) parquet: Option<Vec<u8>>,
+    /// The files of which the program was joined.
+    pub(crate) divided: Option<Divided>,
     /// The program as it was read.
     pub(crate) reading: Reading,
 }
@@ -89,6 +92,7 @@ pub(crate) fn robot_source(
         }],
         paths: Vec::new(),
         settings,
+        divided: None,
         reading: Reading::new(),
     };
     let mut read = Vec::new();

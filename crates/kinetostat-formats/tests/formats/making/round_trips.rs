@@ -131,6 +131,10 @@ fn poses_and_configurations_of_the_template_are_written() {
         assert!(text_of(&made, 0).contains(written), "{}", text_of(&made, 0));
         let program = read_made(&made, language);
         assert_eq!(program.motions.len(), 10);
+        // The motion to the joint values goes along nothing of the path, and stands where the first move begins.
+        assert_eq!(made.parts.len(), program.motions.len());
+        assert_eq!(made.parts[0], (made.parts[1].0, [0.0, 0.0]));
+        assert_eq!(made.parts[1].1, [0.0, 1.0]);
         assert!(
             matches!(&program.motions[0].target, Target::Joints { values_deg } if values_deg[1] == -90.0)
         );

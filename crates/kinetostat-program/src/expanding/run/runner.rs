@@ -62,10 +62,10 @@ impl<'o> Runner<'o> {
         Self {
             options,
             library,
+            flat: Flat::of(&bytes, options),
             sources: vec![Source::new(String::new(), bytes)],
             frames: vec![program_frame(options.dialect)],
             shared,
-            flat: Flat::new(options),
             radius: Radius::new(options),
             coordinates: Coordinates::default(),
             cycle: None,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::expanding::expression::parse::{Cursor, Malformed};
 use crate::expanding::expression::tree::Expression;
 use crate::expanding::source::statement::{OLabel, Piece, SourceLine, Statement, Structure};
+use crate::text::line::first_line;
 
 /// A line that is no statement: what is wrong, at which byte of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,14 +20,7 @@ pub(crate) fn lines(bytes: &[u8]) -> (Vec<SourceLine>, Vec<Fault>) {
     let (mut all, mut faults) = (Vec::new(), Vec::new());
     let mut start = 0;
     while start < bytes.len() {
-        let rest = &bytes[start..];
-        let length = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
-        let length = length.unwrap_or(rest.len());
-        let ending = match &rest[length..] {
-            [b'\r', b'\n', ..] => 2,
-            [] => 0,
-            _ => 1,
-        };
+        let (length, ending) = first_line(&bytes[start..]);
         let span = start..start + length;
         let read = line(&bytes[span.clone()], span.clone()).unwrap_or_else(|fault| {
             faults.push(Fault {
@@ -37,7 +31,7 @@ pub(crate) fn lines(bytes: &[u8]) -> (Vec<SourceLine>, Vec<Fault>) {
             plain(span, false, None)
         });
         all.push(read);
-        start += length + ending;
+        start += length + ending.len();
     }
     (all, faults)
 }

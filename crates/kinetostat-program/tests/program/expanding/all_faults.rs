@@ -115,3 +115,52 @@ fn programs_without_an_end_are_bounded() {
         assert!((2..=4).contains(&found.len()), "{text}: {found:?}");
     }
 }
+
+/// A library that counts how often it is asked.
+#[derive(Default)]
+struct Counted(std::cell::Cell<usize>);
+
+impl Subprograms for Counted {
+    fn find(&self, name: &str) -> Option<Vec<u8>> {
+        self.0.set(self.0.get() + 1);
+        File.find(name)
+    }
+}
+
+#[test]
+fn one_run_gives_the_program_or_all_its_faults() {
+    let options = ExpandOptions::default();
+    let (refused, library) = ("G21 G90\nG0 X0\nM98 P100\nM2\n", Counted::default());
+    let found = expand_or_faults(refused, &options, &library).unwrap_err();
+    assert_eq!(found, expansion_faults(refused, &options, &File));
+    assert_eq!(library.0.get(), 1);
+    // Without an end.
+    let endless = "G21 G90\nO1 while [1]\nO2 repeat [0]\nO2 endrepeat\nO1 endwhile\nM2\n";
+    let found = expand_or_faults(endless, &options, &NoSubprograms).unwrap_err();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].reason.contains("does not end"), "{found:?}");
+}
+
+/// Lines of the file keep their ending, those of a subprogram take it.
+#[test]
+fn the_flat_program_ends_its_lines_as_the_file_does() {
+    let text =
+        "G21 G90\n#1 = 2\nO1 repeat [2]\nG0 X#1 Y0\nO1 endrepeat\nM98 P5\nM2\nO5\nG0 Z5\nM99\n";
+    let options = ExpandOptions::default();
+    let flat = |text: &str| {
+        let made = expand(text, &options, &NoSubprograms).unwrap();
+        String::from_utf8(made.program.bytes().to_vec()).unwrap()
+    };
+    let plain = flat(text);
+    assert!(
+        plain.lines().count() == 5 && !plain.contains('\r'),
+        "{plain}"
+    );
+    for ending in ["\r\n", "\r"] {
+        assert_eq!(
+            flat(&text.replace('\n', ending)),
+            plain.replace('\n', ending)
+        );
+    }
+    assert_eq!(flat("G21 G90 G0 X1"), "G21 G90 G0 X1\n");
+}

@@ -1,7 +1,7 @@
 //! Random programs with macros: whatever they are, they are expanded or refused with a line, at once; what is expanded is plain.
 
 use kinetostat_program::{
-    Dialect, ExpandOptions, NoSubprograms, expand, expansion_faults, interpret,
+    Dialect, ExpandOptions, NoSubprograms, expand, expand_or_faults, expansion_faults, interpret,
 };
 use nalgebra::Vector3;
 
@@ -211,6 +211,14 @@ pub fn check(seed: u64) -> Result<bool, String> {
         Ok(expanded) => expanded,
     };
     let flat = expanded.program.bytes().to_vec();
+    match expand_or_faults(text.as_str(), &options, &NoSubprograms) {
+        Ok(same) if same.program.bytes() == flat && same.origins == expanded.origins => {}
+        other => {
+            return Err(format!(
+                "seed {seed}: not what expand gives: {other:?}\n{text}"
+            ));
+        }
+    }
     let path = interpret(&expanded.program, &options.reading);
     if path.as_ref() != Ok(&expanded.path) {
         return Err(format!("seed {seed}: another path: {path:?}\n{text}"));
