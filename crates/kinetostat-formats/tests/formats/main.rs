@@ -13,6 +13,7 @@ mod axes_alone;
 mod axes_on_circles;
 mod chance;
 mod circles;
+mod closed_circles;
 mod corners;
 mod fields;
 mod harness;
