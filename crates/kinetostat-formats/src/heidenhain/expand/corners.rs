@@ -5,13 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector2;
 
+use crate::corner::not_followed;
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::digits::decimals;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::reader::interpret;
 use crate::heidenhain::reading::rounded::{Rounded, has_corners};
 use crate::heidenhain::writing::words::{Stated, feed_text, stands, with_blanks, word_text};
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets};
+use crate::options::ReadOptions;
 use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
@@ -38,13 +40,8 @@ pub(crate) fn written_out(
     if !has_corners(flat.file.bytes()) {
         return Ok(flat);
     }
-    let reading = ReadOptions {
-        unknown_targets: UnknownTargets::LeftAsWritten,
-        cutter_compensation: CutterCompensation::CentrePath,
-        ..options.clone()
-    };
     let file = [flat.file.clone()];
-    let found = interpret(&file, &reading);
+    let found = interpret(&file, &options.as_written());
     if found.corners.is_empty() {
         return Ok(flat);
     }
@@ -53,8 +50,7 @@ pub(crate) fn written_out(
         match corner {
             Ok(corner) => corners.push(corner),
             Err((span, why)) => {
-                let reason = format!("the corner is not followed by what is known here: {why}");
-                let why = (reason, REMEDY);
+                let why = (not_followed(&why), REMEDY);
                 faults.push(ProgramError::of_flat(&flat, files, span.start, why));
             }
         }
@@ -111,13 +107,6 @@ fn edits_of(file: &SourceFile, corners: &[Rounded], polar: &[(Block, Vector2<f64
         line_ends(file, block, wanted, &mut edits);
     }
     edits
-}
-
-fn decimals(unit_mm: f64) -> usize {
-    match unit_mm == 1.0 {
-        true => 4,
-        false => 5,
-    }
 }
 
 /// The arc in place of RND.

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::heidenhain::digits::decimals;
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::found::Way;
@@ -121,10 +122,7 @@ impl Writer<'_> {
             let text = word_text(
                 axis,
                 end / way.unit_mm,
-                match way.unit_mm == 1.0 {
-                    true => 4,
-                    false => 5,
-                },
+                decimals(way.unit_mm),
                 self.signs[motion.file],
             );
             match stated.word[axis].filter(|_| is_stated) {
