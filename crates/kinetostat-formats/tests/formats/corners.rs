@@ -198,3 +198,19 @@ fn polar_lines_other_planes_and_inches_are_followed() {
         "{output}"
     );
 }
+
+#[test]
+fn sizes_of_corners_may_be_computed() {
+    let written = |words: [&str; 3]| {
+        let [round, length, side] = words;
+        let text = format!(
+            "R1=2 R2=0.5\nG17 G90 G0 X0 Y0 Z0\nG1 X40 F100 RND={round}\nY30 CHF={length}\nX0 CHR={side}\nY-10\nM30\n"
+        );
+        let files = [SourceFile::new("a.mpf", text)];
+        let flat = expand_siemens(&files).unwrap();
+        String::from_utf8(flat.file.bytes().to_vec()).unwrap()
+    };
+    let computed = written(["R1+5", "R1*R2*3", "SQRT(R1*2)+R2"]);
+    assert_eq!(computed, written(["7", "3", "2.5"]));
+    assert!(computed.contains("\nG3 X40 Y7 CR=7\n"), "{computed}");
+}

@@ -2,6 +2,8 @@
 
 use kinetostat_formats::*;
 
+use crate::refusing::{all_are_refused, messages};
+
 /// What is said of a file, read as it is or written flat first.
 fn said(body: &str, flat: bool) -> Vec<(usize, String)> {
     let text =
@@ -12,14 +14,7 @@ fn said(body: &str, flat: bool) -> Vec<(usize, String)> {
         true => expand_heidenhain(files, &options).map(|_| ()),
         false => read_heidenhain(files, &options).map(|_| ()),
     };
-    let errors = match found {
-        Ok(()) => Vec::new(),
-        Err(errors) => errors,
-    };
-    errors
-        .iter()
-        .map(|error| (error.line, error.to_string()))
-        .collect()
+    messages(found)
 }
 
 #[test]
@@ -224,17 +219,7 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             "a Q parameter says its value; write the program flat first (--expand)",
         ),
     ];
-    let mut odd = Vec::new();
-    for (flat, body, line, part) in cases {
-        let found = said(body, flat);
-        let hit = found
-            .iter()
-            .any(|(at, message)| *at == line && message.contains(part));
-        if !hit || found.len() > 2 {
-            odd.push(format!("{body:?}, line {line}, {part:?}: {found:?}"));
-        }
-    }
-    assert!(odd.is_empty(), "{odd:#?}");
+    all_are_refused(&cases, said);
 }
 
 #[test]
