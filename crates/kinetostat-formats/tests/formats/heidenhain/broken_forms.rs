@@ -36,7 +36,31 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             AS_IT_IS,
             "L X+10\nCHF 2\nL Y+10",
             5,
-            "let the CAM system write the corner as L blocks",
+            "write the program flat first (--expand): the chamfer becomes a block of its own",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF 12\nL Y+20",
+            5,
+            "it takes 12.0000 mm of a line at the corner that is 10.0000 mm long; let the CAM system write the chamfer as an L block",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF\nL Y+10",
+            5,
+            "its length is not stated as a number",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF R2\nL Y+10",
+            5,
+            "its length is not stated as a number",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF 2\nCR X+20 Y+10 R+20 DR+",
+            5,
+            "the block behind it is no straight line",
         ),
         (
             FLAT,
