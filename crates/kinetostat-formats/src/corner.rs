@@ -28,6 +28,11 @@ const LEAST_TURN: f64 = 1e-6;
 /// How much longer than its line a side may be, mm: rounding.
 const ROUNDING_MM: f64 = 1e-6;
 
+/// The sentence of a corner that is refused.
+pub(crate) fn not_followed(why: &str) -> String {
+    format!("the corner is not followed by what is known here: {why}")
+}
+
 impl Corner {
     /// Between lines from one place over the corner to another.
     ///

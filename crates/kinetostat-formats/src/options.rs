@@ -75,6 +75,17 @@ pub struct ReadOptions {
     pub arm: Option<TableArm>,
 }
 
+impl ReadOptions {
+    /// The same, and what is not followed stays as it is written: for a look at a program of which nobody is to hear yet.
+    pub(crate) fn as_written(&self) -> Self {
+        Self {
+            unknown_targets: UnknownTargets::LeftAsWritten,
+            cutter_compensation: CutterCompensation::CentrePath,
+            ..self.clone()
+        }
+    }
+}
+
 /// Where a motion that is written as several pieces stops, if it stops at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExactStops {

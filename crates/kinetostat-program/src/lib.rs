@@ -71,6 +71,7 @@ pub use field::request::{
 };
 pub use irregular::irregular;
 pub use machine_program::{Gcode, MachineProgram};
+pub use path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 pub use path::curve::{Arc, Curve};
 pub use path::great_circle::{GreatCircle, OffCircle};
 pub use path::moves::{

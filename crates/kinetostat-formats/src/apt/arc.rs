@@ -1,8 +1,8 @@
 //! Arcs about a stated centre and axis, from where the tool is to the next place.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
+use kinetostat_program::{NearlyClosed, angle_about};
 use nalgebra::Vector3;
 
 use crate::apt::dialect::Dialect;
@@ -27,7 +27,7 @@ pub(crate) struct Circle {
 
 /// Farthest that written radii differ, mm; 0.0001 in the files seen.
 const RADIUS_TOLERANCE_MM: f64 = 0.01;
-/// Ends nearer than this are one place: the arc is a full turn.
+/// Radii smaller than this are none.
 const SAME_MM: f64 = 1e-4;
 
 impl Circle {
@@ -61,11 +61,17 @@ impl Circle {
         })
     }
 
-    /// The angle by which the tool goes around the axis from a place to another, right-handed, rad.
+    /// The angle by which the tool goes around the axis from a place to another, right-handed, rad. The words of the places have such
+    /// a last digit.
     ///
     /// # Errors
-    /// Where the places lie on no circle about the centre.
-    pub(crate) fn angle(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Result<f64, String> {
+    /// Where the places lie on no circle about the centre, or it is not sure whether that is a full one; what to do.
+    pub(crate) fn angle(
+        &self,
+        from: &Vector3<f64>,
+        to: &Vector3<f64>,
+        digit_mm: f64,
+    ) -> Result<f64, (String, &'static str)> {
         let across = |place: &Vector3<f64>| {
             let arm = place - self.centre_mm;
             arm - self.axis * arm.dot(&self.axis)
@@ -77,20 +83,22 @@ impl Circle {
             (one - other).abs() > RADIUS_TOLERANCE_MM || !one.is_finite() || !other.is_finite()
         };
         if differ(first, last) || differ(first, stated) || first < SAME_MM {
-            return Err(format!(
-                "the circle has radius {first:.4} at its start and {last:.4} at its end{}",
-                match self.radius_mm {
-                    Some(radius) => format!(", and {radius:.4} is stated"),
-                    None => String::new(),
-                }
+            let stated = match self.radius_mm {
+                Some(radius) => format!(", and {radius:.4} is stated"),
+                None => String::new(),
+            };
+            return Err((
+                format!(
+                    "the circle has radius {first:.4} at its start and {last:.4} at its end{stated}"
+                ),
+                "let the CAM system write it again",
             ));
         }
-        let angle = self.axis.dot(&start.cross(&end)).atan2(start.dot(&end));
-        let along = self.sense * angle;
-        let turned = match (end - start).norm() < SAME_MM {
-            true => TAU,
-            false => along.rem_euclid(TAU),
-        };
-        Ok(self.sense * turned)
+        let outwards = start / first;
+        let aside = self.axis.cross(&outwards);
+        let arms = [start, end].map(|arm| [arm.dot(&outwards), arm.dot(&aside)]);
+        let angle = angle_about(arms[0], arms[1], self.sense, digit_mm)
+            .map_err(|nearly| (nearly.to_string(), NearlyClosed::REMEDY))?;
+        Ok(self.sense * angle)
     }
 }

@@ -1,5 +1,6 @@
 //! Statements that move the tool.
 
+use kinetostat_program::last_digit_mm;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::apt::arc::Circle;
@@ -29,7 +30,9 @@ impl Reader<'_, '_> {
         let mut kind = MotionKind::Linear;
         if let Some(circle) = &circle {
             let known = self.state.place;
-            match known.map(|from| circle.angle(&from, &place)) {
+            let written: Vec<f64> = numbers.iter().take(3).map(|number| number.value).collect();
+            let digit_mm = last_digit_mm(&written, self.unit_mm);
+            match known.map(|from| circle.angle(&from, &place, digit_mm)) {
                 _ if circle.times => {
                     let reason = "it is a helix of several turns, whose way is not followed";
                     self.unknown_with(statement, reason, Some(circle));
@@ -42,8 +45,8 @@ impl Reader<'_, '_> {
                     self.state.place = Some(place);
                     return;
                 }
-                Some(Err(reason)) => {
-                    self.fault(&circle.span, reason, "let the CAM system write it again");
+                Some(Err((reason, remedy))) => {
+                    self.fault(&circle.span, reason, remedy);
                     self.state.place = Some(place);
                     return;
                 }

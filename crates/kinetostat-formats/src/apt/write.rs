@@ -16,7 +16,7 @@ use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::RobotProgram;
 use crate::model::site::TargetSite;
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets, WriteOptions};
+use crate::options::{ReadOptions, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::source::SourceFile;
 use crate::writing::motions::write_with;
@@ -136,11 +136,7 @@ fn with_own_axes(program: &RobotProgram, pieces: &[Piece]) -> Option<RobotProgra
         let bytes = edits.applied_to(file.bytes())?;
         Some(SourceFile::new(file.name(), bytes))
     });
-    let reading = ReadOptions {
-        unknown_targets: UnknownTargets::LeftAsWritten,
-        cutter_compensation: CutterCompensation::CentrePath,
-        ..ReadOptions::default()
-    };
+    let reading = ReadOptions::default().as_written();
     let again = read_apt(files.collect::<Option<Vec<_>>>()?, &reading).ok()?;
     (again.motions.len() == program.motions.len()).then_some(again)
 }

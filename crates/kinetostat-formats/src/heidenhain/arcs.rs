@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use kinetostat_program::{NearlyClosed, angle_about};
 use nalgebra::{Rotation2, Vector2};
 
 /// An arc in the programmed axes, mm.
@@ -14,8 +15,11 @@ pub(crate) struct Arc {
 
 /// Farthest that radii of start and end differ, mm: a little more than the control's usual 0.016.
 const RADIUS_MM: f64 = 0.02;
-/// Ends nearer than this are one place.
+/// Radii and chords smaller than this are none.
 const SAME_MM: f64 = 1e-4;
+
+/// What to do with a circle that is none.
+pub(crate) const AGAIN: &str = "let the CAM system write the circle again";
 
 impl Arc {
     /// The direction in which it ends.
@@ -25,33 +29,43 @@ impl Arc {
     }
 }
 
-/// About a centre, from a place to another: `sense` is 1 anticlockwise, -1 clockwise. A whole turn where they are one place.
+/// How far an arc about a centre turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Turned {
+    /// So far, rad.
+    By(f64),
+    /// To its end, in the sense 1 anticlockwise, -1 clockwise; words of so fine a last digit state that, mm.
+    ToEnd { sense: f64, digit_mm: f64 },
+}
+
+/// About a centre, from a place to another. A whole turn where they are one place.
 ///
 /// # Errors
-/// Where they lie on no circle about the centre.
+/// Where they lie on no circle about the centre, or it is not sure whether that is a whole turn; what to do.
 pub(crate) fn about(
     centre: Vector2<f64>,
     from: &Vector2<f64>,
     to: &Vector2<f64>,
-    sense: f64,
-) -> Result<Arc, String> {
+    turned: Turned,
+) -> Result<Arc, (String, &'static str)> {
     let (a, b) = (from - centre, to - centre);
     let (first, last) = (a.norm(), b.norm());
     let fits = (first - last).abs() <= RADIUS_MM && first > SAME_MM;
     if !fits {
-        return Err(format!(
-            "the circle has radius {first:.4} mm at its start and {last:.4} mm at its end"
+        return Err((
+            format!("the circle has radius {first:.4} mm at its start and {last:.4} mm at its end"),
+            AGAIN,
         ));
     }
-    let along = sense * a.perp(&b).atan2(a.dot(&b));
-    let turned = match (b - a).norm() < SAME_MM {
-        true => TAU,
-        false => along.rem_euclid(TAU),
+    let angle = match turned {
+        Turned::By(angle) => angle,
+        Turned::ToEnd { sense, digit_mm } => {
+            let angle = angle_about(a.into(), b.into(), sense, digit_mm)
+                .map_err(|nearly| (nearly.to_string(), NearlyClosed::REMEDY))?;
+            sense * angle
+        }
     };
-    Ok(Arc {
-        centre,
-        angle: sense * turned,
-    })
+    Ok(Arc { centre, angle })
 }
 
 /// By a radius, negative for more than half a turn.

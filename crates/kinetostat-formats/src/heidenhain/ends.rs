@@ -1,8 +1,9 @@
 //! Where a path block ends, and on which way: by coordinates, by radius and angle, about a pole.
 
+use kinetostat_program::last_digit_mm;
 use nalgebra::Vector2;
 
-use crate::heidenhain::arcs::{Arc, about, by_radius, polar, tangential};
+use crate::heidenhain::arcs::{AGAIN, Arc, Turned, about, by_radius, polar, tangential};
 use crate::heidenhain::path_words::{Coordinate, PathWords};
 use crate::heidenhain::state::State;
 use crate::heidenhain::words::Word;
@@ -192,7 +193,6 @@ impl Ends<'_> {
         end: &[Option<f64>; 3],
         turned: Option<f64>,
     ) -> Result<Option<Arc>, Reason> {
-        const AGAIN: &str = "let the CAM system write the circle again";
         let sense = parsed.sense.ok_or((
             "the sense of the circle is not stated".to_owned(),
             "state DR+ or DR-",
@@ -213,16 +213,24 @@ impl Ends<'_> {
             "the centre of the circle is not known".to_owned(),
             "state it before: CC X.. Y..",
         ))?;
-        let mut arc = about(pole, &from, &to, sense).map_err(|reason| (reason, AGAIN))?;
-        if let (Some(Coordinate { step: true, .. }), Some(by)) = (parsed.angle, turned) {
-            if by * sense <= 0.0 || by.abs() > MOST_DEGREES {
-                return Err((
-                    "its angle and its sense do not fit, or it is more than 15 turns".to_owned(),
-                    "give IPA the sign of DR",
-                ));
+        let turned = match (parsed.angle, turned) {
+            (Some(Coordinate { step: true, .. }), Some(by)) => {
+                if by * sense <= 0.0 || by.abs() > MOST_DEGREES {
+                    return Err((
+                        "its angle and its sense do not fit, or it is more than 15 turns"
+                            .to_owned(),
+                        "give IPA the sign of DR",
+                    ));
+                }
+                Turned::By(by.to_radians())
             }
-            arc.angle = by.to_radians();
-        }
-        Ok(Some(arc))
+            _ => {
+                let stated = parsed.axes.iter().flatten();
+                let values: Vec<f64> = stated.map(|coordinate| coordinate.value).collect();
+                let digit_mm = last_digit_mm(&values, self.unit_mm);
+                Turned::ToEnd { sense, digit_mm }
+            }
+        };
+        about(pole, &from, &to, turned).map(Some)
     }
 }

@@ -17,8 +17,8 @@ const ROUNDED: Treatment = Refused {
     remedy: "write the program flat first (--expand): the arc becomes a block of its own",
 };
 const CHAMFERED: Treatment = Refused {
-    reason: "the control breaks the corner, and whether its number is the length of the chamfer or of its sides is not certain here",
-    remedy: "let the CAM system write the corner as L blocks",
+    reason: "the control breaks the corner between two blocks",
+    remedy: "write the program flat first (--expand): the chamfer becomes a block of its own",
 };
 const APPROACH: Treatment = Refused {
     reason: "the control makes the way to or from a contour by itself",

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use kinetostat_program::{NearlyClosed, angle_about};
 use nalgebra::Vector3;
 
 /// What a block states of its arc, in the frame's axes, mm and degrees.
@@ -13,6 +14,8 @@ pub(crate) struct Stated {
     pub radius: Option<f64>,
     /// AR.
     pub opening: Option<f64>,
+    /// Last digit of its words, mm.
+    pub digit_mm: f64,
 }
 
 /// From where a centre counts.
@@ -35,13 +38,21 @@ pub(crate) struct Arc {
 const RADIUS_TOLERANCE_MM: f64 = 0.01;
 /// The same, relative to the radius (machine data 21010).
 const RADIUS_SHARE: f64 = 1e-3;
-/// Ends nearer than this are one place: a full circle.
+/// Radii, steps and chords smaller than this are none.
 const SAME_MM: f64 = 1e-6;
+
+/// Why there is no arc, and what to do.
+pub(crate) type Reason = (String, &'static str);
+
+/// A reason against which the CAM system alone helps.
+pub(crate) fn again(reason: impl Into<String>) -> Reason {
+    (reason.into(), "let the CAM system write it again")
+}
 
 /// The arc from a place to another; `sense` is 1 for G3 and -1 for G2.
 ///
 /// # Errors
-/// Why there is none.
+/// Why there is none, and what to do.
 pub(crate) fn arc(
     start: Vector3<f64>,
     end: Vector3<f64>,
@@ -49,19 +60,21 @@ pub(crate) fn arc(
     normal: usize,
     sense: f64,
     stated: &Stated,
-) -> Result<Arc, String> {
+) -> Result<Arc, Reason> {
     let (u, v) = ((normal + 1) % 3, (normal + 2) % 3);
     let flat = |place: &Vector3<f64>| [place[u], place[v]];
     let across = stated.centre[normal].is_some_and(|(by, from)| {
         by.abs() > SAME_MM && from == FromStart::Yes || from == FromStart::No
     });
     if across {
-        return Err("its centre is stated across the plane of G17, G18 or G19".to_owned());
+        return Err(again(
+            "its centre is stated across the plane of G17, G18 or G19",
+        ));
     }
     let centred = stated.centre[u].is_some() || stated.centre[v].is_some();
     let count = usize::from(centred) + usize::from(stated.radius.is_some());
     if count > 1 {
-        return Err("both a centre and a radius are stated".to_owned());
+        return Err(again("both a centre and a radius are stated"));
     }
     let ([a0, a1], [b0, b1]) = (flat(&start), flat(&end));
     let chord = (b0 - a0).hypot(b1 - a1);
@@ -83,31 +96,27 @@ pub(crate) fn arc(
                 angle
             }
             (Some(_), true) => {
-                return Err("a centre, an end and an opening angle are stated".to_owned());
+                return Err(again("a centre, an end and an opening angle are stated"));
             }
             (None, _) => {
                 let to = [b0 - centre[0], b1 - centre[1]];
                 let (first, last) = (from[0].hypot(from[1]), to[0].hypot(to[1]));
                 let allowed = RADIUS_TOLERANCE_MM.max(RADIUS_SHARE * first);
                 if first < SAME_MM || (first - last).abs() > allowed {
-                    return Err(format!(
+                    return Err(again(format!(
                         "the circle has radius {first:.4} at its start and {last:.4} at its end"
-                    ));
+                    )));
                 }
-                let turned =
-                    (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
-                match chord < SAME_MM {
-                    true => TAU,
-                    false => (sense * turned).rem_euclid(TAU),
-                }
+                angle_about(from, to, sense, stated.digit_mm)
+                    .map_err(|nearly| (nearly.to_string(), NearlyClosed::REMEDY))?
             }
         };
         (centre, angle)
     } else {
         if chord < SAME_MM {
-            return Err("its end is its start, and no centre is stated".to_owned());
+            return Err(again("its end is its start, and no centre is stated"));
         }
-        let angle = opened(chord, stated)?;
+        let angle = opened(chord, stated).map_err(again)?;
         // Left of the way where the arc turns to the left by less than half a turn.
         let aside = sense * 0.5 / (0.5 * angle).tan();
         let centre = [

@@ -185,6 +185,8 @@ impl Reader<'_> {
                 }
             }
             "RND" | "CHF" | "CHR" if self.corners == Corners::Followed => {
+                // Also where its size is not known.
+                self.out.corner_words.push(item.span.clone());
                 let Some(value) = self.number(&item.span, value) else {
                     return;
                 };
@@ -194,7 +196,6 @@ impl Reader<'_> {
                     "CHF" => Cut::Length(size),
                     _ => Cut::Sides(size),
                 };
-                self.out.corner_words.push(item.span.clone());
                 words.corner = Some((item.span.clone(), cut));
             }
             "S" | "H" => {}

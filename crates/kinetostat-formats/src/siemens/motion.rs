@@ -173,8 +173,8 @@ impl Reader<'_> {
                 end = [0, 1, 2].map(|axis| Some(known.end[axis]));
                 self.push(block, words, stated, Some(known), end, "");
             }
-            Err(reason) => {
-                self.fault(&block.span, reason, "let the CAM system write it again");
+            Err((reason, remedy)) => {
+                self.fault(&block.span, reason, remedy);
                 self.state.place = end;
             }
         }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use kinetostat_program::last_digit_mm;
 use nalgebra::Vector3;
 
 use crate::corner::Cut;
@@ -96,8 +97,8 @@ impl Words {
         centre.chain(others.map(|(word, _)| word.clone())).collect()
     }
 
-    /// What is stated of an arc in a plane; none where a centre is stated by a step.
-    pub(crate) fn stated_arc(&self) -> Stated {
+    /// What is stated of an arc in a plane, in a unit of so many mm.
+    pub(crate) fn stated_arc(&self, unit_mm: f64) -> Stated {
         let centre = [0, 1, 2].map(|axis| {
             self.centre[axis].as_ref().map(|c| {
                 let from = match c.step {
@@ -107,10 +108,13 @@ impl Words {
                 (c.mm, from)
             })
         });
+        let all = self.axes.iter().chain(&self.centre).flatten();
+        let written: Vec<f64> = all.map(|coordinate| coordinate.written).collect();
         Stated {
             centre,
             radius: self.radius.as_ref().map(|(_, radius)| *radius),
             opening: self.opening.as_ref().map(|(_, opening)| *opening),
+            digit_mm: last_digit_mm(&written, unit_mm),
         }
     }
 

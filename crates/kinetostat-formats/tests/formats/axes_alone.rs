@@ -4,12 +4,13 @@ use std::io::Write as _;
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Correction, CorrectionField, FieldFailure, MachineProgram, NoCorrection, Request, Unwatched,
+    Correction, CorrectionField, FieldFailure, NoCorrection, Request,
     WriteOptions as PathWriteOptions,
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::chance::Chance;
+use crate::correcting::written_and_checked;
 use crate::real_files::{programs, stated};
 
 /// Axes that lean all along a half circle, off all axes of the part.
@@ -190,24 +191,16 @@ fn corrected(
     let program = read(language, vec![file], reading).map_err(|all| all[0].to_string())?;
     let making = PathOptions::default();
     let path = path_of(&program, &making).map_err(|all| all[0].to_string())?;
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading,
-        making: &making,
-        writing: &WriteOptions::default(),
+    let write = |field: &dyn CorrectionField, writing: &PathWriteOptions| {
+        written_and_checked((&program, &path), (reading, &making), field, writing)
     };
     let mut writing = PathWriteOptions::default();
     writing.tolerance_mm = 0.005;
     writing.chord_tolerance_mm = 0.01;
-    let same = robot.write(&NoCorrection, &writing, &Unwatched).unwrap();
+    let same = write(&NoCorrection, &writing).unwrap();
     assert!(same.bytes == text, "{name}: without a correction");
     writing.header = None;
-    let written = robot.write(&Bending(by), &writing, &Unwatched);
-    let written = written.map_err(|error| error.to_string())?;
-    robot
-        .verify(&written, &writing)
-        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    let written = write(&Bending(by), &writing)?;
     Ok((written.bytes, path))
 }
 
@@ -406,19 +399,15 @@ fn rotary_axes_of_a_machine_are_turned_to_the_axis() {
         }
         // Corrected and read again with the same axes.
         let reading = ReadOptions::default();
-        let correctable = Correctable {
-            program: &program,
-            path: &robot,
-            reading: &reading,
-            making: &making,
-            writing: &WriteOptions::default(),
-        };
         let mut writing = PathWriteOptions::default();
         writing.header = None;
-        let written = correctable
-            .write(&Bending(0.0), &writing, &Unwatched)
-            .unwrap();
-        correctable.verify(&written, &writing).unwrap();
+        written_and_checked(
+            (&program, &robot),
+            (&reading, &making),
+            &Bending(0.0),
+            &writing,
+        )
+        .unwrap();
         // A direction that the machine does not reach is told by line.
         if is_45 {
             let far = apt("UNITS/MM\nGOTO/0,0,0,0,0,1\nGOTO/1,0,0,0,0.1,-0.994987437\n");

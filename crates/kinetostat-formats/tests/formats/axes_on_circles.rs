@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Carries, MachineProgram, Request, RotaryAxes, RotaryAxis, Unwatched,
-    WriteOptions as PathWriteOptions,
+    Carries, Request, RotaryAxes, RotaryAxis, WriteOptions as PathWriteOptions,
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
+
+use crate::correcting::written_and_checked;
 
 /// A fork head about x, above a table about z.
 fn portal(limits_of_a: Option<[f64; 2]>) -> PathOptions {
@@ -141,13 +142,6 @@ fn written_programs_stay_on_the_great_circle() {
             let even = program.1.contains("ORIAXES") && rotary;
             let (read_program, reading) = (read_as(&program), ReadOptions::default());
             let path = path_of(&read_program, &making).unwrap();
-            let correctable = Correctable {
-                program: &read_program,
-                path: &path,
-                reading: &reading,
-                making: &making,
-                writing: &WriteOptions::default(),
-            };
             let mut writing = PathWriteOptions::default();
             writing.header = None;
             writing.tolerance_mm = 0.002;
@@ -156,8 +150,13 @@ fn written_programs_stay_on_the_great_circle() {
                 let bend = Vector3::new(p.y * p.y, -p.x, p.x * p.y);
                 Ok(bend * 0.05 * (0.5 + request.share * request.share))
             };
-            let written = correctable.write(&field, &writing, &Unwatched).unwrap();
-            correctable.verify(&written, &writing).unwrap();
+            let written = written_and_checked(
+                (&read_program, &path),
+                (&reading, &making),
+                &field,
+                &writing,
+            )
+            .unwrap();
             let text = String::from_utf8(written.bytes.clone()).unwrap();
             let again = path_of(&read_as(&(program.0, text.clone())), &making).unwrap();
             let mut checked = 0;

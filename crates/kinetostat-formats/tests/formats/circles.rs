@@ -2,11 +2,13 @@
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Arcs, Corrected, Correction, CorrectionField, FieldFailure, MachineProgram, Path, Request,
-    Unwatched, WriteOptions as PathWriteOptions, verify_against_field,
+    Arcs, Corrected, Correction, CorrectionField, FieldFailure, Path, Request, Unwatched,
+    WriteOptions as PathWriteOptions, verify_against_field,
 };
 use kinetostat_testing::Worst;
 use nalgebra::{Isometry3, Vector3};
+
+use crate::correcting::written_and_checked;
 
 /// The plane of the circle leans and is bent a little, as on an Orthoglide under a milling force; or the tool is turned, too.
 struct Leaning {
@@ -95,15 +97,8 @@ fn corrected_anywhere(
     let program = read(language, vec![SourceFile::new("a", text)], &options).unwrap();
     let making = PathOptions::default();
     let path = path_of(&program, &making).unwrap();
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
-    let written = robot.write(field, writing, &Unwatched).unwrap();
-    robot.verify(&written, writing).unwrap();
+    let written =
+        written_and_checked((&program, &path), (&options, &making), field, writing).unwrap();
     verify_against_field(&path.path, &written, field, writing, &Unwatched).unwrap();
     let output = String::from_utf8(written.bytes.clone()).unwrap();
     let again = read(

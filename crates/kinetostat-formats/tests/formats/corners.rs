@@ -49,9 +49,10 @@ fn foot(of: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> Vector2<f64> 
 fn program(language: Language, [a, b, c]: [Vector2<f64>; 3], word: (&str, f64)) -> String {
     let [a, b, c] = [a, b, c].map(|at| (format!("{:.4}", at.x), format!("{:.4}", at.y)));
     let (name, size) = word;
+    let r = if name == "RND" { "R" } else { "" };
     match language {
         Language::Heidenhain => format!(
-            "0 BEGIN PGM A MM\n1 L X{} Y{} Z-1 R0 FMAX M3\n2 L X{} Y{} F500\n3 {name} R{size:.3} F200\n4 L X{} Y{} M9\n5 END PGM A MM\n",
+            "0 BEGIN PGM A MM\n1 L X{} Y{} Z-1 R0 FMAX M3\n2 L X{} Y{} F500\n3 {name} {r}{size:.3} F200\n4 L X{} Y{} M9\n5 END PGM A MM\n",
             a.0, a.1, b.0, b.1, c.0, c.1
         ),
         _ => format!(
@@ -65,6 +66,7 @@ fn program(language: Language, [a, b, c]: [Vector2<f64>; 3], word: (&str, f64)) 
 fn random_corners_are_those_of_a_construction_of_their_own() {
     for (language, name, digit) in [
         (Language::Heidenhain, "RND", 1e-4),
+        (Language::Heidenhain, "CHF", 1e-4),
         (Language::Siemens, "RND", 1e-6),
         (Language::Siemens, "CHF", 1e-6),
         (Language::Siemens, "CHR", 1e-6),
@@ -87,6 +89,12 @@ fn random_corners_are_those_of_a_construction_of_their_own() {
             if !(0.2..3.0).contains(&inner) || shorter < 2.0 {
                 continue;
             }
+            // Heidenhain's chamfer says how much it takes of each side, SINUMERIK's CHF how long it is itself.
+            let own = name;
+            let name = match (language, name) {
+                (Language::Heidenhain, "CHF") => "CHR",
+                _ => name,
+            };
             // Half of the shorter line is taken.
             let size = match name {
                 "RND" => 0.5 * shorter * (0.5 * inner).tan(),
@@ -94,7 +102,7 @@ fn random_corners_are_those_of_a_construction_of_their_own() {
                 _ => 0.5 * shorter,
             };
             let size = (size * 1e3).floor() / 1e3;
-            let (output, path) = path(language, &program(language, [a, b, c], (name, size)));
+            let (output, path) = path(language, &program(language, [a, b, c], (own, size)));
             let moves = &path.path.moves;
             assert_eq!(moves.len(), 4, "{output}");
             let [line, corner, last] = [&moves[1], &moves[2], &moves[3]];
@@ -178,6 +186,26 @@ fn a_rectangle_with_corners_one_after_the_other_keeps_its_lines() {
 }
 
 #[test]
+fn chamfers_of_heidenhain_are_lines_with_their_own_feed() {
+    let text = "0 BEGIN PGM A INCH\n1 L X+0 Y+0 Z-1 R0 FMAX M3\n2 L X+2 F50\n3 CHF 0.5 F20\n4 L IY+1 M8\n5 CHF0.25\n6 L X+0\n7 END PGM A INCH\n";
+    let (output, path) = path(Language::Heidenhain, text);
+    assert_eq!(
+        output,
+        "0 BEGIN PGM A INCH\n1 L X+0 Y+0 Z-1 R0 FMAX M3\n2 L X+1.50000 Y+0.00000 F50\n3 L X+2.00000 Y+0.50000 F20\n\
+         4 L X+2.00000 Y+0.75000 F50 M8\n5 L X+1.75000 Y+1.00000\n6 L X+0.00000 Y+1.00000\n7 END PGM A INCH\n"
+    );
+    let length: f64 = path
+        .path
+        .moves
+        .iter()
+        .skip(1)
+        .map(|one| one.length_mm())
+        .sum();
+    let wanted = 25.4 * (1.5 + 0.5 * 2_f64.sqrt() + 0.25 + 0.25 * 2_f64.sqrt() + 1.75);
+    assert!((length - wanted).abs() < 1e-6, "{length}");
+}
+
+#[test]
 fn polar_lines_other_planes_and_inches_are_followed() {
     // A hexagon about a pole, as a public example has it.
     let text = "BEGIN PGM MM\nL Z-2 R0 FMAX\nCC X+50 Y+50\nLP PR+40 PA+0 FMAX\nL Z-2 F100\nLP IPA+60\nRND R15\nLP IPA+60\nRND R15\nLP IPA+60\n\
@@ -197,4 +225,20 @@ fn polar_lines_other_planes_and_inches_are_followed() {
         (middle - Vector3::new(side, 1.0, 2.0 - side)).norm() < 1e-9,
         "{output}"
     );
+}
+
+#[test]
+fn sizes_of_corners_may_be_computed() {
+    let written = |words: [&str; 3]| {
+        let [round, length, side] = words;
+        let text = format!(
+            "R1=2 R2=0.5\nG17 G90 G0 X0 Y0 Z0\nG1 X40 F100 RND={round}\nY30 CHF={length}\nX0 CHR={side}\nY-10\nM30\n"
+        );
+        let files = [SourceFile::new("a.mpf", text)];
+        let flat = expand_siemens(&files).unwrap();
+        String::from_utf8(flat.file.bytes().to_vec()).unwrap()
+    };
+    let computed = written(["R1+5", "R1*R2*3", "SQRT(R1*2)+R2"]);
+    assert_eq!(computed, written(["7", "3", "2.5"]));
+    assert!(computed.contains("\nG3 X40 Y7 CR=7\n"), "{computed}");
 }

@@ -1,8 +1,10 @@
 //! FANUC TP programs and APT under a field of corrections: divided, written with a header, read again.
 
 use kinetostat_formats::*;
-use kinetostat_program::{MachineProgram, Request, Unwatched};
+use kinetostat_program::Request;
 use nalgebra::{Isometry3, Vector3};
+
+use crate::correcting::written_and_checked;
 
 /// What is written of a program under a bend that grows along X.
 fn bent(language: Language, text: &str) -> String {
@@ -13,13 +15,6 @@ fn bent(language: Language, text: &str) -> String {
     let program = read(language, vec![SourceFile::new("a", text)], &options).unwrap();
     let making = PathOptions::default();
     let path = path_of(&program, &making).unwrap();
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let field = |request: &Request| {
         let x = request.position_mm.x / 100.0;
         Ok(Vector3::new(0.0, 0.0, 0.2 * x * x))
@@ -29,8 +24,8 @@ fn bent(language: Language, text: &str) -> String {
         // Feeds of APT stay as they are written.
         writing.max_feed_factor = 1.0;
     }
-    let written = robot.write(&field, &writing, &Unwatched).unwrap();
-    robot.verify(&written, &writing).unwrap();
+    let written =
+        written_and_checked((&program, &path), (&options, &making), &field, &writing).unwrap();
     String::from_utf8(written.bytes).unwrap()
 }
 

@@ -4,12 +4,13 @@ use std::io::Write as _;
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Correction, CorrectionField, Curve, FieldFailure, MachineProgram, NoCorrection, Request,
-    Unwatched, WriteOptions as PathWriteOptions, verify_against_field,
+    Correction, CorrectionField, Curve, FieldFailure, NoCorrection, Request, Unwatched,
+    WriteOptions as PathWriteOptions, verify_against_field,
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
+use crate::correcting::written_and_checked;
 use crate::real_files::{programs, stated};
 
 /// Sags and turns the tool by what depends on the place alone.
@@ -59,26 +60,15 @@ pub fn corrected_files(
     let program = read(language, files, options).map_err(|all| all[0].to_string())?;
     let making = PathOptions::default();
     let path = path_of(&program, &making).map_err(|all| all[0].to_string())?;
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let writing = writing();
-    let same = robot.write(&NoCorrection, &writing, &Unwatched).unwrap();
+    let write = |field: &dyn CorrectionField| {
+        written_and_checked((&program, &path), (options, &making), field, &writing)
+    };
+    let same = write(&NoCorrection).unwrap();
     assert!(same.bytes == bytes, "{name}: without a correction");
-    robot.verify(&same, &writing).unwrap();
     for turns in [false, true] {
         let field = Bending { turns };
-        let written = match robot.write(&field, &writing, &Unwatched) {
-            Ok(written) => written,
-            Err(error) => return Err(error.to_string()),
-        };
-        robot
-            .verify(&written, &writing)
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let written = write(&field)?;
         if !path.path.moves.is_empty() {
             verify_against_field(&path.path, &written, &field, &writing, &Unwatched)
                 .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -222,10 +212,8 @@ proptest! {
         let program = read_rapid(vec![SourceFile::new("m.mod", text)], &options).unwrap();
         let making = PathOptions::default();
         let path = path_of(&program, &making).unwrap();
-        let robot = Correctable { program: &program, path: &path, reading: &options, making: &making, writing: &WriteOptions::default() };
         let (field, writing) = (Bending { turns }, writing());
-        let written = robot.write(&field, &writing, &Unwatched).unwrap();
-        robot.verify(&written, &writing).unwrap();
+        let written = written_and_checked((&program, &path), (&options, &making), &field, &writing).unwrap();
         verify_against_field(&path.path, &written, &field, &writing, &Unwatched).unwrap();
         for (piece, orientation) in written.pieces.iter().zip(&written.orientations) {
             let motion = &path.path.moves[piece.move_index];

@@ -2,8 +2,10 @@
 //! quaternions that are interpolated here.
 
 use kinetostat_formats::*;
-use kinetostat_program::{MachineProgram, Request, Unwatched, WriteOptions as PathWriteOptions};
+use kinetostat_program::{Request, WriteOptions as PathWriteOptions};
 use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::correcting::written_and_checked;
 
 const RAPID: &str = "MODULE M\nPROC main()\n\
     MoveJ [[0,0,50],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0;\n\
@@ -26,19 +28,12 @@ fn a_linear_motion_that_only_turns_is_divided() {
     // From (0, 1, 0, 0) to (0, 0.6, 0.8, 0): twice the angle between the quaternions.
     let degrees = 2.0 * 0.6_f64.acos().to_degrees();
     assert!((path.path.moves[2].turn_deg() - degrees).abs() < 1e-9);
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &reading,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let field = |request: &Request| Ok(bent(&request.orientation.unwrap()));
     let mut writing = PathWriteOptions::default();
     writing.header = None;
     writing.tolerance_mm = 0.002;
-    let written = robot.write(&field, &writing, &Unwatched).unwrap();
-    robot.verify(&written, &writing).unwrap();
+    let written =
+        written_and_checked((&program, &path), (&reading, &making), &field, &writing).unwrap();
     let again = vec![SourceFile::new("m.mod", written.bytes.clone())];
     let again = read_rapid(again, &reading).unwrap();
     let again = path_of(&again, &making).unwrap().path;

@@ -1,18 +1,13 @@
 //! From the words of a G2 or G3 block to its arc.
 
-use std::f64::consts::TAU;
-
 use nalgebra::Vector3;
 
 use crate::error::{ProgramError, ProgramErrorKind};
+use crate::path::closed_circle::{NearlyClosed, angle_about, last_digit_mm};
 use crate::path::curve::Arc;
 use crate::reading::block::Block;
 
-/// Below this angle some controllers take an arc for a full circle and some for nothing, in rad (5e-7
-/// in grbl, 1e-6 in LinuxCNC; neither asks whether the arc had an R).
-const DISPUTED_ANGLE: f64 = 1e-6;
-
-/// Ends nearer than this are one point: the words were equal, up to the arithmetic, in mm.
+/// Ends nearer than this are one point, in mm.
 const SAME_POINT_MM: f64 = 1e-9;
 
 /// Largest radius that is taken for a circle's, in mm.
@@ -162,6 +157,15 @@ fn centre_by_radius(
     ])
 }
 
+/// The last digit of the words of an arc; 0 for one by radius, whose sign says which way it goes.
+fn digit_mm(block: &Block<'_>, frame: &ArcFrame) -> f64 {
+    let words = b"XYZIJK".iter().filter_map(|letter| block.value(*letter));
+    match block.value(b'R') {
+        Some(_) => 0.0,
+        None => last_digit_mm(&words.collect::<Vec<f64>>(), frame.mm_per_unit),
+    }
+}
+
 fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Arc, ProgramError> {
     let start = in_plane(frame, &frame.start);
     let end = in_plane(frame, &frame.end);
@@ -191,27 +195,14 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
         ));
     }
     let start_angle = to_start[1].atan2(to_start[0]);
-    let cross = to_start[0] * to_end[1] - to_start[1] * to_end[0];
-    let dot = to_start[0] * to_end[0] + to_start[1] * to_end[1];
-    let between = cross.atan2(dot);
-    let apart = (end[0] - start[0]).hypot(end[1] - start[1]);
-    let sweep = match frame.clockwise {
-        false if apart < SAME_POINT_MM => TAU,
-        true if apart < SAME_POINT_MM => -TAU,
-        _ if between.abs() <= DISPUTED_ANGLE => {
-            return Err(block.refuse(
-                ProgramErrorKind::Arc, None,
-                &format!(
-                    "the arc's ends are only {apart:.7} mm apart: controllers disagree whether this \
-                     is a full circle"
-                ),
-                "end the circle exactly where it starts, or write a straight move",
-            ));
-        }
-        false if between <= 0.0 => between + TAU,
-        true if between >= 0.0 => between - TAU,
-        _ => between,
+    let sense = match frame.clockwise {
+        true => -1.0,
+        false => 1.0,
     };
+    let angle = angle_about(to_start, to_end, sense, digit_mm(block, frame)).map_err(|nearly| {
+        let reason = nearly.to_string();
+        block.refuse(ProgramErrorKind::Arc, None, &reason, NearlyClosed::REMEDY)
+    })?;
 
     let unit = |axis: usize| Vector3::ith(axis, 1.0);
     let [first, second, normal] = frame.axes;
@@ -221,7 +212,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
         second: unit(second),
         axis: unit(normal),
         start_angle,
-        sweep,
+        sweep: sense * angle,
         start_radius,
         end_radius,
         rise: end[2] - start[2],

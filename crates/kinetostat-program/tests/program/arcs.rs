@@ -230,3 +230,32 @@ fn modal_arc_blocks_are_converted_too_and_the_mode_after_them_is_right() {
     assert!(after.starts_with("G1 X30.1"), "{output}");
     assert!(after.ends_with("\nX40.1000\n"), "{output}");
 }
+
+#[test]
+fn nearly_full_circles_and_short_arcs_are_what_they_say() {
+    let sweep = |block: &str| {
+        let text = format!("G21 G90 G17\nG0 X20 Y0 Z0\n{block} F600\nM2\n");
+        let program = Program::read(text.as_str()).unwrap();
+        let path = interpret(&program, &ReadOptions::default()).unwrap();
+        match path.moves[1].curve {
+            Curve::Arc(arc) => arc.sweep,
+            Curve::Line => panic!("{block} is no arc"),
+        }
+    };
+    for (block, wanted) in [
+        ("G3 X20.000 Y0.0000 I-20 J0", TAU),
+        // A hair is missing to the full circle.
+        ("G3 X20 Y-0.002 I-20", TAU - 1e-4),
+        ("G2 X20 Y0.002 I-20", 1e-4 - TAU),
+        // Short arcs: many last digits long, or not longer than the circle is wide, or by the sign of a radius.
+        ("G3 X20 Y0.004 I-20", 2e-4),
+        ("G3 X20.0000 Y0.0005 I-20", 2.5e-5),
+        ("G3 X20 Y0.001002 I-20", 5.01e-5),
+        ("G3 X19.998 Y0.002 I-0.002 J0", 0.5 * PI),
+        ("G3 X20 Y0.001 R20", 5e-5),
+        ("G3 X20 Y0.001 R-20", TAU - 5e-5),
+    ] {
+        let found = sweep(block);
+        assert!((found - wanted).abs() < 1e-8, "{block}: {found}");
+    }
+}

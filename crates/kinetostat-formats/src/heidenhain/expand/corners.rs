@@ -1,23 +1,22 @@
-//! Rounded corners written out: the line before ends where the arc begins, the block RND becomes the arc, and the line behind
-//! states its own end.
+//! Rounded corners and chamfers written out: the line before ends where the arc or the chamfer begins, the block RND becomes the
+//! arc, the block CHF a line, and the line behind states its own end.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector2;
 
+use crate::corner::{Cut, not_followed};
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
+use crate::heidenhain::digits::decimals;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::reader::interpret;
-use crate::heidenhain::reading::rounded::{Rounded, has_corners};
+use crate::heidenhain::reading::rounded::{AS_ARC, Rounded, has_corners};
 use crate::heidenhain::writing::words::{Stated, feed_text, stands, with_blanks, word_text};
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets};
+use crate::options::ReadOptions;
 use crate::text::edits::Edits;
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
-
-/// What to do where a corner is not followed.
-const REMEDY: &str = "let the CAM system write the corner as an arc (CR or C) between its lines";
 
 /// What a line is to end at, and the feed that it has to state.
 #[derive(Default)]
@@ -26,7 +25,7 @@ struct Wanted {
     feed: Option<f64>,
 }
 
-/// A flat program without RND.
+/// A flat program without RND and CHF.
 ///
 /// # Errors
 /// Corners that are not followed, by file and line of the program as given.
@@ -38,13 +37,8 @@ pub(crate) fn written_out(
     if !has_corners(flat.file.bytes()) {
         return Ok(flat);
     }
-    let reading = ReadOptions {
-        unknown_targets: UnknownTargets::LeftAsWritten,
-        cutter_compensation: CutterCompensation::CentrePath,
-        ..options.clone()
-    };
     let file = [flat.file.clone()];
-    let found = interpret(&file, &reading);
+    let found = interpret(&file, &options.as_written());
     if found.corners.is_empty() {
         return Ok(flat);
     }
@@ -52,9 +46,8 @@ pub(crate) fn written_out(
     for corner in found.corners {
         match corner {
             Ok(corner) => corners.push(corner),
-            Err((span, why)) => {
-                let reason = format!("the corner is not followed by what is known here: {why}");
-                let why = (reason, REMEDY);
+            Err((span, why, remedy)) => {
+                let why = (not_followed(&why), remedy);
                 faults.push(ProgramError::of_flat(&flat, files, span.start, why));
             }
         }
@@ -66,7 +59,7 @@ pub(crate) fn written_out(
     let edits = edits_of(&flat.file, &corners, &found.polar);
     let bytes = edits.applied_to(flat.file.bytes()).ok_or_else(|| {
         let none = "its words overlap";
-        vec![ProgramError::at(&flat.file, 0..0, none, REMEDY)]
+        vec![ProgramError::at(&flat.file, 0..0, none, AS_ARC)]
     })?;
     Ok(FlatText {
         file: SourceFile::new(flat.file.name(), bytes),
@@ -97,7 +90,7 @@ fn edits_of(file: &SourceFile, corners: &[Rounded], polar: &[(Block, Vector2<f64
             wanted.end = Some((corner.to, corner.unit_mm));
             wanted.feed = corner.feed.and(corner.feed_behind);
         }
-        edits.replace(own.text.clone(), arc(corner, second));
+        edits.replace(own.text.clone(), corner_block(corner, second));
         touched.extend([before, behind]);
     }
     // A polar block behind one that is not polar any more has no radius of before.
@@ -113,25 +106,24 @@ fn edits_of(file: &SourceFile, corners: &[Rounded], polar: &[(Block, Vector2<f64
     edits
 }
 
-fn decimals(unit_mm: f64) -> usize {
-    match unit_mm == 1.0 {
-        true => 4,
-        false => 5,
-    }
-}
-
-/// The arc in place of RND.
-fn arc(corner: &Rounded, end: Vector2<f64>) -> String {
+/// The arc in place of RND, or the line in place of CHF.
+fn corner_block(corner: &Rounded, end: Vector2<f64>) -> String {
     let digits = decimals(corner.unit_mm);
     let [x, y] = [0, 1].map(|axis| word_text(axis, end[axis] / corner.unit_mm, digits, true));
-    let radius = stands("R", corner.radius, digits, true);
-    let turn = match corner.corner.sense < 0.0 {
-        true => "DR-",
-        false => "DR+",
+    let block = match corner.cut {
+        Cut::Rounded(radius) => {
+            let radius = stands("R", radius / corner.unit_mm, digits, true);
+            let turn = match corner.corner.sense < 0.0 {
+                true => "DR-",
+                false => "DR+",
+            };
+            format!("CR {x} {y} {radius} {turn}")
+        }
+        Cut::Sides(_) | Cut::Length(_) => format!("L {x} {y}"),
     };
     match corner.feed {
-        Some(feed) => format!("CR {x} {y} {radius} {turn} F{}", feed_text(feed)),
-        None => format!("CR {x} {y} {radius} {turn}"),
+        Some(feed) => format!("{block} F{}", feed_text(feed)),
+        None => block,
     }
 }
 

@@ -1,5 +1,7 @@
 //! Numbers as they are written.
 
+use crate::heidenhain::digits::decimals;
+
 /// A number with at most so many decimals.
 pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -15,11 +17,7 @@ pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
 
 /// A length with its sign, as finely as the control resolves it.
 pub(crate) fn length(value: f64, unit_mm: f64) -> String {
-    let decimals = match unit_mm == 1.0 {
-        true => 4,
-        false => 5,
-    };
-    let text = trimmed(value, decimals);
+    let text = trimmed(value, decimals(unit_mm));
     match text.starts_with('-') {
         true => text,
         false => format!("+{text}"),

@@ -1,4 +1,7 @@
-//! Rounded corners (RND): between which lines they are, and what they become where the program is written flat.
+//! Rounded corners (RND) and chamfers (CHF): between which lines they are, and what they become where the program is written flat.
+//!
+//! The number of CHF is the "chamfer side length" of HEIDENHAIN's manuals (TNC 320, 2013, and TNC 620, 2022, table "Overview of path
+//! functions"): so much it takes of each line.
 
 use std::ops::Range;
 
@@ -6,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::corner::{Corner, Cut};
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::reading::rounded::{Line, Pending, Rounded};
+use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
 
@@ -14,22 +17,37 @@ use crate::heidenhain::words::Word;
 const SAME_MM: f64 = 1e-9;
 
 impl Reader<'_> {
-    /// A block RND: what it rounds shows behind the next block.
+    /// A block RND or CHF: what it rounds or breaks shows behind the next block.
     pub(crate) fn note_corner(&mut self, block: &Block, words: &[Word], span: &Range<usize>) {
         self.settle_corner(None);
         let word = words[1..].iter().find(|word| word.is("R"));
-        let radius = words[0].value().or(word.and_then(Word::value));
+        let is_chamfer = words[0].is("CHF");
+        let size = match is_chamfer {
+            true => words[0].value(),
+            false => words[0].value().or(word.and_then(Word::value)),
+        };
         let feed = words.iter().find(|word| word.is("F"));
         let known = |word: &Word| {
-            (word.is("R") || word.is("F") || word.is("RND")) && word.value().is_some()
+            (word.is("F") || !is_chamfer && (word.is("R") || word.is("RND")))
+                && word.value().is_some()
         };
-        let plain = words[1..].iter().all(known);
+        let size = size.filter(|_| words[1..].iter().all(known));
+        let cut = match (size.map(|size| size * self.unit_mm), is_chamfer) {
+            (Some(size), true) => Ok(Cut::Sides(size)),
+            (Some(size), false) => Ok(Cut::Rounded(size)),
+            (None, true) => Err("its length is not stated as a number".to_owned()),
+            (None, false) => Err("its radius is not stated as a number".to_owned()),
+        };
         self.corner = Some(Pending {
             line: self.line.take(),
             block: block.clone(),
             span: span.clone(),
-            radius: radius.filter(|_| plain),
+            cut,
             feed: feed.and_then(Word::value),
+            remedy: match is_chamfer {
+                true => AS_LINE,
+                false => AS_ARC,
+            },
         });
     }
 
@@ -74,15 +92,13 @@ impl Reader<'_> {
                 }
                 self.found.corners.push(Ok(rounded));
             }
-            Err(why) => self.found.corners.push(Err((span, why))),
+            Err(why) => self.found.corners.push(Err((span, why, pending.remedy))),
         }
     }
 }
 
 fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> {
-    let radius = pending
-        .radius
-        .ok_or_else(|| "its radius is not stated as a number".to_owned())?;
+    let cut = pending.cut.clone()?;
     let before = pending.line.as_ref().ok_or_else(|| {
         "the block before it is no straight line whose start and end are known".to_owned()
     })?;
@@ -106,8 +122,8 @@ fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> 
             pending.block.clone(),
             behind.block.clone(),
         ],
-        corner: Corner::cut(places, Cut::Rounded(radius * unit_mm))?,
-        radius,
+        corner: Corner::cut(places, cut)?,
+        cut,
         feed: pending.feed,
         feed_behind: before.feed,
         to: places[2],

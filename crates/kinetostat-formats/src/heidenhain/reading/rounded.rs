@@ -1,17 +1,17 @@
-//! Rounded corners as they are read: the lines beside them, and what they become.
+//! Rounded corners and chamfers as they are read: the lines beside them, and what they become.
 
 use std::ops::Range;
 
 use nalgebra::{Vector2, Vector3};
 
-use crate::corner::Corner;
+use crate::corner::{Corner, Cut};
 use crate::heidenhain::blocks::Block;
 
-/// Whether a program may hold rounded corners.
+/// Whether a program may hold rounded corners or chamfers.
 pub(crate) fn has_corners(bytes: &[u8]) -> bool {
     bytes
         .windows(3)
-        .any(|part| part.eq_ignore_ascii_case(b"RND"))
+        .any(|part| part.eq_ignore_ascii_case(b"RND") || part.eq_ignore_ascii_case(b"CHF"))
 }
 
 /// A straight block whose start and end are known, in the programmed axes, mm.
@@ -26,24 +26,33 @@ pub(crate) struct Line {
     pub feed: Option<f64>,
 }
 
-/// A block RND behind a line.
+/// What to do where a corner is not followed.
+pub(crate) const AS_ARC: &str =
+    "let the CAM system write the corner as an arc (CR or C) between its lines";
+pub(crate) const AS_LINE: &str =
+    "let the CAM system write the chamfer as an L block between its lines";
+
+/// A block RND or CHF behind a line.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pending {
     pub line: Option<Line>,
     pub block: Block,
     pub span: Range<usize>,
-    pub radius: Option<f64>,
+    /// What it makes of the corner, in mm; or why that is not known.
+    pub cut: Result<Cut, String>,
     pub feed: Option<f64>,
+    /// What to do where it is not followed.
+    pub remedy: &'static str,
 }
 
-/// A rounded corner.
+/// A rounded corner, or a chamfer.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Rounded {
     /// The blocks of the line before, of the corner, and of the line behind.
     pub blocks: [Block; 3],
     pub corner: Corner,
-    /// As programmed.
-    pub radius: f64,
+    /// As programmed, in mm.
+    pub cut: Cut,
     /// F of the block itself, and the feed that is in force again behind it.
     pub feed: Option<f64>,
     pub feed_behind: Option<f64>,
@@ -52,5 +61,5 @@ pub(crate) struct Rounded {
     pub unit_mm: f64,
 }
 
-/// A corner that is not followed: where, why.
-pub(crate) type Unrounded = (Range<usize>, String);
+/// A corner that is not followed: where, why, what to do.
+pub(crate) type Unrounded = (Range<usize>, String, &'static str);

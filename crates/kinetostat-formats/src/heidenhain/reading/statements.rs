@@ -25,7 +25,7 @@ impl Reader<'_> {
             );
         }
         if self.has_corners {
-            if first.is("RND") {
+            if first.is("RND") || first.is("CHF") {
                 self.note_corner(block, &words, &span);
             } else {
                 self.line = None;

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::heidenhain::digits::decimals;
 use crate::heidenhain::ends::Shape;
 use crate::heidenhain::path_words::FeedWord;
 use crate::heidenhain::reading::found::Way;
@@ -11,6 +12,18 @@ use crate::heidenhain::writing::writer::{Reason, Writer};
 use crate::model::motion::Motion;
 use crate::text::edits::Edits;
 use crate::writing::piece::Piece;
+
+/// An arc from another start.
+const BEGINS_ELSEWHERE: (&str, &str) = (
+    "the arc begins at a place that changes, and is then none about its written centre",
+    "divide it into straight pieces, too, or keep its start",
+);
+
+/// Blocks that are arcs.
+const ARCS: [&str; 5] = ["C", "CP", "CR", "CT", "CTP"];
+
+/// A digit that was not worth stating again bends no arc, in halves of it.
+const NOT_WORTH: f64 = 1.01;
 
 impl Writer<'_> {
     /// A motion without pieces: it goes on from where the block before leaves the tool.
@@ -26,9 +39,7 @@ impl Writer<'_> {
         if way.shape == Shape::Unknown {
             return self.unknown(motion, way, &words, &stated);
         }
-        let pole_off = way
-            .pole_from
-            .is_some_and(|from| self.off_at.get(from) == Some(&true));
+        let pole_off = self.pole_is_off(way);
         let whole = match way.shape {
             Shape::Straight => true,
             Shape::Polar { whole } => (whole || !self.polar_broken) && !pole_off,
@@ -68,22 +79,23 @@ impl Writer<'_> {
                     "correct places alone (leave out --correct pose), or write the arc as lines",
                 ));
             }
-            // A digit that was not worth stating again bends no arc.
-            if off.amax() <= 1.01 * self.half_mm(way) && !pole_off {
+            if off.amax() <= NOT_WORTH * self.half_mm(way) && !pole_off {
                 self.stated_again(way, &stated);
                 return Ok(());
             }
-            return Err((
-                "the arc begins at a place that changes, and is then none about its written centre"
-                    .to_owned(),
-                "divide it into straight pieces, too, or keep its start",
-            ));
+            return Err((BEGINS_ELSEWHERE.0.to_owned(), BEGINS_ELSEWHERE.1));
         }
         let Some(end) = motion.target.pose() else {
             return Ok(());
         };
         let piece = Piece::to(0, end.position_mm);
         self.pieces(motion, way, &piece, &[])
+    }
+
+    /// Whether the pole in force was set from where the tool was, and that is elsewhere now.
+    fn pole_is_off(&self, way: &Way) -> bool {
+        way.pole_from
+            .is_some_and(|from| self.off_at.get(from) == Some(&true))
     }
 
     /// A block that stays as it is written. What is known of its end, and what it takes over, it states.
@@ -95,6 +107,14 @@ impl Writer<'_> {
         stated: &Stated,
     ) -> Result<(), Reason> {
         let off = way.datum.step(&self.off);
+        // Its height alone need not be known for that.
+        let begins_off = off.xy().amax() > NOT_WORTH * self.half_mm(way);
+        let is_arc = words
+            .first()
+            .is_some_and(|word| ARCS.iter().any(|name| word.is(name)));
+        if is_arc && begins_off || way.pole.used && self.pole_is_off(way) {
+            return Err((BEGINS_ELSEWHERE.0.to_owned(), BEGINS_ELSEWHERE.1));
+        }
         let taken_over = |axis: usize| {
             let word = stated.word[axis].is_some();
             let end = way.end[axis].filter(|_| !stated.absolute[axis] && off[axis] != 0.0);
@@ -121,10 +141,7 @@ impl Writer<'_> {
             let text = word_text(
                 axis,
                 end / way.unit_mm,
-                match way.unit_mm == 1.0 {
-                    true => 4,
-                    false => 5,
-                },
+                decimals(way.unit_mm),
                 self.signs[motion.file],
             );
             match stated.word[axis].filter(|_| is_stated) {

@@ -18,7 +18,7 @@ use crate::heidenhain::reading::reader::interpret;
 use crate::heidenhain::writing::writer::{Reason, Writer};
 use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets, WriteOptions};
+use crate::options::{ReadOptions, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::source::SourceFile;
 use crate::writing::motions::check_lines;
@@ -45,11 +45,7 @@ pub(crate) fn write_heidenhain(
         }
         of_motion.entry(piece.motion).or_default().push(piece);
     }
-    let reading = ReadOptions {
-        unknown_targets: UnknownTargets::LeftAsWritten,
-        cutter_compensation: CutterCompensation::CentrePath,
-        ..ReadOptions::default()
-    };
+    let reading = ReadOptions::default().as_written();
     let ways = interpret(&program.files, &reading).ways;
     let mut writer = Writer {
         program,

@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::heidenhain::digits::decimals;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::Stated;
 use crate::model::program::RobotProgram;
@@ -59,11 +60,12 @@ impl Writer<'_> {
     }
 
     pub(crate) fn decimals(&self, way: &Way) -> usize {
-        match way.unit_mm == 1.0 {
-            true => self.options.position_decimals.min(4),
-            // As fine in inches. The control takes no more digits.
-            false => (self.options.position_decimals + 2).min(5),
-        }
+        // As fine in inches.
+        let more = match way.unit_mm == 1.0 {
+            true => 0,
+            false => 2,
+        };
+        (self.options.position_decimals + more).min(decimals(way.unit_mm))
     }
 
     /// Axes that a block states as it did are where they were.

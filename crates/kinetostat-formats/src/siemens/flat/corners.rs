@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use crate::corner::{Corner, Cut};
+use crate::corner::{Corner, Cut, not_followed};
 use crate::error::ProgramError;
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets};
+use crate::options::ReadOptions;
 use crate::siemens::flat::numbers::number;
 use crate::siemens::place::{LETTERS, without};
 use crate::siemens::scan::scan_with;
@@ -46,11 +46,7 @@ pub(super) fn written_out(
     if !has_corners {
         return Ok(flat);
     }
-    let reading = ReadOptions {
-        unknown_targets: UnknownTargets::LeftAsWritten,
-        cutter_compensation: CutterCompensation::CentrePath,
-        ..ReadOptions::default()
-    };
+    let reading = ReadOptions::default().as_written();
     let file = std::slice::from_ref(&flat.file);
     let found = scan_with(file, &reading, Corners::Followed);
     if found.corner_words.is_empty() {
@@ -63,28 +59,37 @@ pub(super) fn written_out(
     let with_corners: BTreeMap<usize, usize> = (found.written.iter().enumerate())
         .filter_map(|(index, written)| Some((written.corner.as_ref()?.0.start, index)))
         .collect();
+    let broken: BTreeMap<usize, &ProgramError> = (found.faults.iter().rev())
+        .map(|fault| (fault.line, fault))
+        .collect();
     for word in &found.corner_words {
         let index = with_corners.get(&word.start).copied();
-        let corner = index
-            .ok_or_else(|| "its block is no straight line whose start and end are known".to_owned())
-            .and_then(|index| {
+        let corner = match index {
+            Some(index) => {
                 let from = begins.filter(|(at, _)| *at == index).map(|(_, from)| from);
                 let behind = found.written.get(index + 1);
-                Ok((index, corner(&found.written[index], behind, from)?))
-            });
+                let corner = corner(&found.written[index], behind, from);
+                corner
+                    .map(|corner| (index, corner))
+                    .map_err(|why| (why, REMEDY))
+            }
+            // A block that is understood, or one with a word whose value is not known.
+            None => Err(match broken.get(&flat.file.line_of(word.start)) {
+                Some(fault) => (fault.reason.clone(), fault.remedy.as_str()),
+                None => (
+                    "its block is no straight line whose start and end are known".to_owned(),
+                    REMEDY,
+                ),
+            }),
+        };
         match corner {
             Ok((index, corner)) => {
                 begins = Some((index + 1, corner.corner.ends[1]));
                 made.insert(index, corner);
             }
-            Err(why) => {
-                let reason = format!("the corner is not followed by what is known here: {why}");
-                faults.push(ProgramError::of_flat(
-                    &flat,
-                    files,
-                    word.start,
-                    (reason, REMEDY),
-                ));
+            Err((why, remedy)) => {
+                let why = (not_followed(&why), remedy);
+                faults.push(ProgramError::of_flat(&flat, files, word.start, why));
             }
         }
     }

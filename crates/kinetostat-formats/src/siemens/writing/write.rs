@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use crate::error::WriteError;
 use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
-use crate::options::{CutterCompensation, ReadOptions, UnknownTargets, WriteOptions};
+use crate::options::{ReadOptions, WriteOptions};
 use crate::siemens::scan::scan;
 use crate::siemens::writing::writer::{Held, Reason, SAME, Writer};
 use crate::text::edits::Edits;
@@ -46,11 +46,7 @@ pub(crate) fn write_siemens(
     };
     let mut edits: Vec<Edits> = program.files.iter().map(|_| Edits::default()).collect();
     if !pieces.is_empty() {
-        let reading = ReadOptions {
-            unknown_targets: UnknownTargets::LeftAsWritten,
-            cutter_compensation: CutterCompensation::CentrePath,
-            ..ReadOptions::default()
-        };
+        let reading = ReadOptions::default().as_written();
         let found = scan(&program.files, &reading);
         if found.written.len() != program.motions.len() {
             return Err(overlap(0));

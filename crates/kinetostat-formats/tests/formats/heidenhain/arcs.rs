@@ -2,11 +2,12 @@
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Arcs, Corrected, MachineProgram, Request, Unwatched, WriteOptions as PathWriteOptions,
-    verify_against_field,
+    Arcs, Corrected, Request, Unwatched, WriteOptions as PathWriteOptions, verify_against_field,
 };
 use kinetostat_testing::Worst;
 use nalgebra::Vector3;
+
+use crate::correcting::written_and_checked;
 
 use super::program;
 
@@ -35,16 +36,9 @@ fn corrected_by(
     let program = program(text);
     let (options, making) = (ReadOptions::default(), PathOptions::default());
     let path = path_of(&program, &making).unwrap();
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let field = move |request: &Request| Ok(by(&request.position_mm));
-    let written = robot.write(&field, writing, &Unwatched).unwrap();
-    robot.verify(&written, writing).unwrap();
+    let written =
+        written_and_checked((&program, &path), (&options, &making), &field, writing).unwrap();
     verify_against_field(&path.path, &written, &field, writing, &Unwatched).unwrap();
     (String::from_utf8(written.bytes.clone()).unwrap(), written)
 }

@@ -45,7 +45,7 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "CHF 2",
-            "the control breaks the corner, and whether its number is the length of the chamfer or of its sides is not certain",
+            "the control breaks the corner between two blocks; write the program flat first (--expand)",
         ),
         (
             "APPR LT X+10 Y+20 LEN10 RR F300",

@@ -2,6 +2,8 @@
 
 use kinetostat_formats::*;
 
+use crate::refusing::{all_are_refused, messages};
+
 /// What is said of a file, read as it is or written flat first.
 fn said(body: &str, flat: bool) -> Vec<(usize, String)> {
     let text =
@@ -12,14 +14,7 @@ fn said(body: &str, flat: bool) -> Vec<(usize, String)> {
         true => expand_heidenhain(files, &options).map(|_| ()),
         false => read_heidenhain(files, &options).map(|_| ()),
     };
-    let errors = match found {
-        Ok(()) => Vec::new(),
-        Err(errors) => errors,
-    };
-    errors
-        .iter()
-        .map(|error| (error.line, error.to_string()))
-        .collect()
+    messages(found)
 }
 
 #[test]
@@ -41,7 +36,31 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             AS_IT_IS,
             "L X+10\nCHF 2\nL Y+10",
             5,
-            "let the CAM system write the corner as L blocks",
+            "write the program flat first (--expand): the chamfer becomes a block of its own",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF 12\nL Y+20",
+            5,
+            "it takes 12.0000 mm of a line at the corner that is 10.0000 mm long; let the CAM system write the chamfer as an L block",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF\nL Y+10",
+            5,
+            "its length is not stated as a number",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF R2\nL Y+10",
+            5,
+            "its length is not stated as a number",
+        ),
+        (
+            FLAT,
+            "L X+10\nCHF 2\nCR X+20 Y+10 R+20 DR+",
+            5,
+            "the block behind it is no straight line",
         ),
         (
             FLAT,
@@ -224,17 +243,7 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             "a Q parameter says its value; write the program flat first (--expand)",
         ),
     ];
-    let mut odd = Vec::new();
-    for (flat, body, line, part) in cases {
-        let found = said(body, flat);
-        let hit = found
-            .iter()
-            .any(|(at, message)| *at == line && message.contains(part));
-        if !hit || found.len() > 2 {
-            odd.push(format!("{body:?}, line {line}, {part:?}: {found:?}"));
-        }
-    }
-    assert!(odd.is_empty(), "{odd:#?}");
+    all_are_refused(&cases, said);
 }
 
 #[test]

@@ -160,6 +160,34 @@ fn arcs_are_not_bent_by_their_start() {
 }
 
 #[test]
+fn arcs_behind_a_place_of_the_machine_are_not_bent_by_their_start_either() {
+    // The tool is away along its axis alone: the arc begins where the block before the last one ends.
+    for arc in ["CC X+0 Y+0\nC X+0 Y+10 DR+\n", "CR X+0 Y+10 R+10 DR+\n"] {
+        let body = format!("L X+10 F100\nL Z-10 M91 FMAX\n{arc}L X+3 Y+3 Z+5\n");
+        let mut options = ReadOptions::default();
+        options.unknown_targets = UnknownTargets::LeftAsWritten;
+        let program = super::read_with(text(&body).as_bytes(), &options).unwrap();
+        let moved = |x: f64| {
+            let piece = Piece::to(1, Vector3::new(x, 0.0, 5.0));
+            write(&program, &[piece], &WriteOptions::default()).map_err(|error| error.to_string())
+        };
+        let line = 5 + arc.lines().count();
+        let error = moved(10.1).unwrap_err();
+        let part = format!("line {line}: the arc begins at a place that changes");
+        assert!(error.contains(&part), "{error}");
+        assert!(moved(10.0).is_ok());
+    }
+    // So does one about a pole that was set at a place that changes, though it begins where it did.
+    let body = "L X+10 F100\nCC IX-10 IY+0\nL X+10 Y+0\nL Z-10 M91 FMAX\nC X+0 Y+10 DR+\n";
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let program = super::read_with(text(body).as_bytes(), &options).unwrap();
+    let piece = Piece::to(1, Vector3::new(10.0, 0.2, 5.0));
+    let error = write(&program, &[piece], &WriteOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("line 8"), "{error}");
+}
+
+#[test]
 fn feeds_of_pieces_are_restored_behind_them() {
     let program = program(&text(
         "L X+40 R0 F200\nL Y+10\nL X+0 M9\nL Y+0 FMAX\nL X+5 F300\n",

@@ -1,9 +1,10 @@
 //! Corrected along their paths, and read again.
 
 use kinetostat_formats::*;
-use kinetostat_program::{MachineProgram, MoveKind, Request, Unwatched};
+use kinetostat_program::{MoveKind, Request};
 use nalgebra::Vector3;
 
+use crate::correcting::written_and_checked;
 use crate::paths::{corrected, real};
 use crate::real_files::stated;
 
@@ -48,20 +49,13 @@ fn a_bent_line_has_more_blocks_all_numbered_and_a_header() {
     let program = program(text);
     let (options, making) = (ReadOptions::default(), PathOptions::default());
     let path = path_of(&program, &making).unwrap();
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let field = |request: &Request| {
         let x = request.position_mm.x / 100.0;
         Ok(Vector3::new(0.0, 0.0, 0.2 * x * x))
     };
     let writing = kinetostat_program::WriteOptions::default();
-    let written = robot.write(&field, &writing, &Unwatched).unwrap();
-    robot.verify(&written, &writing).unwrap();
+    let written =
+        written_and_checked((&program, &path), (&options, &making), &field, &writing).unwrap();
     let output = String::from_utf8(written.bytes).unwrap();
     let lines: Vec<&str> = output.lines().collect();
     assert!(lines.len() > 10, "{output}");

@@ -2,11 +2,12 @@
 
 use kinetostat_formats::*;
 use kinetostat_program::{
-    Correction, CorrectionField, FieldFailure, MachineProgram, Request, Unwatched,
-    WriteOptions as PathWriteOptions,
+    Correction, CorrectionField, FieldFailure, Request, WriteOptions as PathWriteOptions,
 };
 use kinetostat_testing::Worst;
 use nalgebra::Vector3;
+
+use crate::correcting::written_and_checked;
 
 use super::program;
 
@@ -37,21 +38,9 @@ fn corrected(text: &str, field: &Bent) -> Result<(String, RobotPath), String> {
     let program = program(text);
     let (options, making) = (ReadOptions::default(), PathOptions::default());
     let path = path_of(&program, &making).unwrap();
-    let robot = Correctable {
-        program: &program,
-        path: &path,
-        reading: &options,
-        making: &making,
-        writing: &WriteOptions::default(),
-    };
     let mut writing = PathWriteOptions::default();
     writing.header = None;
-    let written = robot
-        .write(field, &writing, &Unwatched)
-        .map_err(|error| error.to_string())?;
-    robot
-        .verify(&written, &writing)
-        .map_err(|error| error.to_string())?;
+    let written = written_and_checked((&program, &path), (&options, &making), field, &writing)?;
     let output = String::from_utf8(written.bytes).unwrap();
     let again = super::program(&output);
     Ok((output, path_of(&again, &making).unwrap()))

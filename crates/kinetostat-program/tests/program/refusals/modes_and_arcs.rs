@@ -204,4 +204,47 @@ pub const MODES_AND_ARCS: &[Refused] = &[
         "controllers disagree whether this is a full circle",
         "write a straight move",
     ),
+    // Full circles whose ends were rounded apart: along the circle, across it, in all planes, as helices, in inches.
+    (
+        "G21\nG0 X20 Y0\nG3 X20 Y0.0001 I-20 F100",
+        3,
+        "the arc's ends are only 0.0001000 mm apart: controllers disagree whether this is a full circle",
+        "end the circle exactly where it starts, or write a straight move",
+    ),
+    (
+        "G21\nG0 X20 Y0\nG3 X20.003 Y0 I-20 F100",
+        3,
+        "only 0.0030000 mm apart",
+        "exactly where it starts",
+    ),
+    (
+        "G21\nG0 X20 Y0\nG2 X20.001 Y-0.002 I-20 F100",
+        3,
+        "only 0.0022361 mm apart",
+        "exactly where it starts",
+    ),
+    (
+        "G21\nG0 X20 Y0 Z0\nG3 X20 Y0.001 Z-2 I-20 F100",
+        3,
+        "only 0.0010000 mm apart",
+        "exactly where it starts",
+    ),
+    (
+        "G21 G18\nG0 X20 Y0 Z0\nG2 X20 Z0.001 I-20 F100",
+        3,
+        "only 0.0010000 mm apart",
+        "exactly where it starts",
+    ),
+    (
+        "G21 G19\nG0 X0 Y20 Z0\nG3 Y20 Z0.001 J-20 F100",
+        3,
+        "only 0.0010000 mm apart",
+        "exactly where it starts",
+    ),
+    (
+        "G20\nG0 X1 Y0\nG3 X1 Y0.0001 I-1 F10",
+        3,
+        "only 0.0025400 mm apart",
+        "exactly where it starts",
+    ),
 ];
