@@ -1,7 +1,6 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
-use crate::krl::findings::{left, unknown_frames};
 use crate::krl::folds::not_paired;
 use crate::krl::lex::TokenFile;
 use crate::krl::parser::routines::content_of;
@@ -13,6 +12,7 @@ use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
+use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::motion::Motion;
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
@@ -107,7 +107,12 @@ pub fn read_krl(
         return Err(faults);
     }
     let motions = resolved.motions;
-    let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
+    let mut findings = [
+        resolved.findings,
+        unknown_frames(&motions),
+        left_as_written(&motions),
+    ]
+    .concat();
     for file in &token_files {
         findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
             file: file.index,

@@ -12,11 +12,10 @@ use crate::ls::positions::{Held, Positions};
 use crate::ls::program::{Place, Program};
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::model::external::moving_axis;
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::{Declaration, MotionSite};
-use crate::model::target::Target;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -345,27 +344,8 @@ impl Reader<'_> {
             self.faults.sort_by_key(place);
             return Err(self.faults);
         }
-        let mut named = BTreeSet::new();
-        for motion in &self.motions {
-            let at = |message: String| Finding {
-                file: motion.file,
-                line: motion.line,
-                message,
-            };
-            if let Target::Unknown { reason } = &motion.target {
-                let message = format!("it stays as it is written: {reason}");
-                self.findings.push(at(message));
-            }
-            for FrameUse { name, frame } in [&motion.tool, &motion.work_object] {
-                if let Frame::Unknown { reason } = frame
-                    && named.insert(name)
-                {
-                    let message = format!("where `{name}` is, is not known: {reason}");
-                    self.findings.push(at(message));
-                }
-            }
-        }
-        drop(named);
+        self.findings.extend(unknown_frames(&self.motions));
+        self.findings.extend(left_as_written(&self.motions));
         self.findings
             .sort_by_key(|finding| (finding.file, finding.line));
         Ok(RobotProgram {

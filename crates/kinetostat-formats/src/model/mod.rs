@@ -4,6 +4,7 @@
 //! says so, poses in the axes of the work object as written.
 
 pub(crate) mod external;
+pub(crate) mod findings;
 pub(crate) mod frame;
 pub(crate) mod joint_arm;
 pub(crate) mod motion;

@@ -1,13 +1,10 @@
 //! The reader of RAPID modules.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind};
-use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::target::Target;
+use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::motion::Motion;
+use crate::model::program::{Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
@@ -112,39 +109,13 @@ pub fn read_rapid(
         .into_iter()
         .map(|followed| followed.motion)
         .collect();
-    let mut findings = [targets.findings, walked.findings].concat();
-    let mut named = BTreeSet::new();
-    for motion in &motions {
-        let (file, line) = (motion.file, motion.line);
-        let via = match &motion.kind {
-            MotionKind::Circular { via } => Some(via),
-            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
-        };
-        for target in via.into_iter().chain([&motion.target]) {
-            if let Target::Unknown { reason } = target {
-                let message = format!("it stays as it is written: {reason}");
-                findings.push(Finding {
-                    file,
-                    line,
-                    message,
-                });
-            }
-        }
-        let frames = [&motion.tool, &motion.work_object];
-        for FrameUse { name, frame } in frames {
-            if let Frame::Unknown { reason } = frame
-                && named.insert(name)
-            {
-                let message = format!("where `{name}` is, is not known: {reason}");
-                findings.push(Finding {
-                    file,
-                    line,
-                    message,
-                });
-            }
-        }
-    }
-    drop(named);
+    let mut findings = [
+        targets.findings,
+        walked.findings,
+        unknown_frames(&motions),
+        left_as_written(&motions),
+    ]
+    .concat();
     findings.sort_by_key(|finding| (finding.file, finding.line));
     Ok(RobotProgram {
         language: Language::Rapid,

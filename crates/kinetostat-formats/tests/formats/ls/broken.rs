@@ -237,6 +237,38 @@ fn axes_that_move_are_refused_unless_carried() {
     assert!(read_with(text.as_bytes(), &options).is_ok());
 }
 
+/// Both positions of a circle may be registers: what is said of the motion is said once, in order of lines.
+#[test]
+fn motions_that_are_left_are_named_once_by_line() {
+    let text = with_lines(&[
+        "UFRAME_NUM=2 ;",
+        "UTOOL_NUM=1 ;",
+        "L P[1] 20mm/sec FINE ;",
+        "C P[2] ",
+        "  : PR[1] 20mm/sec FINE ;",
+        "C PR[1] ",
+        "  : PR[2] 20mm/sec FINE ;",
+    ]);
+    let text = text
+        .replace("   5:  :", "    :")
+        .replace("   7:  :", "    :");
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let program = read_with(text.as_bytes(), &options).unwrap();
+    let found: Vec<(usize, bool)> = (program.findings.iter())
+        .map(|finding| {
+            let is_left = finding.message.starts_with("it stays as it is written");
+            (finding.line, is_left)
+        })
+        .collect();
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    assert!(lines.is_sorted(), "{:?}", program.findings);
+    let left: Vec<usize> = (found.iter().filter(|(_, left)| *left))
+        .map(|(line, _)| *line)
+        .collect();
+    assert_eq!(left, [8, 10], "{:?}", program.findings);
+}
+
 #[test]
 fn statements_stand_once_in_their_table() {
     let mut names: Vec<&str> = LS_STATEMENTS.iter().map(|row| row.name).collect();
