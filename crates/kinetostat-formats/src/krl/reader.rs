@@ -13,7 +13,6 @@ use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::motion::Motion;
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
@@ -90,11 +89,7 @@ pub fn read_krl(
     walker.walk(main);
     let resolved = resolve(walker, main);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(
-            &files,
-            resolved.motions.iter().map(external),
-            |axis| format!("E{}", axis + 1),
-        ));
+        faults.extend(moving_axis(&files, &resolved.motions, Language::Krl));
     }
     if !faults.is_empty() {
         let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
@@ -155,10 +150,4 @@ fn main(values: &Values<'_>) -> Option<usize> {
     let mut firsts = (0..routines.len()).filter(|index| routines[*index].is_first);
     let first = firsts.clone().next();
     firsts.find(|index| !called[*index]).or(first)
-}
-
-/// A motion with its external axes.
-fn external(motion: &Motion) -> (&Motion, &[Option<f64>]) {
-    let all = motion.target.pose().map_or(&[][..], |pose| &pose.external);
-    (motion, &all[..all.len().min(6)])
 }

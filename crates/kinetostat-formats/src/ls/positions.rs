@@ -111,8 +111,15 @@ struct Parts {
     configuration: Option<String>,
     numbers: BTreeMap<&'static str, NumberText>,
     joints: Vec<f64>,
-    external: Vec<Option<f64>>,
+    external: Vec<External>,
     wrong: Option<&'static str>,
+}
+
+/// An external axis, or an axis of a further group.
+struct External {
+    value: f64,
+    /// Where it can become another.
+    number: Option<NumberText>,
 }
 
 const LETTERS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
@@ -214,8 +221,15 @@ impl Parts {
                 self.numbers.insert(letter, number);
             }
             (None, Some(b'J')) if numbered && self.group <= 1 => self.joints.push(number.value),
-            (Some(_), _) => self.external.push(Some(number.value)),
-            (None, Some(b'J' | b'E')) if numbered => self.external.push(Some(number.value)),
+            // A pose of a further group does not go evenly from number to number.
+            (Some(_), _) => self.external.push(External {
+                value: number.value,
+                number: None,
+            }),
+            (None, Some(b'J' | b'E')) if numbered => self.external.push(External {
+                value: number.value,
+                number: Some(number),
+            }),
             _ => self.wrong = Some("it holds axes that are not known"),
         }
     }
@@ -231,6 +245,9 @@ impl Parts {
         let numbers: Vec<&NumberText> = LETTERS
             .iter()
             .filter_map(|letter| self.numbers.get(letter))
+            .collect();
+        let external: Vec<Option<f64>> = (self.external.iter())
+            .map(|axis| Some(axis.value))
             .collect();
         let held = match (self.wrong, numbers.as_slice()) {
             (Some(reason), _) => Held::Nothing(reason),
@@ -251,6 +268,9 @@ impl Parts {
                                 position: [x.clone(), y.clone(), z.clone()],
                                 orientation: [w, p, r].map(NumberText::clone).to_vec(),
                                 convention: OrientationText::Wpr,
+                                external: (self.external.iter())
+                                    .map(|axis| axis.number.clone())
+                                    .collect(),
                                 width: Width::Kept,
                             },
                             pose: PoseTarget {
@@ -260,7 +280,7 @@ impl Parts {
                                     numbers: turns.collect(),
                                     text,
                                 },
-                                external: self.external.clone(),
+                                external: external.clone(),
                             },
                             keeps_value: false,
                             copy: DeclarationCopy::Statement,
@@ -279,7 +299,7 @@ impl Parts {
             held,
             frame: self.frame,
             tool: self.tool,
-            external: self.external,
+            external,
         }
     }
 }

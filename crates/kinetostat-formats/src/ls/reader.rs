@@ -58,7 +58,6 @@ pub fn read_ls(
         faults: Vec::new(),
         findings: Vec::new(),
         motions: Vec::new(),
-        external: Vec::new(),
         declarations: Vec::new(),
         ends: Ends::of(options),
     };
@@ -94,7 +93,7 @@ pub fn read_ls(
         let found = reader.motion(motion, &site);
         let before = site.before;
         reader.declarations = declarations;
-        let Some((mut motion, external)) = found else {
+        let Some(mut motion) = found else {
             continue;
         };
         motion.runs = programs[*program].runs[*at].max(order.runs[*program]);
@@ -108,7 +107,6 @@ pub fn read_ls(
         };
         indices.insert((*program, *at), reader.motions.len());
         reader.motions.push(motion);
-        reader.external.push(external);
     }
     reader.finish(files)
 }
@@ -118,8 +116,6 @@ struct Reader<'o> {
     faults: Vec<ProgramError>,
     findings: Vec<Finding>,
     motions: Vec<Motion>,
-    /// By motion.
-    external: Vec<Vec<Option<f64>>>,
     declarations: Vec<Declaration>,
     ends: Ends<'o>,
 }
@@ -269,11 +265,7 @@ impl Reader<'_> {
         }
     }
 
-    fn motion(
-        &mut self,
-        text: &MotionText,
-        place: &MotionPlace<'_>,
-    ) -> Option<(Motion, Vec<Option<f64>>)> {
+    fn motion(&mut self, text: &MotionText, place: &MotionPlace<'_>) -> Option<Motion> {
         let file = place.file;
         let end = self.ends.end(&text.target, place, text.displaced);
         let via = text.via.as_ref().map(|(span, end)| {
@@ -299,7 +291,7 @@ impl Reader<'_> {
             self.fault(file, place.line.whole.clone(), reason, remedy);
             return None;
         }
-        let motion = Motion {
+        Some(Motion {
             file: place.index,
             line: file.line_of(place.line.whole.start),
             span: place.line.whole.clone(),
@@ -324,17 +316,17 @@ impl Reader<'_> {
                 via: via.map(|(span, via)| (span, via.site)),
                 speed: text.speed_site.clone(),
                 zone: text.zone_span.clone(),
+                external: end.external,
+                external_moved_behind: false,
                 indivisible: text.indivisible,
             },
-        };
-        Some((motion, end.external))
+        })
     }
 
     fn finish(mut self, files: Vec<SourceFile>) -> Result<RobotProgram, Vec<ProgramError>> {
-        if self.options.external_axes == ExternalAxes::Refused
-            && let Some(fault) = self.moving_axis(&files)
-        {
-            self.faults.push(fault);
+        if self.options.external_axes == ExternalAxes::Refused {
+            let moving = moving_axis(&files, &self.motions, Language::FanucLs);
+            self.faults.extend(moving);
         }
         if !self.faults.is_empty() {
             let place = |fault: &ProgramError| {
@@ -356,12 +348,5 @@ impl Reader<'_> {
             declarations: self.declarations,
             even_axes: std::collections::BTreeSet::new(),
         })
-    }
-
-    /// The first motion at which an external axis or a further group is elsewhere than before.
-    fn moving_axis(&self, files: &[SourceFile]) -> Option<ProgramError> {
-        let motions = self.motions.iter().zip(&self.external);
-        let motions = motions.map(|(motion, external)| (motion, external.as_slice()));
-        moving_axis(files, motions, |axis| format!("or group axis {}", axis + 1))
     }
 }

@@ -62,6 +62,7 @@ pub(crate) fn target_of(
     let rotation = (OrientationText::Quaternion.rotation_of(&parts))
         .ok_or("its quaternion has not the length 1")?;
     let axes = external_axes(external);
+    let stated = numbers::<6>(file, external).map_or_else(Vec::new, |all| all.to_vec());
     let pose = PoseTarget {
         position_mm: Vector3::from([0, 1, 2].map(|axis| position[axis].value)),
         orientation: rotation,
@@ -78,15 +79,23 @@ pub(crate) fn target_of(
         position,
         orientation: orientation.to_vec(),
         convention: OrientationText::Quaternion,
+        external: (stated.into_iter())
+            .map(|number| is_stated(number.value).then_some(number))
+            .collect(),
         width: Width::Free,
     };
     Ok((text, pose))
 }
 
+/// Whether a number is the place of an external axis, and not 9E9.
+fn is_stated(value: f64) -> bool {
+    value < UNSTATED
+}
+
 /// Stated external axes; empty where they are no literal.
 fn external_axes(expression: &Expression) -> Vec<Option<f64>> {
     let axes = values::<6>(expression).map_or_else(Vec::new, |all| all.to_vec());
-    let stated = |value: f64| (value < UNSTATED).then_some(value);
+    let stated = |value: f64| is_stated(value).then_some(value);
     axes.into_iter().map(stated).collect()
 }
 

@@ -3,12 +3,10 @@
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
-use crate::rapid::motion::Followed;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::symbols::Symbols;
 use crate::rapid::targets::Targets;
@@ -89,11 +87,7 @@ pub fn read_rapid(
     let mut targets = Targets::default();
     let walked = walk(&mut values, &mut targets, options, &mut faults);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(
-            &files,
-            walked.motions.iter().map(external),
-            |axis| format!("eax_{}", char::from(b'a' + axis as u8)),
-        ));
+        faults.extend(moving_axis(&files, &walked.motions, Language::Rapid));
     }
     let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
     if !faults.is_empty() {
@@ -104,11 +98,7 @@ pub fn read_rapid(
         faults.sort_by_key(place);
         return Err(faults);
     }
-    let motions: Vec<_> = walked
-        .motions
-        .into_iter()
-        .map(|followed| followed.motion)
-        .collect();
+    let motions = walked.motions;
     let mut findings = [
         targets.findings,
         walked.findings,
@@ -125,10 +115,4 @@ pub fn read_rapid(
         declarations: targets.declarations,
         even_axes: std::collections::BTreeSet::new(),
     })
-}
-
-/// A motion with its external axes.
-fn external(followed: &Followed) -> (&Motion, &[Option<f64>]) {
-    let all = followed.external.as_slice();
-    (&followed.motion, &all[..all.len().min(6)])
 }

@@ -14,6 +14,7 @@ mod axes_on_circles;
 mod chance;
 mod circles;
 mod corners;
+mod external_axes;
 mod fields;
 mod harness;
 mod heidenhain;
