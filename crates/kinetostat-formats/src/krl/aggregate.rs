@@ -136,6 +136,9 @@ pub(crate) fn position_of(
         } else if let Some(index) = slot(EXTERNAL) {
             position.external[index] = Some(text(number));
         } else if name.is("S") || name.is("T") {
+            if number.fract() != 0.0 || number < 0.0 {
+                return Err("its S and T are not whole numbers of 0 and above");
+            }
             let written = &mut position.configuration.text;
             if !written.is_empty() {
                 written.push(',');

@@ -1,6 +1,6 @@
 //! The positions of a program: its section `/POS`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -122,6 +122,24 @@ struct External {
     number: Option<NumberText>,
 }
 
+/// Letters of which a configuration has at most one each: wrist, side, elbow, and whether the arm reaches over its back.
+const PAIRS: [[u8; 2]; 4] = [*b"FN", *b"LR", *b"UD", *b"TB"];
+
+/// Whether a text says how the arm reaches a pose: letters, and the turns of three axes.
+fn is_configuration(text: &str) -> bool {
+    let mut parts = text.split(',');
+    let letters = parts.next().unwrap_or_default().bytes();
+    let letters: Vec<u8> = letters.filter(|byte| *byte != b' ').collect();
+    let pair = |letter: &u8| PAIRS.iter().position(|pair| pair.contains(letter));
+    let pairs: Option<BTreeSet<usize>> = letters.iter().map(pair).collect();
+    let turns: Vec<bool> = parts
+        .map(|part| part.trim().parse::<i8>().is_ok())
+        .collect();
+    // A letter twice, or with its opposite, is one pair.
+    let is_once = pairs.is_some_and(|pairs| pairs.len() == letters.len() && !pairs.is_empty());
+    is_once && turns == [true; 3]
+}
+
 const LETTERS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
 
 impl Parts {
@@ -165,6 +183,11 @@ impl Parts {
             };
             let text = String::from_utf8_lossy(&bytes[inside..close]).into_owned();
             if self.group <= 1 {
+                if !is_configuration(&text) {
+                    self.wrong = Some(
+                        "its CONFIG is not of letters and three turns, as 'N U T, 0, 0, 0': F or N, L or R, U or D, T or B",
+                    );
+                }
                 self.configuration = Some(text);
             }
             return close + 1;
@@ -252,6 +275,9 @@ impl Parts {
         let held = match (self.wrong, numbers.as_slice()) {
             (Some(reason), _) => Held::Nothing(reason),
             (None, []) if !self.joints.is_empty() => Held::Joints(self.joints.clone()),
+            (None, &[_, _, _, _, _, _]) if self.configuration.is_none() => Held::Nothing(
+                "it has no CONFIG: with which posture the arm gets there is not stated",
+            ),
             (None, &[x, y, z, w, p, r]) => {
                 let angles = [w, p, r].map(|number| number.value);
                 match OrientationText::Wpr.rotation_of(&angles) {

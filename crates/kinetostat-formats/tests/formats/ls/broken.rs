@@ -220,6 +220,48 @@ fn files_and_positions_that_are_not_whole_are_refused() {
     }
 }
 
+/// The configuration says with which posture the arm gets there.
+#[test]
+fn configurations_that_say_no_posture_are_refused() {
+    let whole = with_lines(&["L P[1] 20mm/sec FINE ;"]);
+    let with = |configuration: &str| whole.replacen("'N U T, 0, 0, 0'", configuration, 1);
+    for taken in [
+        "'N U T, 0, 0, 0'",
+        "'F L D B, -1, 0, 1'",
+        "'NUT,0,0,0'",
+        "'N, 0, 0, 0'",
+    ] {
+        let options = ReadOptions::default();
+        assert!(
+            read_with(with(taken).as_bytes(), &options).is_ok(),
+            "{taken}"
+        );
+    }
+    for refused in [
+        "'N U T, 0, 0'",
+        "'N U T, 0, 0, 0, 0'",
+        "'N U T'",
+        "''",
+        "'0, 0, 0'",
+        "', 0, 0, 0'",
+        "'N U X, 0, 0, 0'",
+        "'N N T, 0, 0, 0'",
+        "'N F T, 0, 0, 0'",
+        "'N U T, 0, , 0'",
+        "'N U T, 0, 0.5, 0'",
+        "'N U T, 0, 0, 999'",
+    ] {
+        let found = errors(&with(refused));
+        assert_eq!((found.len(), found[0].0), (1, 5), "{refused}: {found:?}");
+        assert!(
+            found[0].1.contains("P[1]: its CONFIG is not of letters"),
+            "{found:?}"
+        );
+    }
+    let found = errors(&whole.replacen(",\t\tCONFIG : 'N U T, 0, 0, 0'", "", 1));
+    assert!(found[0].1.contains("P[1]: it has no CONFIG"), "{found:?}");
+}
+
 #[test]
 fn axes_that_move_are_refused_unless_carried() {
     let text = EVERYTHING.replacen("  16:  DO[1:gun]=ON ;", "  16:L P[8] 20mm/sec FINE ;", 1);
