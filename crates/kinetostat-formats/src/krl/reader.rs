@@ -13,6 +13,7 @@ use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
@@ -51,6 +52,11 @@ pub fn read_krl(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_krl(files, options).without_faults()
+}
+
+/// Reads all that can be read of KRL programs.
+pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut faults = Vec::new();
     for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
         faults.push(ProgramError::at(
@@ -61,7 +67,7 @@ pub fn read_krl(
         ));
     }
     if !faults.is_empty() {
-        return Err(faults);
+        return Parsed::refused(Language::Krl, faults);
     }
     let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
         .map(|(index, source)| TokenFile::of(index, source))
@@ -91,16 +97,8 @@ pub fn read_krl(
     if options.external_axes == ExternalAxes::Refused {
         faults.extend(moving_axis(&files, &resolved.motions, Language::Krl));
     }
-    if !faults.is_empty() {
-        let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
-        let place = |fault: &ProgramError| {
-            let file = order.iter().position(|name| *name == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        faults.dedup();
-        return Err(faults);
-    }
+    sort_faults(&mut faults, &files);
+    faults.dedup();
     let motions = resolved.motions;
     let mut findings = [
         resolved.findings,
@@ -118,14 +116,17 @@ pub fn read_krl(
         }));
     }
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
-        language: Language::Krl,
-        files,
-        motions,
-        findings,
-        declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
-    })
+    Parsed {
+        program: RobotProgram {
+            language: Language::Krl,
+            files,
+            motions,
+            findings,
+            declarations: targets.declarations,
+            even_axes: std::collections::BTreeSet::new(),
+        },
+        faults,
+    }
 }
 
 /// The routine with which the program begins.

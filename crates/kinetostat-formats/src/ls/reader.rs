@@ -14,6 +14,7 @@ use crate::ls::step::{Step, positions_read, step_of};
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::{Declaration, MotionSite};
 use crate::options::{ExternalAxes, ReadOptions};
@@ -53,6 +54,11 @@ pub fn read_ls(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_ls(files, options).without_faults()
+}
+
+/// Reads all that can be read of FANUC TP programs.
+pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut reader = Reader {
         options,
         faults: Vec::new(),
@@ -323,30 +329,26 @@ impl Reader<'_> {
         })
     }
 
-    fn finish(mut self, files: Vec<SourceFile>) -> Result<RobotProgram, Vec<ProgramError>> {
+    fn finish(mut self, files: Vec<SourceFile>) -> Parsed {
         if self.options.external_axes == ExternalAxes::Refused {
             let moving = moving_axis(&files, &self.motions, Language::FanucLs);
             self.faults.extend(moving);
         }
-        if !self.faults.is_empty() {
-            let place = |fault: &ProgramError| {
-                let file = files.iter().position(|file| file.name() == fault.file);
-                (file, fault.span.start, fault.line)
-            };
-            self.faults.sort_by_key(place);
-            return Err(self.faults);
-        }
+        sort_faults(&mut self.faults, &files);
         self.findings.extend(unknown_frames(&self.motions));
         self.findings.extend(left_as_written(&self.motions));
         self.findings
             .sort_by_key(|finding| (finding.file, finding.line));
-        Ok(RobotProgram {
-            language: Language::FanucLs,
-            files,
-            motions: self.motions,
-            findings: self.findings,
-            declarations: self.declarations,
-            even_axes: std::collections::BTreeSet::new(),
-        })
+        Parsed {
+            program: RobotProgram {
+                language: Language::FanucLs,
+                files,
+                motions: self.motions,
+                findings: self.findings,
+                declarations: self.declarations,
+                even_axes: std::collections::BTreeSet::new(),
+            },
+            faults: self.faults,
+        }
     }
 }

@@ -3,6 +3,7 @@
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
@@ -49,6 +50,11 @@ pub fn read_rapid(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_rapid(files, options).without_faults()
+}
+
+/// Reads all that can be read of RAPID modules.
+pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut faults = Vec::new();
     for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
         faults.push(ProgramError::at(
@@ -59,7 +65,7 @@ pub fn read_rapid(
         ));
     }
     if !faults.is_empty() {
-        return Err(faults);
+        return Parsed::refused(Language::Rapid, faults);
     }
     let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
         .map(|(index, source)| TokenFile {
@@ -89,15 +95,7 @@ pub fn read_rapid(
     if options.external_axes == ExternalAxes::Refused {
         faults.extend(moving_axis(&files, &walked.motions, Language::Rapid));
     }
-    let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
-    if !faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = order.iter().position(|name| *name == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        return Err(faults);
-    }
+    sort_faults(&mut faults, &files);
     let motions = walked.motions;
     let mut findings = [
         targets.findings,
@@ -107,12 +105,15 @@ pub fn read_rapid(
     ]
     .concat();
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
-        language: Language::Rapid,
-        files,
-        motions,
-        findings,
-        declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
-    })
+    Parsed {
+        program: RobotProgram {
+            language: Language::Rapid,
+            files,
+            motions,
+            findings,
+            declarations: targets.declarations,
+            even_axes: std::collections::BTreeSet::new(),
+        },
+        faults,
+    }
 }

@@ -8,6 +8,7 @@
     reason = "a failing test may panic"
 )]
 
+mod all_faults;
 mod apt;
 mod axes_alone;
 mod axes_on_circles;
