@@ -1,10 +1,11 @@
 //! The positions of a program: its section `/POS`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use crate::ls::configuration::is_configuration;
 use crate::ls::lines::{Fault, number_of};
 use crate::ls::words::index_of;
 use crate::model::orientation::OrientationText;
@@ -120,24 +121,6 @@ struct External {
     value: f64,
     /// Where it can become another.
     number: Option<NumberText>,
-}
-
-/// Letters of which a configuration has at most one each: wrist, side, elbow, and whether the arm reaches over its back.
-const PAIRS: [[u8; 2]; 4] = [*b"FN", *b"LR", *b"UD", *b"TB"];
-
-/// Whether a text says how the arm reaches a pose: letters, and the turns of three axes.
-fn is_configuration(text: &str) -> bool {
-    let mut parts = text.split(',');
-    let letters = parts.next().unwrap_or_default().bytes();
-    let letters: Vec<u8> = letters.filter(|byte| *byte != b' ').collect();
-    let pair = |letter: &u8| PAIRS.iter().position(|pair| pair.contains(letter));
-    let pairs: Option<BTreeSet<usize>> = letters.iter().map(pair).collect();
-    let turns: Vec<bool> = parts
-        .map(|part| part.trim().parse::<i8>().is_ok())
-        .collect();
-    // A letter twice, or with its opposite, is one pair.
-    let is_once = pairs.is_some_and(|pairs| pairs.len() == letters.len() && !pairs.is_empty());
-    is_once && turns == [true; 3]
 }
 
 const LETTERS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];

@@ -90,7 +90,7 @@ pub(crate) fn target_of(
 
 /// Whether a number counts quarters of a turn, or is a sum of flags.
 fn is_quarter(value: &f64) -> bool {
-    value.fract() == 0.0 && value.abs() < 1e5
+    value.fract() == 0.0 && value.abs() < 1e10
 }
 
 /// Whether a number is the place of an external axis, and not 9E9.
