@@ -91,6 +91,7 @@ pub use options::{
     CutterCompensation, ExactStops, ExternalAxes, LengthUnit, ReadOptions, UnknownTargets,
     WriteOptions,
 };
+pub use path::all_faults::{ProgramFault, all_faults};
 pub use path::axis_turns::TurnAboutAxis;
 pub use path::correctable::Correctable;
 pub use path::fault::PathError;

@@ -22,7 +22,8 @@ pub enum ExternalAxes {
     /// The program is refused at the first line where they move: the arm stands elsewhere then.
     #[default]
     Refused,
-    /// They are carried as written: the caller knows what they move ([`crate::PoseTarget::external`]).
+    /// They are carried as written, and shared out evenly over the pieces of a motion that is divided: the caller knows what they move
+    /// ([`crate::PoseTarget::external`]).
     Carried,
 }
 

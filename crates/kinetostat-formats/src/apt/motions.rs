@@ -232,6 +232,8 @@ impl Reader<'_, '_> {
                 via: arc_lines,
                 speed: None,
                 zone: None,
+                external: Vec::new(),
+                external_moved_behind: false,
                 indivisible: None,
             },
         });

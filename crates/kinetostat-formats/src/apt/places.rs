@@ -34,6 +34,7 @@ pub(crate) fn pose_text(file: usize, numbers: Vec<NumberText>, old: Option<f64>)
             false => OrientationText::Axis,
         },
         orientation,
+        external: Vec::new(),
         width: Width::Kept,
     }
 }

@@ -7,7 +7,7 @@ use crate::model::orientation::OrientationText;
 use crate::model::site::PoseText;
 use crate::model::target::Configuration;
 use crate::text::name::Name;
-use crate::text::number::{NumberText, Width};
+use crate::text::number::{NumberText, Width, values_of};
 
 /// Members and the tokens of their values.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,8 +92,8 @@ pub(crate) struct Position {
     pub numbers: [Option<NumberText>; 6],
     /// S and T.
     pub configuration: Configuration,
-    /// E1 to E6.
-    pub external: Vec<Option<f64>>,
+    /// E1 to E6; empty where none is stated.
+    pub external: Vec<Option<NumberText>>,
     /// A1 to A6.
     pub axes: [Option<f64>; 6],
 }
@@ -115,32 +115,35 @@ pub(crate) fn position_of(
         whole: file.span(tokens),
         numbers: Default::default(),
         configuration: Configuration::default(),
-        external: vec![None; 6],
+        external: vec![const { None }; 6],
         axes: [None; 6],
     };
-    for (name, value) in &aggregate.members {
-        let number =
-            number_of(file, value).ok_or("its numbers are computed while the program runs")?;
+    for (name, value_tokens) in &aggregate.members {
+        let number = number_of(file, value_tokens)
+            .ok_or("its numbers are computed while the program runs")?;
         if number.abs() > LARGEST {
             return Err("its numbers are larger than any robot needs");
         }
+        let text = |value: f64| NumberText {
+            span: file.span(value_tokens),
+            value,
+        };
         let slot = |names: [&str; 6]| names.iter().position(|capitals| name.is(capitals));
         if let Some(index) = slot(PLACE) {
-            let text = NumberText {
-                span: file.span(value),
-                value: number,
-            };
-            position.numbers[index] = Some(text);
+            position.numbers[index] = Some(text(number));
         } else if let Some(index) = slot(AXES) {
             position.axes[index] = Some(number);
         } else if let Some(index) = slot(EXTERNAL) {
-            position.external[index] = Some(number);
+            position.external[index] = Some(text(number));
         } else if name.is("S") || name.is("T") {
-            let text = &mut position.configuration.text;
-            if !text.is_empty() {
-                text.push(',');
+            if number.fract() != 0.0 || number < 0.0 {
+                return Err("its S and T are not whole numbers of 0 and above");
             }
-            text.push_str(&file.text(&(value.start - 1..value.end)));
+            let written = &mut position.configuration.text;
+            if !written.is_empty() {
+                written.push(',');
+            }
+            written.push_str(&file.text(&(value_tokens.start - 1..value_tokens.end)));
             position.configuration.numbers.push(number);
         } else {
             return Err("it has a member that no position has");
@@ -160,6 +163,11 @@ impl Position {
             .map(|number| number.as_ref().map(|number| number.value))
     }
 
+    /// External axes as stated.
+    pub(crate) fn external_values(&self) -> Vec<Option<f64>> {
+        values_of(&self.external)
+    }
+
     /// Where its numbers stand; none where X, Y and Z are not all there, or only some of A, B, C.
     pub(crate) fn text(&self, file: usize) -> Option<PoseText> {
         let [Some(x), Some(y), Some(z), a, b, c] = self.numbers.clone() else {
@@ -176,6 +184,7 @@ impl Position {
             position: [x, y, z],
             orientation,
             convention,
+            external: self.external.clone(),
             width: Width::Free,
         })
     }

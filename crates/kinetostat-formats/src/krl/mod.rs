@@ -3,8 +3,7 @@
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`aggregate`], [`values`], [`frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
-//! [`resolve`]). [`folds`] compares what the pendant shows with what runs, [`findings`] says what a person should know, and
-//! [`writing`] writes.
+//! [`resolve`]). [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
 //! Instructions for System Integrators.
@@ -12,7 +11,6 @@
 pub(crate) mod aggregate;
 pub(crate) mod behind_ends;
 pub(crate) mod calls;
-pub(crate) mod findings;
 pub(crate) mod folds;
 pub(crate) mod frames;
 pub(crate) mod kept;

@@ -150,6 +150,8 @@ pub(crate) fn follow(
             via,
             speed: None,
             zone: rest.zone,
+            external: end.external,
+            external_moved_behind: false,
             indivisible: joint.then_some("this motion cannot be divided"),
         },
         span,
@@ -205,6 +207,7 @@ fn left(found: Result<End, Reason>, unknown: UnknownTargets) -> Result<End, Reas
             target: Target::Unknown { reason },
             site: TargetSite::Fixed("where it goes is not known from the text"),
             open: None,
+            external: Vec::new(),
         }),
         other => other,
     }

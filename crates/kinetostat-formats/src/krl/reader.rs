@@ -1,7 +1,6 @@
 //! The reader of KRL programs.
 
 use crate::error::ProgramError;
-use crate::krl::findings::{left, unknown_frames};
 use crate::krl::folds::not_paired;
 use crate::krl::lex::TokenFile;
 use crate::krl::parser::routines::content_of;
@@ -13,7 +12,8 @@ use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
 use crate::model::external::moving_axis;
-use crate::model::motion::Motion;
+use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
@@ -52,6 +52,11 @@ pub fn read_krl(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_krl(files, options).without_faults()
+}
+
+/// Reads all that can be read of KRL programs.
+pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut faults = Vec::new();
     for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
         faults.push(ProgramError::at(
@@ -62,7 +67,7 @@ pub fn read_krl(
         ));
     }
     if !faults.is_empty() {
-        return Err(faults);
+        return Parsed::refused(Language::Krl, faults);
     }
     let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
         .map(|(index, source)| TokenFile::of(index, source))
@@ -90,24 +95,17 @@ pub fn read_krl(
     walker.walk(main);
     let resolved = resolve(walker, main);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(
-            &files,
-            resolved.motions.iter().map(external),
-            |axis| format!("E{}", axis + 1),
-        ));
+        faults.extend(moving_axis(&files, &resolved.motions, Language::Krl));
     }
-    if !faults.is_empty() {
-        let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
-        let place = |fault: &ProgramError| {
-            let file = order.iter().position(|name| *name == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        faults.dedup();
-        return Err(faults);
-    }
+    sort_faults(&mut faults, &files);
+    faults.dedup();
     let motions = resolved.motions;
-    let mut findings = [resolved.findings, unknown_frames(&motions), left(&motions)].concat();
+    let mut findings = [
+        resolved.findings,
+        unknown_frames(&motions),
+        left_as_written(&motions),
+    ]
+    .concat();
     for file in &token_files {
         findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
             file: file.index,
@@ -118,14 +116,17 @@ pub fn read_krl(
         }));
     }
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
-        language: Language::Krl,
-        files,
-        motions,
-        findings,
-        declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
-    })
+    Parsed {
+        program: RobotProgram {
+            language: Language::Krl,
+            files,
+            motions,
+            findings,
+            declarations: targets.declarations,
+            even_axes: std::collections::BTreeSet::new(),
+        },
+        faults,
+    }
 }
 
 /// The routine with which the program begins.
@@ -150,10 +151,4 @@ fn main(values: &Values<'_>) -> Option<usize> {
     let mut firsts = (0..routines.len()).filter(|index| routines[*index].is_first);
     let first = firsts.clone().next();
     firsts.find(|index| !called[*index]).or(first)
-}
-
-/// A motion with its external axes.
-fn external(motion: &Motion) -> (&Motion, &[Option<f64>]) {
-    let all = motion.target.pose().map_or(&[][..], |pose| &pose.external);
-    (motion, &all[..all.len().min(6)])
 }

@@ -9,7 +9,7 @@ use crate::krl::motion::Followed;
 use crate::krl::state::{Settings, Slot, State, Thing};
 use crate::krl::values::{Reason, Values};
 use crate::krl::walking::walker::Walker;
-use crate::model::frame::FrameUse;
+use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::program::Finding;
 use crate::model::site::{Declaration, SpeedSite, TargetSite};
@@ -91,10 +91,15 @@ impl Resolver<'_, '_> {
         motion.runs = often.max(motion.runs);
         motion.follows = match state.get(Thing::Place) {
             Slot::Is(index) => Some(index),
-            Slot::Entry | Slot::Unknown => None,
+            Slot::Entry | Slot::Unknown | Slot::Lost { .. } => None,
         };
-        motion.tool = self.frame(state.get(Thing::Tool), Role::Tool, motion.tool);
-        motion.work_object = self.frame(state.get(Thing::Base), Role::Base, motion.work_object);
+        motion.tool = self.frame(
+            (state.get(Thing::Tool), motion.file),
+            Role::Tool,
+            motion.tool,
+        );
+        let base = (state.get(Thing::Base), motion.file);
+        motion.work_object = self.frame(base, Role::Base, motion.work_object);
         if motion.kind != MotionKind::Joint
             && let Some(speed) = self.settings.speeds.get(state.get(Thing::Speed))
         {
@@ -203,11 +208,35 @@ impl Resolver<'_, '_> {
         same.then(|| before.target.pose())?
     }
 
-    fn frame(&self, slot: Slot, role: Role, none: FrameUse) -> FrameUse {
+    /// The frame in force at a motion of a file.
+    fn frame(&self, (slot, file): (Slot, usize), role: Role, none: FrameUse) -> FrameUse {
         let found = self.settings.frames.get(slot).cloned();
         found
             .or_else(|| self.values.stated(role.variable()))
+            .or_else(|| self.lost(slot, file, role))
             .unwrap_or(none)
+    }
+
+    /// A frame that was known before a call of what is in none of the files.
+    fn lost(&self, slot: Slot, file: usize, role: Role) -> Option<FrameUse> {
+        let Slot::Lost { call, .. } = slot else {
+            return None;
+        };
+        let call = self.settings.calls.get(call)?;
+        let home = match call.file == file {
+            true => String::new(),
+            false => format!(" of {}", self.values.files[call.file].source.name()),
+        };
+        let reason = format!(
+            "since line {}{home} calls `{}`, which is in none of these files and may set another: give its file as well, set {} behind the call, or state it",
+            call.line,
+            call.name,
+            role.variable()
+        );
+        Some(FrameUse {
+            name: role.variable().to_owned(),
+            frame: Frame::Unknown { reason },
+        })
     }
 
     fn compare_fold(&mut self, around: &[Option<usize>]) {

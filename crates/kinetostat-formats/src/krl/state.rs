@@ -16,6 +16,24 @@ pub(crate) enum Slot {
     Is(usize),
     /// Not the same on every way, or not known from the text.
     Unknown,
+    /// Not known since a call of what is in none of the files, an entry of [`Settings::calls`]; what it was before, None for as where
+    /// the routine was called.
+    Lost { call: usize, before: Option<usize> },
+}
+
+impl Slot {
+    /// Behind a call of what is in none of the files.
+    fn lost(self, call: usize) -> Self {
+        match self {
+            Self::Entry => Self::Lost { call, before: None },
+            Self::Is(index) => Self::Lost {
+                call,
+                before: Some(index),
+            },
+            // What was not known before is not lost by the call.
+            Self::Unknown | Self::Lost { .. } => self,
+        }
+    }
 }
 
 /// Which thing.
@@ -82,9 +100,15 @@ impl State {
 
     /// What is the same in both.
     pub(crate) fn merged(self, other: Self) -> Self {
-        let same = |index: usize| match self.0[index] == other.0[index] {
-            true => self.0[index],
-            false => Slot::Unknown,
+        let same = |index: usize| match (self.0[index], other.0[index]) {
+            (one, other) if one == other => one,
+            // On one way the call alone makes the difference.
+            (lost @ Slot::Lost { before, .. }, kept) | (kept, lost @ Slot::Lost { before, .. })
+                if kept == before.map_or(Slot::Entry, Slot::Is) =>
+            {
+                lost
+            }
+            _ => Slot::Unknown,
         };
         Self(std::array::from_fn(same))
     }
@@ -98,10 +122,16 @@ impl State {
         Self(std::array::from_fn(kept))
     }
 
+    /// Behind a call of what is in none of the files, an entry of [`Settings::calls`].
+    pub(crate) fn behind_outside(self, call: usize) -> Self {
+        Self(self.0.map(|slot| slot.lost(call)))
+    }
+
     /// As it is where it is called from.
     pub(crate) fn in_call(self, at: Self) -> Self {
         let resolved = |index: usize| match self.0[index] {
             Slot::Entry => at.0[index],
+            Slot::Lost { call, before: None } => at.0[index].lost(call),
             slot => slot,
         };
         Self(std::array::from_fn(resolved))
@@ -145,9 +175,18 @@ impl<T: Debug> Pool<T> {
     pub(crate) fn get(&self, slot: Slot) -> Option<&T> {
         match slot {
             Slot::Is(index) => self.values.get(index),
-            Slot::Entry | Slot::Unknown => None,
+            Slot::Entry | Slot::Unknown | Slot::Lost { .. } => None,
         }
     }
+}
+
+/// A call of what is in none of the files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct OutsideCall {
+    pub file: usize,
+    pub line: usize,
+    /// As it is shown.
+    pub name: String,
 }
 
 /// What slots stand for.
@@ -157,4 +196,6 @@ pub(crate) struct Settings {
     pub speeds: Pool<Speed>,
     pub numbers: Pool<f64>,
     pub points: Pool<PointData>,
+    /// Calls of what is in none of the files.
+    pub calls: Vec<OutsideCall>,
 }

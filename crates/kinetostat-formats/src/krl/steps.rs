@@ -18,7 +18,11 @@ pub(crate) fn step_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Result<Vec
         position_of(file, tokens).map_err(|reason| (format!("its step: {reason}"), remedy))?;
     let values = position.values().map(Option::unwrap_or_default);
     let turns = values[3..].iter().any(|angle| *angle != 0.0);
-    let moves_others = position.external.iter().flatten().any(|step| *step != 0.0)
+    let moves_others = position
+        .external
+        .iter()
+        .flatten()
+        .any(|step| step.value != 0.0)
         || position.axes.iter().any(Option::is_some);
     match turns || moves_others {
         true => Err((
@@ -40,5 +44,6 @@ pub(crate) fn by_step() -> End {
         }),
         site: TargetSite::Fixed("it goes on from where the tool is"),
         open: None,
+        external: Vec::new(),
     }
 }

@@ -23,6 +23,7 @@ pub(crate) struct End {
     pub site: TargetSite,
     /// What it states of X, Y, Z, A, B, C where that is not all: the rest is that of before.
     pub open: Option<[Option<f64>; 6]>,
+    pub external: Vec<Option<f64>>,
 }
 
 /// The targets of a program.
@@ -53,7 +54,7 @@ fn pose_of(position: &Position) -> (PoseTarget, Option<[Option<f64>; 6]>) {
         position_mm: frame.translation.vector,
         orientation: frame.rotation,
         configuration: position.configuration.clone(),
-        external: position.external.clone(),
+        external: position.external_values(),
     };
     (pose, (!whole).then_some(values))
 }
@@ -96,9 +97,10 @@ impl Targets {
             let position =
                 position_of(file, tokens).map_err(|reason| (reason.to_owned(), WRITE_IT))?;
             if let Some(values_deg) = joints_of(&position)? {
-                return Ok(joints(values_deg));
+                return Ok(joints(values_deg, &position));
             }
             let (pose, open) = pose_of(&position);
+            let external = position.external_values();
             let site = match position.text(file.index) {
                 // Angles that are left out are those of before: known, though no number of them stands here.
                 Some(text) => TargetSite::Literal(PoseText {
@@ -111,6 +113,7 @@ impl Targets {
                 target: Target::Pose(pose),
                 site,
                 open,
+                external,
             });
         }
         let (datum, stated) = values.datum(routine, tokens)?;
@@ -118,12 +121,13 @@ impl Targets {
         let position = position_of(home, &stated.value)
             .map_err(|reason| (format!("`{}`: {reason}", file.text(tokens)), WRITE_IT))?;
         if let Some(values_deg) = joints_of(&position)? {
-            return Ok(joints(values_deg));
+            return Ok(joints(values_deg, &position));
         }
         let (pose, open) = pose_of(&position);
         let Some(text) = position.text(datum.file) else {
             return Ok(End {
                 target: Target::Pose(pose),
+                external: position.external_values(),
                 site: partial(position, datum.file, file.span(tokens)),
                 open,
             });
@@ -157,6 +161,7 @@ impl Targets {
             target: Target::Pose(pose),
             site,
             open,
+            external: position.external_values(),
         })
     }
 
@@ -190,6 +195,17 @@ impl Targets {
         }
         let added = position_of(file, &(colon + 1..tokens.end))
             .map_err(|reason| (reason.to_owned(), WRITE_IT))?;
+        if added
+            .external
+            .iter()
+            .flatten()
+            .any(|axis| axis.value != 0.0)
+        {
+            return Err((
+                "what is added moves an external axis".to_owned(),
+                "write the motion with a target of its own",
+            ));
+        }
         let by = isometry(added.values().map(Option::unwrap_or_default))
             .unwrap_or_else(Isometry3::identity);
         let end = Isometry3::from_parts(
@@ -225,15 +241,17 @@ impl Targets {
             target: Target::Pose(pose),
             site,
             open: None,
+            external: base.external,
         })
     }
 }
 
-fn joints(values_deg: Vec<f64>) -> End {
+fn joints(values_deg: Vec<f64>, position: &Position) -> End {
     End {
         target: Target::Joints { values_deg },
         site: TargetSite::Fixed("it states the axes"),
         open: None,
+        external: position.external_values(),
     }
 }
 

@@ -1,11 +1,12 @@
 //! FANUC TP programs as text (LS): programs read together, and what the writer must know of them.
 //!
 //! From lines ([`lines`], [`words`]) to steps ([`step`], [`motion`]) and positions ([`positions`]), and to the order and
-//! the frames in which they run ([`program`], [`flow`], [`order`], [`ends`]). What each statement is taken for stands in [`table`].
+//! the frames in which they run ([`program`], [`flow`], [`order`], [`ends`], [`configuration`]). What each statement is taken for stands in [`table`].
 //!
 //! Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure", and the ASCII
 //! listings of 22 public programs (docs/robot-programs.csv).
 
+pub(crate) mod configuration;
 pub(crate) mod ends;
 pub(crate) mod flow;
 pub(crate) mod lines;

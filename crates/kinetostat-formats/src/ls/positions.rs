@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use crate::ls::configuration::is_configuration;
 use crate::ls::lines::{Fault, number_of};
 use crate::ls::words::index_of;
 use crate::model::orientation::OrientationText;
@@ -111,8 +112,15 @@ struct Parts {
     configuration: Option<String>,
     numbers: BTreeMap<&'static str, NumberText>,
     joints: Vec<f64>,
-    external: Vec<Option<f64>>,
+    external: Vec<External>,
     wrong: Option<&'static str>,
+}
+
+/// An external axis, or an axis of a further group.
+struct External {
+    value: f64,
+    /// Where it can become another.
+    number: Option<NumberText>,
 }
 
 const LETTERS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
@@ -158,6 +166,11 @@ impl Parts {
             };
             let text = String::from_utf8_lossy(&bytes[inside..close]).into_owned();
             if self.group <= 1 {
+                if !is_configuration(&text) {
+                    self.wrong = Some(
+                        "its CONFIG is not of letters and three turns, as 'N U T, 0, 0, 0': F or N, L or R, U or D, T or B",
+                    );
+                }
                 self.configuration = Some(text);
             }
             return close + 1;
@@ -214,8 +227,15 @@ impl Parts {
                 self.numbers.insert(letter, number);
             }
             (None, Some(b'J')) if numbered && self.group <= 1 => self.joints.push(number.value),
-            (Some(_), _) => self.external.push(Some(number.value)),
-            (None, Some(b'J' | b'E')) if numbered => self.external.push(Some(number.value)),
+            // A pose of a further group does not go evenly from number to number.
+            (Some(_), _) => self.external.push(External {
+                value: number.value,
+                number: None,
+            }),
+            (None, Some(b'J' | b'E')) if numbered => self.external.push(External {
+                value: number.value,
+                number: Some(number),
+            }),
             _ => self.wrong = Some("it holds axes that are not known"),
         }
     }
@@ -232,9 +252,15 @@ impl Parts {
             .iter()
             .filter_map(|letter| self.numbers.get(letter))
             .collect();
+        let external: Vec<Option<f64>> = (self.external.iter())
+            .map(|axis| Some(axis.value))
+            .collect();
         let held = match (self.wrong, numbers.as_slice()) {
             (Some(reason), _) => Held::Nothing(reason),
             (None, []) if !self.joints.is_empty() => Held::Joints(self.joints.clone()),
+            (None, &[_, _, _, _, _, _]) if self.configuration.is_none() => Held::Nothing(
+                "it has no CONFIG: with which posture the arm gets there is not stated",
+            ),
             (None, &[x, y, z, w, p, r]) => {
                 let angles = [w, p, r].map(|number| number.value);
                 match OrientationText::Wpr.rotation_of(&angles) {
@@ -251,6 +277,9 @@ impl Parts {
                                 position: [x.clone(), y.clone(), z.clone()],
                                 orientation: [w, p, r].map(NumberText::clone).to_vec(),
                                 convention: OrientationText::Wpr,
+                                external: (self.external.iter())
+                                    .map(|axis| axis.number.clone())
+                                    .collect(),
                                 width: Width::Kept,
                             },
                             pose: PoseTarget {
@@ -260,7 +289,7 @@ impl Parts {
                                     numbers: turns.collect(),
                                     text,
                                 },
-                                external: self.external.clone(),
+                                external: external.clone(),
                             },
                             keeps_value: false,
                             copy: DeclarationCopy::Statement,
@@ -279,7 +308,7 @@ impl Parts {
             held,
             frame: self.frame,
             tool: self.tool,
-            external: self.external,
+            external,
         }
     }
 }

@@ -12,11 +12,11 @@ use crate::ls::positions::{Held, Positions};
 use crate::ls::program::{Place, Program};
 use crate::ls::step::{Step, positions_read, step_of};
 use crate::model::external::moving_axis;
-use crate::model::frame::{Frame, FrameUse};
+use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::motion::{Motion, MotionKind, Runs};
+use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::{Declaration, MotionSite};
-use crate::model::target::Target;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -54,12 +54,16 @@ pub fn read_ls(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_ls(files, options).without_faults()
+}
+
+/// Reads all that can be read of FANUC TP programs.
+pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut reader = Reader {
         options,
         faults: Vec::new(),
         findings: Vec::new(),
         motions: Vec::new(),
-        external: Vec::new(),
         declarations: Vec::new(),
         ends: Ends::of(options),
     };
@@ -95,7 +99,7 @@ pub fn read_ls(
         let found = reader.motion(motion, &site);
         let before = site.before;
         reader.declarations = declarations;
-        let Some((mut motion, external)) = found else {
+        let Some(mut motion) = found else {
             continue;
         };
         motion.runs = programs[*program].runs[*at].max(order.runs[*program]);
@@ -109,7 +113,6 @@ pub fn read_ls(
         };
         indices.insert((*program, *at), reader.motions.len());
         reader.motions.push(motion);
-        reader.external.push(external);
     }
     reader.finish(files)
 }
@@ -119,8 +122,6 @@ struct Reader<'o> {
     faults: Vec<ProgramError>,
     findings: Vec<Finding>,
     motions: Vec<Motion>,
-    /// By motion.
-    external: Vec<Vec<Option<f64>>>,
     declarations: Vec<Declaration>,
     ends: Ends<'o>,
 }
@@ -270,11 +271,7 @@ impl Reader<'_> {
         }
     }
 
-    fn motion(
-        &mut self,
-        text: &MotionText,
-        place: &MotionPlace<'_>,
-    ) -> Option<(Motion, Vec<Option<f64>>)> {
+    fn motion(&mut self, text: &MotionText, place: &MotionPlace<'_>) -> Option<Motion> {
         let file = place.file;
         let end = self.ends.end(&text.target, place, text.displaced);
         let via = text.via.as_ref().map(|(span, end)| {
@@ -300,7 +297,7 @@ impl Reader<'_> {
             self.fault(file, place.line.whole.clone(), reason, remedy);
             return None;
         }
-        let motion = Motion {
+        Some(Motion {
             file: place.index,
             line: file.line_of(place.line.whole.start),
             span: place.line.whole.clone(),
@@ -325,63 +322,33 @@ impl Reader<'_> {
                 via: via.map(|(span, via)| (span, via.site)),
                 speed: text.speed_site.clone(),
                 zone: text.zone_span.clone(),
+                external: end.external,
+                external_moved_behind: false,
                 indivisible: text.indivisible,
             },
-        };
-        Some((motion, end.external))
-    }
-
-    fn finish(mut self, files: Vec<SourceFile>) -> Result<RobotProgram, Vec<ProgramError>> {
-        if self.options.external_axes == ExternalAxes::Refused
-            && let Some(fault) = self.moving_axis(&files)
-        {
-            self.faults.push(fault);
-        }
-        if !self.faults.is_empty() {
-            let place = |fault: &ProgramError| {
-                let file = files.iter().position(|file| file.name() == fault.file);
-                (file, fault.span.start, fault.line)
-            };
-            self.faults.sort_by_key(place);
-            return Err(self.faults);
-        }
-        let mut named = BTreeSet::new();
-        for motion in &self.motions {
-            let at = |message: String| Finding {
-                file: motion.file,
-                line: motion.line,
-                message,
-            };
-            if let Target::Unknown { reason } = &motion.target {
-                let message = format!("it stays as it is written: {reason}");
-                self.findings.push(at(message));
-            }
-            for FrameUse { name, frame } in [&motion.tool, &motion.work_object] {
-                if let Frame::Unknown { reason } = frame
-                    && named.insert(name)
-                {
-                    let message = format!("where `{name}` is, is not known: {reason}");
-                    self.findings.push(at(message));
-                }
-            }
-        }
-        drop(named);
-        self.findings
-            .sort_by_key(|finding| (finding.file, finding.line));
-        Ok(RobotProgram {
-            language: Language::FanucLs,
-            files,
-            motions: self.motions,
-            findings: self.findings,
-            declarations: self.declarations,
-            even_axes: std::collections::BTreeSet::new(),
         })
     }
 
-    /// The first motion at which an external axis or a further group is elsewhere than before.
-    fn moving_axis(&self, files: &[SourceFile]) -> Option<ProgramError> {
-        let motions = self.motions.iter().zip(&self.external);
-        let motions = motions.map(|(motion, external)| (motion, external.as_slice()));
-        moving_axis(files, motions, |axis| format!("or group axis {}", axis + 1))
+    fn finish(mut self, files: Vec<SourceFile>) -> Parsed {
+        if self.options.external_axes == ExternalAxes::Refused {
+            let moving = moving_axis(&files, &self.motions, Language::FanucLs);
+            self.faults.extend(moving);
+        }
+        sort_faults(&mut self.faults, &files);
+        self.findings.extend(unknown_frames(&self.motions));
+        self.findings.extend(left_as_written(&self.motions));
+        self.findings
+            .sort_by_key(|finding| (finding.file, finding.line));
+        Parsed {
+            program: RobotProgram {
+                language: Language::FanucLs,
+                files,
+                motions: self.motions,
+                findings: self.findings,
+                declarations: self.declarations,
+                even_axes: std::collections::BTreeSet::new(),
+            },
+            faults: self.faults,
+        }
     }
 }

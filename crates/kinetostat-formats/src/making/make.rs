@@ -196,9 +196,12 @@ fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(S
     let several = !template.tools.is_empty();
     match language {
         MakeLanguage::FanucLs => {
-            say(format!(
-                "user frame {base_number} and the tool frame are those of the controller: set them there to where part and tip are"
-            ));
+            say(match base_number {
+                0 => "user frame 0 is the world frame of the robot, which cannot be set: the places are in its axes; the tool frame is that of the controller: set it there to where the tip is".to_owned(),
+                number => format!(
+                    "user frame {number} and the tool frame are those of the controller: set them there to where part and tip are"
+                ),
+            });
         }
         _ => {
             if template.base.pose.is_none() {

@@ -1,9 +1,12 @@
 //! A program of one robot written for another.
 
+use std::collections::BTreeMap;
+
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make};
 use crate::making::robot_events::events_of_robot;
+use crate::making::stated::{has_own_zero, is_identity};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs, Zone};
@@ -48,24 +51,9 @@ pub fn make_of_robot(
         template.base = stated(frame, None, language);
     }
     if template.tools.is_empty() && template.tool == StatedTool::default() {
-        let tool = |index: usize, frame: &FrameUse| {
-            let number = tool_number(&robot.tools, index);
-            let tool = StatedTool {
-                frame: stated(frame, Some(number), language),
-                ..StatedTool::default()
-            };
-            (number, tool)
-        };
-        let tools: Vec<_> = (robot.tools.iter().enumerate())
-            .map(|(index, frame)| tool(index, frame))
-            .collect();
-        match tools.as_slice() {
-            [(_, only)] => {
-                let number = number_in(&robot.tools[0].name);
-                template.tool = only.clone();
-                template.tool.frame.number = number;
-            }
-            _ => template.tools = tools.into_iter().collect(),
+        match robot.tools.as_slice() {
+            [only] => template.tool.frame = stated(only, None, language),
+            all => template.tools = tools(all, language),
         }
     }
     let mut made = make(&robot.path, &events_of_robot(program), &template, language)?;
@@ -146,6 +134,27 @@ fn not_once(program: &RobotProgram) -> Vec<MakeError> {
         .collect()
 }
 
+/// Several tools by their numbers in the source.
+fn tools(all: &[FrameUse], language: MakeLanguage) -> BTreeMap<u32, StatedTool> {
+    let numbers: Vec<u32> = (0..all.len())
+        .map(|index| tool_number(all, index))
+        .collect();
+    let free = numbers
+        .iter()
+        .max()
+        .map_or(1, |number| number.saturating_add(1));
+    let tool = |(frame, number): (&FrameUse, u32)| {
+        let mut tool = StatedTool {
+            frame: stated(frame, Some(number), language),
+            ..StatedTool::default()
+        };
+        // Another tool than the flange cannot have its number.
+        tool.frame.number = tool.frame.number.or((number == 0).then_some(free));
+        (number, tool)
+    };
+    all.iter().zip(numbers).map(tool).collect()
+}
+
 /// A frame of the source by its pose, its number, and its name where the language has names.
 fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLanguage) -> StatedFrame {
     let own = frame.name.as_str();
@@ -154,9 +163,14 @@ fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLanguage) -> Stat
         && own.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     // The names of what a controller holds by itself are declared by none.
     let is_system = own.eq_ignore_ascii_case("tool0") || own.eq_ignore_ascii_case("wobj0");
+    // What the controller has under 0 nobody sets, and it needs no other number: $NULLFRAME, wobj0.
+    let is_zero = has_own_zero(language) && frame.known().is_some_and(is_identity);
     let is_named = language == MakeLanguage::Rapid && is_name && !is_system;
     StatedFrame {
-        number: number.or(number_in(own)).filter(|number| *number <= 255),
+        number: number
+            .or(number_in(own))
+            .filter(|number| *number <= 255 && (*number > 0 || !has_own_zero(language) || is_zero))
+            .or(is_zero.then_some(0)),
         name: is_named.then(|| own.to_owned()),
         pose: frame.known().copied(),
     }

@@ -9,6 +9,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, fixed, short};
 use crate::making::parts::parts;
+use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::template::{StatedTool, Template};
 use crate::model::orientation::OrientationText;
@@ -119,7 +120,9 @@ impl<'t> Writer<'t> {
                 .collect();
         }
         for (number, tool) in tools {
-            let Some(pose) = &tool.frame.pose else {
+            // Nobody declares tool0 and wobj0.
+            let Some(pose) = (tool.frame.pose.as_ref()).filter(|_| !is_number_zero(&tool.frame))
+            else {
                 continue;
             };
             let mass = short(tool.mass_kg.unwrap_or(1.0), 6);
@@ -134,7 +137,8 @@ impl<'t> Writer<'t> {
                 self.pose(pose)
             );
         }
-        if let Some(pose) = &self.template.base.pose {
+        let base = &self.template.base;
+        if let Some(pose) = base.pose.as_ref().filter(|_| !is_number_zero(base)) {
             text += &format!(
                 "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];\n",
                 self.base_name(),

@@ -1,5 +1,8 @@
 //! Whether a template can be written: numbers in their ranges, an orientation where one is needed.
 
+use nalgebra::Isometry3;
+
+use crate::ls::configuration::is_configuration;
 use crate::making::fault::MakeError;
 use crate::making::limits::MakeLanguage;
 use crate::making::names::is_identifier;
@@ -10,6 +13,10 @@ const FARTHEST_BASE_MM: f64 = 1e6;
 
 /// Beyond this from the flange no tip of a tool is, mm.
 const LONGEST_TOOL_MM: f64 = 1e4;
+
+/// Frames nearer than this are one.
+const SAME_MM: f64 = 1e-6;
+const SAME_RAD: f64 = 1e-9;
 
 /// Everything that is wrong with a template.
 pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeError> {
@@ -124,6 +131,19 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
             "check the number and its unit, mm",
         ));
     }
+    let is_elsewhere = frame.pose.as_ref().is_some_and(|pose| !is_identity(pose));
+    if has_own_zero(language) && is_number_zero(frame) && is_elsewhere {
+        faults.push(MakeError::of(
+            format!(
+                "the {what} has the number 0, which is {} on the controller and cannot be set, and its pose is another",
+                match what {
+                    "tool" => "the flange",
+                    _ => "the world frame",
+                }
+            ),
+            "state another number, or leave the pose out",
+        ));
+    }
     let most = match (language, what) {
         (MakeLanguage::FanucLs, "tool") => 29,
         (MakeLanguage::FanucLs, _) => 61,
@@ -138,13 +158,28 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
     faults
 }
 
+/// Whether a frame of number 0 is one that the controller has and nobody sets: wobj0 and tool0, UF 0 and UT 0. KRL writes poses.
+pub(crate) fn has_own_zero(language: MakeLanguage) -> bool {
+    matches!(language, MakeLanguage::Rapid | MakeLanguage::FanucLs)
+}
+
+/// Whether a frame has the number 0, and no name beside it.
+pub(crate) fn is_number_zero(frame: &StatedFrame) -> bool {
+    frame.number == Some(0) && frame.name.is_none()
+}
+
+/// Whether a pose is that of the world, or of the flange.
+pub(crate) fn is_identity(pose: &Isometry3<f64>) -> bool {
+    pose.translation.vector.norm() < SAME_MM && pose.rotation.angle() < SAME_RAD
+}
+
 /// A configuration stands in the program as it is stated.
 fn of_configuration(template: &Template, language: MakeLanguage) -> Option<MakeError> {
     let text = template.configuration.as_ref()?;
     let (form, right) = match language {
         MakeLanguage::Krl => ("S 2, T 35", is_status_and_turn(text)),
         MakeLanguage::Rapid => ("[0,-1,0,0]", is_four_numbers(text)),
-        MakeLanguage::FanucLs => ("N U T, 0, 0, 0", is_fanuc(text)),
+        MakeLanguage::FanucLs => ("N U T, 0, 0, 0", is_configuration(text)),
         _ => return None,
     };
     (!right).then(|| {
@@ -181,14 +216,4 @@ fn is_four_numbers(text: &str) -> bool {
     numbers.is_some_and(|numbers: Vec<Option<i32>>| {
         numbers.len() == 4 && numbers.iter().all(Option::is_some)
     })
-}
-
-fn is_fanuc(text: &str) -> bool {
-    let mut parts = text.split(',').map(str::trim);
-    let letters = parts.next().unwrap_or_default();
-    let turns: Vec<&str> = parts.collect();
-    let letters_right = letters
-        .split(' ')
-        .all(|letter| matches!(letter, "N" | "F" | "U" | "D" | "T" | "B"));
-    letters_right && turns.len() == 3 && turns.iter().all(|turn| turn.parse::<i8>().is_ok())
 }

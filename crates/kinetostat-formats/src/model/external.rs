@@ -1,47 +1,89 @@
 //! External axes from one motion to the next.
-
-use std::collections::BTreeSet;
+//!
+//! A motion takes its external axes along evenly: at a share of the way they have gone that share of theirs.
 
 use crate::error::ProgramError;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::target::Target;
 use crate::text::source::SourceFile;
 
-/// The motions with which external axes move, as far as the text says it, by their indices. RAPID and TP programs state all axes
-/// that there are, so that one which is stated for the first time may come from anywhere.
-pub(crate) fn moving_external_axes(program: &RobotProgram) -> BTreeSet<usize> {
-    let states_all = matches!(program.language, Language::Rapid | Language::FanucLs);
-    let mut known: Vec<Option<f64>> = Vec::new();
-    let mut moving = BTreeSet::new();
-    for (index, motion) in program.motions.iter().enumerate() {
-        let Some(pose) = motion.target.pose() else {
-            known.clear();
-            continue;
-        };
-        known.resize(known.len().max(pose.external.len()), None);
-        for (known, value) in known.iter_mut().zip(&pose.external) {
-            let Some(value) = value else {
-                continue;
-            };
-            let is_elsewhere = known.map_or(states_all && index > 0, |before| before != *value);
-            if is_elsewhere {
-                moving.insert(index);
-            }
-            *known = Some(*value);
-        }
-    }
-    moving
+/// An external axis that is elsewhere at the end of a motion than at its start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct AxisWay {
+    /// Counted from 0.
+    pub axis: usize,
+    /// None where the text does not say it.
+    pub start: Option<f64>,
+    pub end: f64,
 }
 
-/// The first motion at which an external axis is elsewhere than at the motions before it; `name` is that of an axis, counted
-/// from 0, in words.
-pub(crate) fn moving_axis<'m>(
+impl AxisWay {
+    /// Where the axis is at a share of the way.
+    pub(crate) fn at(&self, start: f64, share: f64) -> f64 {
+        start + share * (self.end - start)
+    }
+}
+
+/// The external axes that move, or may, with each motion.
+pub(crate) fn ways_of_external_axes(program: &RobotProgram) -> Vec<Vec<AxisWay>> {
+    let mut behind: Vec<Vec<Option<f64>>> = Vec::with_capacity(program.motions.len());
+    let mut ways = Vec::with_capacity(program.motions.len());
+    for motion in &program.motions {
+        let before = (motion.follows)
+            .filter(|from| !moved_behind(program, *from))
+            .and_then(|from| behind.get(from));
+        let mut now = before.cloned().unwrap_or_default();
+        let stated = &motion.site.external;
+        // Positions of TP programs state all groups that there are: others say nothing of these.
+        if program.language == Language::FanucLs && now.len() != stated.len() {
+            now.clear();
+        }
+        now.resize(now.len().max(stated.len()), None);
+        let mut own = Vec::new();
+        for (axis, (now, end)) in now.iter_mut().zip(stated).enumerate() {
+            if let Some(end) = *end {
+                let start = now.replace(end);
+                if start != Some(end) {
+                    own.push(AxisWay { axis, start, end });
+                }
+            }
+        }
+        if matches!(motion.target, Target::Unknown { .. }) {
+            now.clear();
+        }
+        behind.push(now);
+        ways.push(own);
+    }
+    ways
+}
+
+fn moved_behind(program: &RobotProgram, motion: usize) -> bool {
+    let motion = program.motions.get(motion);
+    motion.is_none_or(|motion| motion.site.external_moved_behind)
+}
+
+/// An external axis, counted from 0, as the language names it.
+pub(crate) fn name_of_axis(language: Language, axis: usize) -> String {
+    match (language, u8::try_from(axis)) {
+        (Language::Rapid, Ok(axis @ 0..=5)) => {
+            format!("external axis eax_{}", char::from(b'a' + axis))
+        }
+        (Language::Krl, _) => format!("external axis E{}", axis + 1),
+        (Language::FanucLs, _) => format!("external axis or group axis {}", axis + 1),
+        _ => format!("external axis {}", axis + 1),
+    }
+}
+
+/// The first motion at which an external axis is elsewhere than at the motions before it.
+pub(crate) fn moving_axis(
     files: &[SourceFile],
-    motions: impl Iterator<Item = (&'m Motion, &'m [Option<f64>])>,
-    name: impl Fn(usize) -> String,
+    motions: &[Motion],
+    language: Language,
 ) -> Option<ProgramError> {
     let mut known: Vec<Option<f64>> = Vec::new();
-    for (motion, external) in motions {
+    for motion in motions {
+        let external = &motion.site.external;
         known.resize(known.len().max(external.len()), None);
         for (axis, value) in external.iter().enumerate() {
             match (known[axis], value) {
@@ -51,8 +93,8 @@ pub(crate) fn moving_axis<'m>(
                         &files[motion.file],
                         motion.span.clone(),
                         format!(
-                            "external axis {} moves from {before} to {value}: the arm stands elsewhere then",
-                            name(axis)
+                            "{} moves from {before} to {value}: the arm stands elsewhere then",
+                            name_of_axis(language, axis)
                         ),
                         "read with external axes carried if they do not move the arm or the part",
                     ));

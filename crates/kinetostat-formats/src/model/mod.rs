@@ -4,10 +4,12 @@
 //! says so, poses in the axes of the work object as written.
 
 pub(crate) mod external;
+pub(crate) mod findings;
 pub(crate) mod frame;
 pub(crate) mod joint_arm;
 pub(crate) mod motion;
 pub(crate) mod orientation;
+pub(crate) mod parsed;
 pub(crate) mod program;
 pub(crate) mod site;
 pub(crate) mod stated_arm;

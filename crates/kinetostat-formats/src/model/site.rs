@@ -23,6 +23,8 @@ pub(crate) struct PoseText {
     pub orientation: Vec<NumberText>,
     /// What they mean.
     pub convention: OrientationText,
+    /// Of the external axes where they can become others, in the order of [`MotionSite::external`].
+    pub external: Vec<Option<NumberText>>,
     /// Whether its numbers may become longer.
     pub width: Width,
 }
@@ -150,6 +152,10 @@ pub(crate) struct MotionSite {
     pub speed: Option<SpeedSite>,
     /// Where the zone stands.
     pub zone: Option<Range<usize>>,
+    /// External axes at the end as the text states them, of poses and of joint values.
+    pub external: Vec<Option<f64>>,
+    /// Other statements may move external axes before the next motion.
+    pub external_moved_behind: bool,
     /// Why it cannot become several statements.
     pub indivisible: Option<&'static str>,
 }

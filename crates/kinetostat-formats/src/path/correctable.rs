@@ -142,6 +142,7 @@ impl Correctable<'_> {
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
+                share: Some(piece.share_to),
                 centre_mm: piece
                     .arc
                     .map(|arc| (to_own * nalgebra::Point3::from(arc.centre_mm)).coords),

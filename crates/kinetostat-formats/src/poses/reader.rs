@@ -13,7 +13,7 @@ use crate::poses::joints::{base, between_rows, joint_target};
 use crate::poses::row::{Row, RowTarget, Rows};
 use crate::poses::units::{Reach, mm_of};
 use crate::poses::yaml::read_yaml;
-use crate::text::number::Width;
+use crate::text::number::{Width, values_of};
 use crate::text::source::SourceFile;
 use nalgebra::Vector3;
 
@@ -245,7 +245,10 @@ impl Reader<'_> {
         if self.options.external_axes == ExternalAxes::Carried {
             return;
         }
-        let moved = (rows.windows(2)).find(|pair| pair[0].external != pair[1].external);
+        let moved = (rows.windows(2)).find(|pair| {
+            let [before, now] = [0, 1].map(|row: usize| values_of(&pair[row].external));
+            before != now
+        });
         if let Some([_, row]) = moved {
             let reason = "an external axis moves here: the arm stands elsewhere then";
             let remedy = "if what they move is known, let them be carried (external_axes = \"carried\" under [robot] in a job file)";
@@ -276,6 +279,7 @@ impl Reader<'_> {
         follows: Option<usize>,
     ) -> Motion {
         let tool = self.frame(&row.tool);
+        let external = values_of(&row.external);
         let work_object = match row.target {
             RowTarget::Joints(_) => base(),
             RowTarget::Pose { .. } => self.frame(&row.frame),
@@ -293,7 +297,7 @@ impl Reader<'_> {
                     position_mm: place,
                     orientation: convention.rotation_of(&values).unwrap_or_default(),
                     configuration: Configuration::default(),
-                    external: row.external,
+                    external: external.clone(),
                 };
                 let text = PoseText {
                     file: index,
@@ -301,6 +305,7 @@ impl Reader<'_> {
                     position,
                     orientation,
                     convention,
+                    external: row.external,
                     width: Width::Free,
                 };
                 (Target::Pose(pose), TargetSite::Literal(text))
@@ -341,6 +346,8 @@ impl Reader<'_> {
                         after: String::new(),
                     }),
                 zone: None,
+                external,
+                external_moved_behind: false,
                 indivisible: row.indivisible,
             },
             span: row.span,

@@ -34,7 +34,7 @@ pub(crate) struct Row {
     pub speed: Option<(Range<usize>, f64, bool)>,
     pub tool: String,
     pub frame: String,
-    pub external: Vec<Option<f64>>,
+    pub external: Vec<Option<NumberText>>,
     /// Why none can be written before it.
     pub indivisible: Option<&'static str>,
 }
@@ -125,7 +125,7 @@ pub(crate) fn row_of(
                 if found.is_none() {
                     rows.fault(file, span, "it is no number", NUMBER);
                 }
-                Some(found?.value)
+                found
             }
         }
     });

@@ -104,7 +104,10 @@ impl Syntax for PosesSyntax {
 /// The numbers of a row that become others.
 fn numbers(site: &TargetSite) -> Option<Vec<&Range<usize>>> {
     let numbers: Vec<&NumberText> = match site {
-        TargetSite::Literal(text) => text.position.iter().chain(&text.orientation).collect(),
+        TargetSite::Literal(text) => (text.position.iter())
+            .chain(&text.orientation)
+            .chain(text.external.iter().flatten())
+            .collect(),
         TargetSite::Joints(text) => text.numbers.iter().map(|(number, _)| number).collect(),
         _ => return None,
     };

@@ -61,16 +61,18 @@ pub(crate) fn target_of(
     let parts = [0, 1, 2, 3].map(|part| orientation[part].value);
     let rotation = (OrientationText::Quaternion.rotation_of(&parts))
         .ok_or("its quaternion has not the length 1")?;
-    let axes = external_axes(external);
+    let axes = numbers::<6>(file, external).ok_or("its external axes are not six numbers")?;
+    let configured = (values::<4>(configuration).filter(|all| all.iter().all(is_quarter)))
+        .ok_or("its configuration is not four whole numbers")?;
     let pose = PoseTarget {
         position_mm: Vector3::from([0, 1, 2].map(|axis| position[axis].value)),
         orientation: rotation,
         configuration: Configuration {
             text: String::from_utf8_lossy(file.source.part(&file.span(&configuration.tokens)))
                 .into_owned(),
-            numbers: values::<4>(configuration).map_or_else(Vec::new, |all| all.to_vec()),
+            numbers: configured.to_vec(),
         },
-        external: axes,
+        external: external_axes(external),
     };
     let text = PoseText {
         file: file.index,
@@ -78,15 +80,28 @@ pub(crate) fn target_of(
         position,
         orientation: orientation.to_vec(),
         convention: OrientationText::Quaternion,
+        external: (axes.into_iter())
+            .map(|number| is_stated(number.value).then_some(number))
+            .collect(),
         width: Width::Free,
     };
     Ok((text, pose))
 }
 
+/// Whether a number counts quarters of a turn, or is a sum of flags.
+fn is_quarter(value: &f64) -> bool {
+    value.fract() == 0.0 && value.abs() < 1e10
+}
+
+/// Whether a number is the place of an external axis, and not 9E9.
+fn is_stated(value: f64) -> bool {
+    value < UNSTATED
+}
+
 /// Stated external axes; empty where they are no literal.
 fn external_axes(expression: &Expression) -> Vec<Option<f64>> {
     let axes = values::<6>(expression).map_or_else(Vec::new, |all| all.to_vec());
-    let stated = |value: f64| (value < UNSTATED).then_some(value);
+    let stated = |value: f64| is_stated(value).then_some(value);
     axes.into_iter().map(stated).collect()
 }
 

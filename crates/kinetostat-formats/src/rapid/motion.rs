@@ -27,19 +27,13 @@ pub(crate) struct Instruction<'r> {
     pub tokens: &'r Range<usize>,
 }
 
-/// A motion and the external axes at its end.
-pub(crate) struct Followed {
-    pub motion: Motion,
-    pub external: Vec<Option<f64>>,
-}
-
 /// What an instruction does, or why it is refused.
 pub(crate) fn follow(
     instruction: &Instruction<'_>,
     values: &mut Values<'_>,
     targets: &mut Targets,
     unknown: UnknownTargets,
-) -> Result<Followed, Reason> {
+) -> Result<Motion, Reason> {
     let Instruction {
         row,
         routine,
@@ -107,7 +101,7 @@ pub(crate) fn follow(
         }
         Some(_) => None,
     };
-    let motion = Motion {
+    Ok(Motion {
         file: file.index,
         line: file.source.line_of(span.start),
         kind,
@@ -125,11 +119,12 @@ pub(crate) fn follow(
             via,
             speed: speed_site,
             zone: Some(file.span(&arguments.ordered[tool_at - 1].tokens)),
+            external,
+            external_moved_behind: false,
             indivisible,
         },
         span,
-    };
-    Ok(Followed { motion, external })
+    })
 }
 
 /// The bytes of an expression.

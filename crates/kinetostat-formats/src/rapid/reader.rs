@@ -1,17 +1,13 @@
 //! The reader of RAPID modules.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
-use crate::model::frame::{Frame, FrameUse};
-use crate::model::motion::{Motion, MotionKind};
-use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::target::Target;
+use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::parsed::{Parsed, sort_faults};
+use crate::model::program::{Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
-use crate::rapid::motion::Followed;
 use crate::rapid::parser::modules::modules_of;
 use crate::rapid::symbols::Symbols;
 use crate::rapid::targets::Targets;
@@ -54,6 +50,11 @@ pub fn read_rapid(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_rapid(files, options).without_faults()
+}
+
+/// Reads all that can be read of RAPID modules.
+pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut faults = Vec::new();
     for file in files.iter().filter(|file| file.bytes().len() > MOST_BYTES) {
         faults.push(ProgramError::at(
@@ -64,7 +65,7 @@ pub fn read_rapid(
         ));
     }
     if !faults.is_empty() {
-        return Err(faults);
+        return Parsed::refused(Language::Rapid, faults);
     }
     let token_files: Vec<TokenFile<'_>> = (files.iter().enumerate())
         .map(|(index, source)| TokenFile {
@@ -92,72 +93,27 @@ pub fn read_rapid(
     let mut targets = Targets::default();
     let walked = walk(&mut values, &mut targets, options, &mut faults);
     if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(
-            &files,
-            walked.motions.iter().map(external),
-            |axis| format!("eax_{}", char::from(b'a' + axis as u8)),
-        ));
+        faults.extend(moving_axis(&files, &walked.motions, Language::Rapid));
     }
-    let order: Vec<&str> = files.iter().map(SourceFile::name).collect();
-    if !faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = order.iter().position(|name| *name == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        return Err(faults);
-    }
-    let motions: Vec<_> = walked
-        .motions
-        .into_iter()
-        .map(|followed| followed.motion)
-        .collect();
-    let mut findings = [targets.findings, walked.findings].concat();
-    let mut named = BTreeSet::new();
-    for motion in &motions {
-        let (file, line) = (motion.file, motion.line);
-        let via = match &motion.kind {
-            MotionKind::Circular { via } => Some(via),
-            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
-        };
-        for target in via.into_iter().chain([&motion.target]) {
-            if let Target::Unknown { reason } = target {
-                let message = format!("it stays as it is written: {reason}");
-                findings.push(Finding {
-                    file,
-                    line,
-                    message,
-                });
-            }
-        }
-        let frames = [&motion.tool, &motion.work_object];
-        for FrameUse { name, frame } in frames {
-            if let Frame::Unknown { reason } = frame
-                && named.insert(name)
-            {
-                let message = format!("where `{name}` is, is not known: {reason}");
-                findings.push(Finding {
-                    file,
-                    line,
-                    message,
-                });
-            }
-        }
-    }
-    drop(named);
+    sort_faults(&mut faults, &files);
+    let motions = walked.motions;
+    let mut findings = [
+        targets.findings,
+        walked.findings,
+        unknown_frames(&motions),
+        left_as_written(&motions),
+    ]
+    .concat();
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
-        language: Language::Rapid,
-        files,
-        motions,
-        findings,
-        declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
-    })
-}
-
-/// A motion with its external axes.
-fn external(followed: &Followed) -> (&Motion, &[Option<f64>]) {
-    let all = followed.external.as_slice();
-    (&followed.motion, &all[..all.len().min(6)])
+    Parsed {
+        program: RobotProgram {
+            language: Language::Rapid,
+            files,
+            motions,
+            findings,
+            declarations: targets.declarations,
+            even_axes: std::collections::BTreeSet::new(),
+        },
+        faults,
+    }
 }

@@ -37,7 +37,7 @@ pub(crate) struct Targets {
 
 const WRITE_IT: &str =
     "write the motion with a literal or declared target, or leave it as written when reading";
-const IN_NUMBERS: &str = "write the target in numbers: [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[six external axes]], with q1 to q4 of length 1 in all";
+const IN_NUMBERS: &str = "write the target in numbers: [[x,y,z],[q1,q2,q3,q4],[cf1,cf4,cf6,cfx],[six external axes]], with q1 to q4 of length 1 in all, cf1 to cfx whole, and 9E9 for axes that are not there";
 const IS_COMPUTED: &str = "where it goes is computed while the program runs";
 
 impl Targets {

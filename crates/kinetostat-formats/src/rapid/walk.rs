@@ -6,12 +6,12 @@
 use std::collections::BTreeSet;
 
 use crate::error::{ProgramError, note};
-use crate::model::motion::Runs;
+use crate::model::motion::{Motion, Runs};
 use crate::model::program::Finding;
 use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
-use crate::rapid::motion::{Followed, Instruction, follow};
+use crate::rapid::motion::{Instruction, follow};
 use crate::rapid::table::{EXTERNAL, motion_row, row};
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
@@ -35,9 +35,9 @@ const EFFECTS: [(&str, &str); 4] = [
     ),
 ];
 
-/// What the walk gives: motions in their order, with the external axes at their ends.
+/// What the walk gives: motions in their order.
 pub(crate) struct Walked {
-    pub motions: Vec<Followed>,
+    pub motions: Vec<Motion>,
     pub findings: Vec<Finding>,
 }
 
@@ -64,6 +64,7 @@ pub(crate) fn walk(
         faults,
         motions: Vec::new(),
         places: Vec::new(),
+        moves_external_at_entry: false,
         findings: Vec::new(),
         unknown_calls: BTreeSet::new(),
         moving_functions,
@@ -101,9 +102,11 @@ struct Walker<'w, 'p> {
     unknown: UnknownTargets,
     external: ExternalAxes,
     faults: &'w mut Vec<ProgramError>,
-    motions: Vec<Followed>,
+    motions: Vec<Motion>,
     /// Routine and place at the beginning of each motion.
     places: Vec<(usize, Place)>,
+    /// External axes move alone at the beginning of a routine: behind which motions, its calls say.
+    moves_external_at_entry: bool,
     findings: Vec<Finding>,
     /// Files and names of what they call and none declares: each is said once.
     unknown_calls: BTreeSet<(usize, Option<Name>)>,
@@ -269,13 +272,13 @@ impl<'p> Walker<'_, 'p> {
             };
             let followed = follow(&instruction, self.values, self.targets, self.unknown);
             return match followed {
-                Ok(mut followed) => {
-                    if choice == Choice::Compact && followed.motion.site.indivisible.is_none() {
-                        followed.motion.site.indivisible =
+                Ok(mut motion) => {
+                    if choice == Choice::Compact && motion.site.indivisible.is_none() {
+                        motion.site.indivisible =
                             Some("it stands behind IF without THEN, where one statement can stand");
                     }
-                    followed.motion.runs = self.now.runs;
-                    self.motions.push(followed);
+                    motion.runs = self.now.runs;
+                    self.motions.push(motion);
                     self.places.push((routine, place));
                     Place::Motion(self.motions.len() - 1)
                 }
@@ -296,7 +299,14 @@ impl<'p> Walker<'_, 'p> {
         let place = self.functions(tokens.start + 1..tokens.end, place);
         match name.as_ref().and_then(row).map(|row| row.treatment) {
             // The arm stands still, and the user says that nothing else matters.
-            Some(EXTERNAL) if self.external == ExternalAxes::Carried => place,
+            Some(EXTERNAL) if self.external == ExternalAxes::Carried => {
+                match place {
+                    Place::Motion(index) => self.motions[index].site.external_moved_behind = true,
+                    Place::Entry => self.moves_external_at_entry = true,
+                    Place::Unknown => {}
+                }
+                place
+            }
             Some(Treatment::Refused { reason, remedy }) => {
                 note(self.faults, || {
                     ProgramError::at(file.source, span, reason, remedy)
@@ -370,16 +380,17 @@ impl<'p> Walker<'_, 'p> {
     /// Fills in what depends on the calls of each routine.
     fn resolve(mut self, main: Option<usize>) -> Walked {
         let (runs, entry) = of_calls(&self.summaries, &self.finished, main);
-        for (followed, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
+        for (motion, (routine, place)) in self.motions.iter_mut().zip(&self.places) {
             let place = match place {
                 Place::Entry => entry[*routine],
                 place => *place,
             };
-            followed.motion.follows = match place {
+            motion.follows = match place {
                 Place::Motion(index) => Some(index),
                 Place::Entry | Place::Unknown => None,
             };
-            followed.motion.runs = runs[*routine].max(followed.motion.runs);
+            motion.runs = runs[*routine].max(motion.runs);
+            motion.site.external_moved_behind |= self.moves_external_at_entry;
         }
         Walked {
             motions: self.motions,

@@ -143,6 +143,8 @@ impl Reader<'_> {
                     after: String::new(),
                 }),
                 zone: None,
+                external: Vec::new(),
+                external_moved_behind: false,
                 indivisible: None,
             },
             speed,
@@ -210,6 +212,7 @@ impl Reader<'_> {
                 Some(_) => OrientationText::Axis,
                 None => OrientationText::Unstated,
             },
+            external: Vec::new(),
             width: Width::Free,
         }
     }

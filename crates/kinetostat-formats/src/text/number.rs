@@ -78,3 +78,9 @@ pub fn printed(
     };
     format!("{text:>wide$}").into_bytes()
 }
+
+/// The values of numbers, where there are some.
+pub(crate) fn values_of(numbers: &[Option<NumberText>]) -> Vec<Option<f64>> {
+    let numbers = numbers.iter();
+    numbers.map(|number| Some(number.as_ref()?.value)).collect()
+}

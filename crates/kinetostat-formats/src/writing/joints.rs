@@ -16,7 +16,7 @@ const DECIMALS: f64 = 6.0;
 pub(crate) fn put_joints(
     file: &SourceFile,
     text: &JointsText,
-    (wanted, own): (&Wanted, UnitQuaternion<f64>),
+    (wanted, own): (&Wanted<'_>, UnitQuaternion<f64>),
     edits: &mut Edits,
 ) -> Option<()> {
     let rotation = wanted.orientation.unwrap_or(own);
@@ -35,7 +35,7 @@ pub(crate) fn put_joints(
 pub(crate) fn row_of_joints(
     file: &SourceFile,
     text: &JointsText,
-    pose: (&Wanted, UnitQuaternion<f64>),
+    pose: (&Wanted<'_>, UnitQuaternion<f64>),
 ) -> Option<Vec<u8>> {
     let mut edits = Edits::default();
     put_joints(file, text, pose, &mut edits)?;

@@ -11,9 +11,11 @@ use crate::text::source::SourceFile;
 
 /// A pose that is wanted: its place, and its orientation where that changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Wanted {
+pub(crate) struct Wanted<'a> {
     pub position_mm: Vector3<f64>,
     pub orientation: Option<UnitQuaternion<f64>>,
+    /// External axes that become others, by their order; those that are left out stay.
+    pub external: &'a [Option<f64>],
 }
 
 /// Puts a value in place of a number of the text.
@@ -36,7 +38,7 @@ pub(crate) fn put(
 pub(crate) fn put_pose(
     file: &SourceFile,
     literal: &PoseText,
-    wanted: &Wanted,
+    wanted: &Wanted<'_>,
     options: &WriteOptions,
     edits: &mut Edits,
 ) {
@@ -49,6 +51,12 @@ pub(crate) fn put_pose(
             literal.width,
             edits,
         );
+    }
+    for (number, value) in literal.external.iter().zip(wanted.external) {
+        if let (Some(number), Some(value)) = (number, value) {
+            let least = options.position_decimals;
+            put(file, number, *value, least, literal.width, edits);
+        }
     }
     let Some(rotation) = wanted.orientation else {
         return;
@@ -72,7 +80,7 @@ pub(crate) fn put_pose(
 pub(crate) fn literal_of(
     file: &SourceFile,
     literal: &PoseText,
-    wanted: &Wanted,
+    wanted: &Wanted<'_>,
     options: &WriteOptions,
 ) -> Option<Vec<u8>> {
     let mut edits = Edits::default();

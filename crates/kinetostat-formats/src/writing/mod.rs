@@ -6,6 +6,7 @@
 //! `Syntax`, a table of statements, a variant of `Language`, and one arm each in `document.rs`. Nothing here changes.
 
 pub(crate) mod declared;
+pub(crate) mod external_axes;
 pub(crate) mod joints;
 pub(crate) mod literal;
 pub(crate) mod motions;

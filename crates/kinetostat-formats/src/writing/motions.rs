@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::UnitQuaternion;
 
 use crate::error::WriteError;
-use crate::model::external::moving_external_axes;
+use crate::model::external::ways_of_external_axes;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
@@ -16,6 +16,7 @@ use crate::text::edits::Edits;
 use crate::text::number::Width;
 use crate::text::source::SourceFile;
 use crate::writing::declared::{Demands, Names};
+use crate::writing::external_axes::{AxesOfPiece, shared_axes};
 use crate::writing::joints::{put_joints, row_of_joints};
 use crate::writing::literal::{Wanted, literal_of, put, put_pose};
 use crate::writing::piece::Piece;
@@ -46,13 +47,13 @@ pub(crate) fn write_with(
         demands: Demands::default(),
         names: Names::default(),
     };
-    let with_others = moving_external_axes(program);
-    for (index, motion) in program.motions.iter().enumerate() {
+    let ways = ways_of_external_axes(program);
+    for ((index, motion), ways) in program.motions.iter().enumerate().zip(&ways) {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
-        let written = match pieces.len() > 1 && with_others.contains(&index) {
-            true => Err(MOVES_OTHERS),
-            false => writer.motion(motion, pieces),
-        };
+        let text = text_of(program, &motion.site.target);
+        let axes = shared_axes(program, motion, ways, (text, pieces))?;
+        let pieces: Vec<(&Piece, &AxesOfPiece)> = pieces.iter().copied().zip(&axes).collect();
+        let written = writer.motion(motion, &pieces);
         written.map_err(|(reason, remedy)| WriteError::Motion {
             file: program.files[motion.file].name().to_owned(),
             line: motion.line,
@@ -126,11 +127,6 @@ const PARTIAL: Reason = (
     "write all of them",
 );
 
-const MOVES_OTHERS: Reason = (
-    "an external axis moves with it, and would make all of its way in the first of the pieces into which it is divided",
-    "move external axes where the tool is in air, with a joint motion or one at rapid speed, or write the motion in short steps of both",
-);
-
 const NO_JOINTS: Reason = (
     "no joint values next to those of the row give the corrected pose",
     "keep away from singular postures and from the end of the reach",
@@ -152,8 +148,12 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn motion(&mut self, motion: &Motion, pieces: &[&Piece]) -> Result<(), Reason> {
-        let Some((last, before)) = pieces.split_last() else {
+    fn motion(
+        &mut self,
+        motion: &Motion,
+        with_axes: &[(&Piece, &AxesOfPiece)],
+    ) -> Result<(), Reason> {
+        let Some(((last, last_axes), before)) = with_axes.split_last() else {
             self.end(motion, &motion.site.target, None)?;
             return match &motion.site.via {
                 Some((_, site)) => self.end(motion, site, None),
@@ -161,7 +161,8 @@ impl Writer<'_> {
             };
         };
         let end = motion.target.pose().ok_or(NO_END)?;
-        check_pieces(pieces)?;
+        let pieces: Vec<&Piece> = with_axes.iter().map(|(piece, _)| *piece).collect();
+        check_pieces(&pieces)?;
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
         let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
         // Places of APT may have an axis from before: its own writer knows.
@@ -187,6 +188,7 @@ impl Writer<'_> {
             let wanted = Wanted {
                 position_mm: via,
                 orientation: last.via_orientation.filter(|_| !before.is_empty()),
+                external: &last_axes.halfway,
             };
             self.end(motion, site, Some(wanted))?;
         }
@@ -195,6 +197,7 @@ impl Writer<'_> {
             orientation: last
                 .orientation
                 .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
+            external: &last_axes.end,
         };
         self.end(motion, &motion.site.target, Some(wanted))?;
         (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
@@ -232,9 +235,9 @@ impl Writer<'_> {
             self.syntax.straighten(self.program, motion, edits);
         }
         let mut inserted = Vec::new();
-        for piece in before {
+        for (piece, axes) in before {
             let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
-            inserted.extend(self.inserted(motion, piece, speed.as_deref())?);
+            inserted.extend(self.inserted(motion, (piece, axes), speed.as_deref())?);
         }
         self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
         self.state_speed(motion, own_speed);
@@ -245,13 +248,14 @@ impl Writer<'_> {
     fn inserted(
         &mut self,
         motion: &Motion,
-        piece: &Piece,
+        (piece, axes): (&Piece, &AxesOfPiece),
         speed: Option<&[u8]>,
     ) -> Result<Vec<u8>, Reason> {
         let end = motion.target.pose().ok_or(NO_END)?;
         let wanted = Wanted {
             position_mm: piece.position_mm,
             orientation: Some(piece.orientation.unwrap_or(end.orientation)),
+            external: &axes.end,
         };
         let mut literals = PieceLiterals {
             end: self.literal(motion, &motion.site.target, &wanted)?,
@@ -265,6 +269,7 @@ impl Writer<'_> {
             let wanted = Wanted {
                 position_mm: via_mm,
                 orientation: piece.via_orientation.or(written),
+                external: &axes.halfway,
             };
             literals.via = Some((span_of(site), self.literal(motion, site, &wanted)?));
         }
@@ -284,7 +289,7 @@ impl Writer<'_> {
         &mut self,
         motion: &Motion,
         site: &TargetSite,
-        wanted: &Wanted,
+        wanted: &Wanted<'_>,
     ) -> Result<Vec<u8>, Reason> {
         if let TargetSite::Joints(text) = site {
             let end = motion.target.pose().ok_or(NO_END)?;
@@ -317,7 +322,7 @@ impl Writer<'_> {
         &mut self,
         motion: &Motion,
         site: &TargetSite,
-        wanted: Option<Wanted>,
+        wanted: Option<Wanted<'_>>,
     ) -> Result<(), Reason> {
         let program = self.program;
         let edits = &mut self.edits[motion.file];

@@ -27,6 +27,9 @@ pub struct Piece {
     pub centre_mm: Option<Vector3<f64>>,
     /// How the tool stands there; none for what the motion states there.
     pub via_orientation: Option<UnitQuaternion<f64>>,
+    /// How much of the way of its motion lies behind it at its end, from 0 to 1: external axes that move with the motion are shared
+    /// out by it, evenly. None: by the lengths of the straight lines from piece to piece.
+    pub share: Option<f64>,
     /// By what the written speed is multiplied.
     pub speed_factor: f64,
 }
@@ -42,6 +45,7 @@ impl Piece {
             via_mm: None,
             centre_mm: None,
             via_orientation: None,
+            share: None,
             speed_factor: 1.0,
         }
     }

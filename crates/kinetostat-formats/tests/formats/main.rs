@@ -8,6 +8,7 @@
     reason = "a failing test may panic"
 )]
 
+mod all_faults;
 mod apt;
 mod axes_alone;
 mod axes_on_circles;
@@ -16,6 +17,7 @@ mod circles;
 mod closed_circles;
 mod corners;
 mod correcting;
+mod external_axes;
 mod fields;
 mod harness;
 mod heidenhain;

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use kinetostat::Directions;
 use kinetostat_formats::{
-    Correctable, Language, Motion, RobotPath, RobotProgram, Target, path_of, read,
+    Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, all_faults,
+    path_of, read,
 };
 use kinetostat_program::Warning;
 
@@ -65,8 +66,11 @@ pub(crate) fn read_robot(source: &RobotSource) -> Answer<RobotRead<'_>> {
 
 fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     let settings = &source.settings;
-    let program = read(source.language, source.files.clone(), &settings.reading)
-        .map_err(|all| refused(&all, |fault| fault.reason.as_str()))?;
+    let program = read(source.language, source.files.clone(), &settings.reading).map_err(|_| {
+        // All in one run: those of the motions that could be read, too.
+        let all = all_faults(source.language, source.files.clone(), &settings.reading);
+        refused(&all, ProgramFault::reason)
+    })?;
     let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
     if let (Language::Poses, Some(motion)) = (source.language, program.motions.iter().find(joints))
     {

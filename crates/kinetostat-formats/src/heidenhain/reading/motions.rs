@@ -155,6 +155,8 @@ impl Reader<'_> {
                     after: String::new(),
                 }),
                 zone: None,
+                external: Vec::new(),
+                external_moved_behind: false,
                 indivisible: None,
             },
             speed,

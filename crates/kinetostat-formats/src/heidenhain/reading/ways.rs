@@ -153,6 +153,7 @@ impl Reader<'_> {
             }),
             orientation: Vec::new(),
             convention: OrientationText::Axis,
+            external: Vec::new(),
             width: Width::Free,
         };
         let target = Target::Pose(PoseTarget {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::excerpt;
 use crate::krl::calls::Call;
-use crate::krl::state::{State, Thing};
+use crate::krl::state::{OutsideCall, State, Thing};
 use crate::krl::table::row;
 use crate::krl::walking::walker::{DEEPEST, Walker};
 use crate::model::motion::Runs;
@@ -63,18 +63,25 @@ impl Walker<'_, '_> {
             }
             Some(_) => state,
             None => {
+                let file = self.file();
+                let call = OutsideCall {
+                    file: file.index,
+                    line: file.source.line_of(file.span(tokens).start),
+                    name: excerpt(file.word(at)),
+                };
                 if self.named.insert(name) {
-                    let file = self.file();
-                    let called = excerpt(file.word(at));
                     self.findings.push(Finding {
-                        file: file.index,
-                        line: file.source.line_of(file.span(tokens).start),
+                        file: call.file,
+                        line: call.line,
                         message: format!(
-                            "`{called}` is in none of these files: it is carried, and if it moves the tool, that is not seen"
+                            "`{}` is in none of these files: it is carried, and if it moves the tool, that is not seen",
+                            call.name
                         ),
                     });
                 }
-                State::UNKNOWN
+                let calls = &mut self.settings.calls;
+                calls.push(call);
+                state.behind_outside(calls.len() - 1)
             }
         }
     }

@@ -282,6 +282,14 @@ fn data_lists_that_do_not_state_what_is_asked() {
             "`XQ`: its numbers are computed",
         ),
         ("DECL E6POS XQ={S 2,T 3}", "it states no place"),
+        (
+            "DECL E6POS XQ={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2.5,T 3}",
+            "`XQ`: its S and T are not whole numbers",
+        ),
+        (
+            "DECL E6POS XQ={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T -1}",
+            "`XQ`: its S and T are not whole numbers",
+        ),
         ("DECL E6AXIS XQ={A1 10,A2 20}", "it states only some axes"),
         (
             "DECL E6POS XQ={X 1,Y 2,\nZ 3}",

@@ -171,3 +171,71 @@ fn a_fold_that_says_otherwise_than_its_statements_is_a_finding() {
         "the text of the FOLD says Tool[5], its statements set TOOL_DATA[3]: the statements count"
     );
 }
+
+/// A frame that was known before a call of what is nowhere: the call is named, and only where it is the cause.
+#[test]
+fn calls_behind_which_a_frame_is_not_known_are_named() {
+    let base = |statements: &str| {
+        let found = frames("BOOL ready\nINT n", statements, &ReadOptions::default());
+        match found.1.frame {
+            Frame::Unknown { reason } => reason,
+            Frame::Known(_) => panic!("{statements}: it is known"),
+        }
+    };
+    let named = |line: usize| {
+        format!(
+            "since line {line} calls `elsewhere`, which is in none of these files and may set another: give its file as well, set $BASE behind the call, or state it"
+        )
+    };
+    for (statements, line) in [
+        ("BAS(#BASE,4)\nelsewhere()", 3),
+        ("BAS(#BASE,4)\nelsewhere()\nelsewhere()", 3),
+        ("BAS(#BASE,4)\nIF ready THEN\nelsewhere()\nENDIF", 4),
+        (
+            "BAS(#BASE,4)\nIF ready THEN\nelsewhere()\nELSE\nelsewhere()\nENDIF",
+            4,
+        ),
+    ] {
+        let found = base(statements);
+        match statements.contains("ELSE") {
+            // Either call does it.
+            true => assert!(found.starts_with("no statement sets it"), "{found}"),
+            false => assert_eq!(found, named(line), "{statements}"),
+        }
+    }
+    for statements in [
+        "elsewhere()",
+        "IF ready THEN\nBAS(#BASE,4)\nENDIF\nelsewhere()",
+        "BAS(#BASE,4)\nIF ready THEN\nBAS(#BASE,0)\nelsewhere()\nENDIF",
+        "BAS(#BASE,4)\nelsewhere()\nBAS(#INITMOV,0)",
+    ] {
+        let found = base(statements);
+        assert!(found.starts_with("no statement sets it"), "{found}");
+    }
+    // In the routine that is called from behind the call, and in the one that calls what calls it.
+    let text = format!(
+        "DEF part()\nBAS(#BASE,0)\nelsewhere()\nsub()\nEND\nDEF sub()\n{HERE}\nBAS(#BASE,0)\nsubsub()\n{HERE}\nEND\nDEF subsub()\nother()\nEND\n"
+    );
+    let files = vec![SourceFile::new("part.src", text)];
+    let program = read_krl(files, &ReadOptions::default()).unwrap();
+    let lines = program.motions.iter().map(|motion| {
+        let Frame::Unknown { reason } = &motion.work_object.frame else {
+            panic!("it is known");
+        };
+        reason.split(',').next().unwrap().to_owned()
+    });
+    let lines: Vec<String> = lines.collect();
+    assert_eq!(
+        lines,
+        [
+            "since line 3 calls `elsewhere`",
+            "since line 13 calls `other`"
+        ]
+    );
+    assert!(program.findings.iter().any(|finding| {
+        finding.line == 7
+            && finding
+                .message
+                .starts_with("where `$BASE` is, is not known: since")
+    }));
+}

@@ -220,6 +220,48 @@ fn files_and_positions_that_are_not_whole_are_refused() {
     }
 }
 
+/// The configuration says with which posture the arm gets there.
+#[test]
+fn configurations_that_say_no_posture_are_refused() {
+    let whole = with_lines(&["L P[1] 20mm/sec FINE ;"]);
+    let with = |configuration: &str| whole.replacen("'N U T, 0, 0, 0'", configuration, 1);
+    for taken in [
+        "'N U T, 0, 0, 0'",
+        "'F L D B, -1, 0, 1'",
+        "'NUT,0,0,0'",
+        "'N, 0, 0, 0'",
+    ] {
+        let options = ReadOptions::default();
+        assert!(
+            read_with(with(taken).as_bytes(), &options).is_ok(),
+            "{taken}"
+        );
+    }
+    for refused in [
+        "'N U T, 0, 0'",
+        "'N U T, 0, 0, 0, 0'",
+        "'N U T'",
+        "''",
+        "'0, 0, 0'",
+        "', 0, 0, 0'",
+        "'N U X, 0, 0, 0'",
+        "'N N T, 0, 0, 0'",
+        "'N F T, 0, 0, 0'",
+        "'N U T, 0, , 0'",
+        "'N U T, 0, 0.5, 0'",
+        "'N U T, 0, 0, 999'",
+    ] {
+        let found = errors(&with(refused));
+        assert_eq!((found.len(), found[0].0), (1, 5), "{refused}: {found:?}");
+        assert!(
+            found[0].1.contains("P[1]: its CONFIG is not of letters"),
+            "{found:?}"
+        );
+    }
+    let found = errors(&whole.replacen(",\t\tCONFIG : 'N U T, 0, 0, 0'", "", 1));
+    assert!(found[0].1.contains("P[1]: it has no CONFIG"), "{found:?}");
+}
+
 #[test]
 fn axes_that_move_are_refused_unless_carried() {
     let text = EVERYTHING.replacen("  16:  DO[1:gun]=ON ;", "  16:L P[8] 20mm/sec FINE ;", 1);
@@ -235,6 +277,38 @@ fn axes_that_move_are_refused_unless_carried() {
     let mut options = ReadOptions::default();
     options.external_axes = ExternalAxes::Carried;
     assert!(read_with(text.as_bytes(), &options).is_ok());
+}
+
+/// Both positions of a circle may be registers: what is said of the motion is said once, in order of lines.
+#[test]
+fn motions_that_are_left_are_named_once_by_line() {
+    let text = with_lines(&[
+        "UFRAME_NUM=2 ;",
+        "UTOOL_NUM=1 ;",
+        "L P[1] 20mm/sec FINE ;",
+        "C P[2] ",
+        "  : PR[1] 20mm/sec FINE ;",
+        "C PR[1] ",
+        "  : PR[2] 20mm/sec FINE ;",
+    ]);
+    let text = text
+        .replace("   5:  :", "    :")
+        .replace("   7:  :", "    :");
+    let mut options = ReadOptions::default();
+    options.unknown_targets = UnknownTargets::LeftAsWritten;
+    let program = read_with(text.as_bytes(), &options).unwrap();
+    let found: Vec<(usize, bool)> = (program.findings.iter())
+        .map(|finding| {
+            let is_left = finding.message.starts_with("it stays as it is written");
+            (finding.line, is_left)
+        })
+        .collect();
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    assert!(lines.is_sorted(), "{:?}", program.findings);
+    let left: Vec<usize> = (found.iter().filter(|(_, left)| *left))
+        .map(|(line, _)| *line)
+        .collect();
+    assert_eq!(left, [8, 10], "{:?}", program.findings);
 }
 
 #[test]

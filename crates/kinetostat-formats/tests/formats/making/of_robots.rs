@@ -116,3 +116,107 @@ fn what_does_not_run_once_is_refused() {
         "line 8: the motion is in a loop, or in a routine that is called more than once; write"
     ));
 }
+
+/// The world frame and the flange have the number 0, nobody sets them, and nothing else has that number.
+#[test]
+fn frames_of_number_0_are_those_of_the_controller() {
+    let krl = |base: &str| {
+        let text = format!(
+            "DEF m()\n$BASE={base}\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\nPTP {{X 0,Y 0,Z 0,A 0,B 0,C 180}}\nLIN {{X 9,Y 0,Z 0,A 0,B 0,C 180}}\nEND\n"
+        );
+        let files = vec![SourceFile::new("m.src", text)];
+        let program = read_krl(files, &ReadOptions::default()).unwrap();
+        let robot = path_of(&program, &PathOptions::default()).unwrap();
+        move |template: &Template, into| make_of_robot(&program, &robot, template, into)
+    };
+    let world = krl("$NULLFRAME");
+    let made = world(&Template::default(), MakeLanguage::FanucLs).unwrap();
+    let text = text_of(&made, 0);
+    assert!(
+        text.contains("UFRAME_NUM=0 ;")
+            && text.contains("UTOOL_NUM=0 ;")
+            && text.contains("UF : 0, UT : 0,"),
+        "{text}"
+    );
+    let said = |made: &Made, part: &str| made.findings.iter().any(|f| f.message.contains(part));
+    assert!(said(
+        &made,
+        "user frame 0 is the world frame of the robot, which cannot be set"
+    ));
+    assert!(!said(&made, "set them there"));
+    let text = text_of(
+        &world(&Template::default(), MakeLanguage::Rapid).unwrap(),
+        0,
+    );
+    assert!(
+        !text.contains("PERS wobjdata") && text.contains("wobj0"),
+        "{text}"
+    );
+
+    let elsewhere = krl("{X 100,Y 0,Z 0,A 0,B 0,C 0}");
+    let made = elsewhere(&Template::default(), MakeLanguage::FanucLs).unwrap();
+    assert!(text_of(&made, 0).contains("UFRAME_NUM=1 ;"));
+    assert!(said(
+        &made,
+        "user frame 1 and the tool frame are those of the controller"
+    ));
+    let mut template = Template::default();
+    template.base.number = Some(0);
+    template.base.pose = Some(nalgebra::Isometry3::translation(100.0, 0.0, 0.0));
+    for (language, refused) in [
+        (MakeLanguage::FanucLs, true),
+        (MakeLanguage::Rapid, true),
+        (MakeLanguage::Krl, false),
+    ] {
+        match (elsewhere(&template, language), refused) {
+            (Err(found), true) => assert!(
+                found[0]
+                    .to_string()
+                    .contains("the base has the number 0, which is the world frame"),
+                "{found:?}"
+            ),
+            (found, refused) => assert!(found.is_ok() && !refused, "{found:?}"),
+        }
+    }
+}
+
+/// Two tools whose names end in 0 and 1: only the flange has the number 0 at FANUC.
+#[test]
+fn a_tool_named_0_gets_a_free_number() {
+    let tool = |name: &str, z: f64| {
+        format!(
+            "PERS tooldata {name}:=[TRUE,[[0,0,{z}],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];\n"
+        )
+    };
+    let line = |x: f64, name: &str| {
+        format!(
+            "MoveL [[{x},0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,{name};\n"
+        )
+    };
+    let text = format!(
+        "MODULE M\n{}{}PROC main()\n{}{}{}{}ENDPROC\nENDMODULE\n",
+        tool("mill0", 100.0),
+        tool("mill1", 200.0),
+        line(0.0, "mill0"),
+        line(9.0, "mill0"),
+        line(0.0, "mill1"),
+        line(9.0, "mill1"),
+    );
+    let files = vec![SourceFile::new("m.mod", text)];
+    let program = read_rapid(files, &ReadOptions::default()).unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let made = make_of_robot(
+        &program,
+        &robot,
+        &Template::default(),
+        MakeLanguage::FanucLs,
+    )
+    .unwrap();
+    let text = text_of(&made, 0);
+    assert!(
+        text.contains("UTOOL_NUM=2 ;")
+            && text.contains("UTOOL_NUM=1 ;")
+            && !text.contains("UT : 0"),
+        "{text}"
+    );
+}

@@ -71,6 +71,22 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "its quaternion has not the length 1",
         ),
         (
+            "MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[9E9]],v10,z1,tool0;",
+            "its external axes are not six numbers",
+        ),
+        (
+            "MoveL [[1,2,3],[1,0,0,0],[0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;",
+            "its configuration is not four whole numbers",
+        ),
+        (
+            "MoveL [[1,2,3],[1,0,0,0],[0,0.5,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;",
+            "its configuration is not four whole numbers",
+        ),
+        (
+            "MoveL [[1,2,3],[1,0,0,0],conf1,[9E9,9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;",
+            "its configuration is not four whole numbers",
+        ),
+        (
             "MoveL [[1,2,3],[1,0,0,0]],v10,z1,tool0;",
             "a robtarget has four parts",
         ),

@@ -114,45 +114,6 @@ fn external_axes_that_move_are_refused_or_carried() {
     );
 }
 
-/// A piece of a motion would take all of the way of an axis that moves with it.
-#[test]
-fn motions_with_external_axes_that_move_are_not_divided() {
-    let line = |z: u32, axis: &str| {
-        format!(
-            "MoveL [[1,2,{z}],[1,0,0,0],[0,0,0,0],[{axis},9E9,9E9,9E9,9E9,9E9]],v10,z1,tool0;\n"
-        )
-    };
-    let mut options = ReadOptions::default();
-    options.external_axes = ExternalAxes::Carried;
-    for (axes, moving) in [
-        (["100", "100.0", "200"], 2),
-        // Stated for the first time: from where it comes is not known.
-        (["9E9", "9E9", "200"], 2),
-        (["9E9", "100", "9E9"], 1),
-    ] {
-        let text: String = (3..).zip(axes).map(|(z, axis)| line(z, axis)).collect();
-        let program = read_with("", &text, &options).unwrap();
-        for motion in 1..3 {
-            let end = program.motions[motion].target.pose().unwrap().position_mm;
-            let half = end - Vector3::new(0.0, 0.0, 0.5);
-            let pieces = [Piece::to(motion, half), Piece::to(motion, end)];
-            let written = write(&program, &pieces, &WriteOptions::default());
-            match motion == moving {
-                true => {
-                    let refused = written.unwrap_err().to_string();
-                    assert!(
-                        refused.contains("an external axis moves with it"),
-                        "{refused}"
-                    );
-                }
-                false => assert!(written.is_ok(), "{axes:?}"),
-            }
-            let whole = [Piece::to(motion, half)];
-            assert!(write(&program, &whole, &WriteOptions::default()).is_ok());
-        }
-    }
-}
-
 #[test]
 fn unknown_targets_are_left_when_asked() {
     let text = format!("p:=CRobT();\nMoveL p,v10,z1,tool0;\nMoveL {TARGET},v10,z1,tool0;");

@@ -7,24 +7,28 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::Finding;
 use crate::model::target::Target;
 
-/// Motions that stay as they are written because their ends are not known.
-pub(crate) fn left(motions: &[Motion]) -> Vec<Finding> {
+/// Motions that stay as they are written because their ends are not known, each reason once.
+pub(crate) fn left_as_written(motions: &[Motion]) -> Vec<Finding> {
     let mut findings = Vec::new();
     for motion in motions {
         let via = match &motion.kind {
             MotionKind::Circular { via } => Some(via),
             MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => None,
         };
-        for target in via.into_iter().chain([&motion.target]) {
-            if let Target::Unknown { reason } = target {
-                let message = format!("it stays as it is written: {reason}");
-                findings.push(Finding {
-                    file: motion.file,
-                    line: motion.line,
-                    message,
-                });
-            }
-        }
+        let reasons = via
+            .into_iter()
+            .chain([&motion.target])
+            .map(|end| match end {
+                Target::Unknown { reason } => Some(reason),
+                Target::Pose(_) | Target::Joints { .. } => None,
+            });
+        let mut reasons: Vec<&String> = reasons.flatten().collect();
+        reasons.dedup();
+        findings.extend(reasons.into_iter().map(|reason| Finding {
+            file: motion.file,
+            line: motion.line,
+            message: format!("it stays as it is written: {reason}"),
+        }));
     }
     findings
 }

@@ -1,0 +1,105 @@
+//! All faults of a program in one run: those of its text, and those that keep its motions out of one path.
+
+use thiserror::Error;
+
+use crate::document::read;
+use crate::error::ProgramError;
+use crate::krl::reader::parse_krl;
+use crate::ls::reader::parse_ls;
+use crate::model::parsed::Parsed;
+use crate::model::program::Language;
+use crate::options::ReadOptions;
+use crate::path::fault::PathError;
+use crate::path::motion_faults::faults_of_motions;
+use crate::rapid::reader::parse_rapid;
+use crate::text::source::SourceFile;
+
+/// What keeps a program from being corrected.
+///
+/// ```
+/// use kinetostat_formats::{Language, ReadOptions, SourceFile, all_faults};
+///
+/// let files = vec![SourceFile::new("part.src", "DEF part()\nLIN NOWHERE\nEND\n")];
+/// let faults = all_faults(Language::Krl, files, &ReadOptions::default());
+/// assert_eq!(faults[0].place(), ("part.src", 2));
+/// assert!(faults[0].reason().contains("NOWHERE"));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ProgramFault {
+    /// Something in its text is refused.
+    #[error(transparent)]
+    Text(#[from] ProgramError),
+    /// A motion cannot stand in one path with the others.
+    #[error(transparent)]
+    Path(#[from] PathError),
+}
+
+impl ProgramFault {
+    /// Name of the file, and line counted from 1.
+    #[must_use]
+    pub fn place(&self) -> (&str, usize) {
+        match self {
+            Self::Text(error) => (&error.file, error.line),
+            Self::Path(error) => (&error.file, error.line),
+        }
+    }
+
+    /// Why.
+    #[must_use]
+    pub fn reason(&self) -> &str {
+        match self {
+            Self::Text(error) => &error.reason,
+            Self::Path(error) => &error.reason,
+        }
+    }
+}
+
+/// All that [`crate::read`] refuses, and with it what [`crate::path_of`] would refuse of the motions that could be read, in order of
+/// files and lines.
+///
+/// Of RAPID, KRL and FANUC programs the motions beside the faults are looked at; of the other languages what reading refuses comes
+/// alone.
+///
+/// ```
+/// use kinetostat_formats::{Language, ReadOptions, SourceFile, all_faults};
+///
+/// let text = "DEF part()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0\n\
+///     LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN XNOWHERE\nEND\n";
+/// let files = vec![SourceFile::new("part.src", text)];
+/// let faults = all_faults(Language::Krl, files, &ReadOptions::default());
+/// assert_eq!(faults.iter().map(|fault| fault.place().1).collect::<Vec<_>>(), [5, 6]);
+/// assert_eq!(faults[0].reason(), "its speed is 0 mm/s");
+/// assert!(faults[1].reason().contains("XNOWHERE"));
+/// ```
+#[must_use]
+pub fn all_faults(
+    language: Language,
+    files: Vec<SourceFile>,
+    options: &ReadOptions,
+) -> Vec<ProgramFault> {
+    let names: Vec<String> = files.iter().map(|file| file.name().to_owned()).collect();
+    let Parsed { program, faults } = match language {
+        Language::Krl => parse_krl(files, options),
+        Language::Rapid => parse_rapid(files, options),
+        Language::FanucLs => parse_ls(files, options),
+        other => match read(other, files, options) {
+            Ok(program) => Parsed {
+                program,
+                faults: Vec::new(),
+            },
+            Err(faults) => Parsed::refused(other, faults),
+        },
+    };
+    let of_path = faults_of_motions(&program);
+    let of_text = faults.into_iter().map(ProgramFault::from);
+    let mut all: Vec<ProgramFault> = of_text
+        .chain(of_path.into_iter().map(ProgramFault::from))
+        .collect();
+    let place = |fault: &ProgramFault| {
+        let (file, line) = fault.place();
+        (names.iter().position(|name| name == file), line)
+    };
+    all.sort_by_cached_key(place);
+    all
+}

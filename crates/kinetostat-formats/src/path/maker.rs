@@ -1,0 +1,112 @@
+//! How the motions of a program stand in the axes of its path.
+
+use std::sync;
+
+use kinetostat_program::RotaryAxes;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::{Language, RobotProgram};
+use crate::model::target::Target;
+use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
+use crate::path::axis_turns::axis_turns;
+use crate::path::fault::PathError;
+use crate::path::motion_faults::fault_at;
+use crate::path::options::PathOptions;
+
+/// The motions of a program, and what their moves need beside them.
+pub(super) struct Maker<'a> {
+    pub program: &'a RobotProgram,
+    pub options: &'a PathOptions,
+    /// Poses in the axes of the robot's base.
+    pub in_base: bool,
+    /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
+    pub turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
+    /// What the rotary axes of the machine do, instead.
+    pub rotary: Option<(sync::Arc<RotaryAxes>, Vec<AxesOfMotion>)>,
+    /// From the tip to the holder, in axes of the tool.
+    pub tool_axis: Vector3<f64>,
+}
+
+impl<'a> Maker<'a> {
+    /// Of a program with one work object, or in the axes of the robot's base; with the first motion whose tool leans where the program
+    /// states its axis alone.
+    pub(super) fn of(
+        program: &'a RobotProgram,
+        options: &'a PathOptions,
+        in_base: bool,
+        leaning: Option<&Motion>,
+    ) -> Result<Self, Vec<PathError>> {
+        let mut maker = Self {
+            program,
+            options,
+            in_base,
+            turns: None,
+            rotary: None,
+            tool_axis: options.tool_axis,
+        };
+        let Some(leaning) = leaning else {
+            return Ok(maker);
+        };
+        let is_rapid = |motion: &Motion| maker.is_rapid(motion);
+        match &options.rotary {
+            Some(_) if in_base => {
+                let reason = "the tool leans on rotary axes of the machine, and the program has several work objects";
+                let remedy = "write one program for each work object";
+                return Err(vec![fault_at(program, leaning, reason.to_owned(), remedy)]);
+            }
+            Some(rotary) => {
+                let angles = axes_of_motions(program, rotary, is_rapid)?;
+                maker.rotary = Some((sync::Arc::clone(rotary), angles));
+                maker.tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
+            }
+            None => {
+                let rule = (options.turn_about_axis, options.tool_axis);
+                let frame = |motion: &Motion| maker.frame_in_path(motion);
+                maker.turns = Some(axis_turns(program, rule, frame, is_rapid)?);
+            }
+        }
+        Ok(maker)
+    }
+
+    /// From the axes of a motion's work object to those of the path.
+    pub(super) fn frame_in_path(&self, motion: &Motion) -> Isometry3<f64> {
+        match (self.in_base, motion.work_object.known()) {
+            (true, Some(frame)) => *frame,
+            _ => Isometry3::identity(),
+        }
+    }
+
+    pub(super) fn pose_in_path(&self, motion: &Motion, target: &Target) -> Option<Isometry3<f64>> {
+        Some(self.frame_in_path(motion) * target.pose()?.isometry())
+    }
+
+    /// Where a motion ends, and how the tool stands there.
+    pub(super) fn end_in_path(&self, index: usize) -> Option<Isometry3<f64>> {
+        let motion = &self.program.motions[index];
+        let mut end = self.pose_in_path(motion, &motion.target)?;
+        if let Some(turn) = self.turns.as_ref().and_then(|turns| turns[index]) {
+            end.rotation = turn;
+        }
+        Some(end)
+    }
+
+    /// Whether a motion positions the tool in air.
+    pub(super) fn is_rapid(&self, motion: &Motion) -> bool {
+        let fast = |limit: f64| {
+            let fastest = motion.speed.text.eq_ignore_ascii_case("vmax");
+            fastest || motion.speed.mm_per_s.is_some_and(|speed| speed >= limit)
+        };
+        // APT says it beside the motion, a machine's control in it.
+        let said = match self.program.language {
+            Language::Apt => motion.speed.text.to_ascii_uppercase().starts_with("RAPID"),
+            Language::Siemens => motion.speed.text == "G0",
+            Language::Heidenhain => motion.speed.text == "FMAX",
+            _ => false,
+        };
+        motion.kind == MotionKind::Joint
+            || motion.target.pose().is_none()
+            || said
+            || self.options.rapid_from_mm_per_s.is_some_and(fast)
+    }
+}

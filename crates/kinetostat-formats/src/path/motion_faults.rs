@@ -1,0 +1,141 @@
+//! Motions that cannot stand in one path, by line.
+
+use crate::model::frame::FrameUse;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::RobotProgram;
+use crate::path::far_places::too_far;
+use crate::path::fault::PathError;
+use crate::path::tools::{same_frame, tools_of};
+
+/// A fault of a motion.
+pub(crate) fn fault_at(
+    program: &RobotProgram,
+    motion: &Motion,
+    reason: String,
+    remedy: &str,
+) -> PathError {
+    PathError {
+        file: program.files[motion.file].name().to_owned(),
+        line: motion.line,
+        reason,
+        remedy: remedy.to_owned(),
+    }
+}
+
+/// The motions to poses.
+pub(crate) fn motions_to_poses(program: &RobotProgram) -> Vec<&Motion> {
+    let motions = program.motions.iter();
+    motions
+        .filter(|motion| motion.target.pose().is_some())
+        .collect()
+}
+
+/// Whether all motions have the work object of the first one.
+pub(crate) fn has_one_work_object(poses: &[&Motion]) -> bool {
+    let Some(first) = poses.first() else {
+        return true;
+    };
+    let is_other = |motion: &&Motion| !same_frame(&motion.work_object, &first.work_object);
+    !poses.iter().any(is_other)
+}
+
+/// All that keeps motions out of one path, in order of files and lines. It holds for programs of which a part was refused, too.
+pub(crate) fn faults_of_motions(program: &RobotProgram) -> Vec<PathError> {
+    let poses = motions_to_poses(program);
+    let mut faults = Vec::new();
+    faults.extend(in_another_file(program));
+    faults.extend(another_tool(program, &poses));
+    faults.extend(unknown_work_objects(program, &poses));
+    faults.extend(no_speeds(program, &poses));
+    faults.extend(program.motions.iter().filter_map(|motion| {
+        let (reason, remedy) = too_far(motion)?;
+        Some(fault_at(program, motion, reason, remedy))
+    }));
+    faults.extend(closed_circles(program));
+    let place = |fault: &PathError| {
+        let files = &mut program.files.iter();
+        let file = files.position(|file| file.name() == fault.file);
+        (file, fault.line)
+    };
+    faults.sort_by_key(place);
+    faults
+}
+
+fn in_another_file(program: &RobotProgram) -> Option<PathError> {
+    let file = program.motions.first()?.file;
+    let other = program.motions.iter().find(|motion| motion.file != file)?;
+    let reason = format!(
+        "motions stand in this file and in {}",
+        program.files[file].name()
+    );
+    let remedy = "give the files with motions one by one";
+    Some(fault_at(program, other, reason, remedy))
+}
+
+fn another_tool(program: &RobotProgram, poses: &[&Motion]) -> Option<PathError> {
+    let tools = tools_of(poses);
+    let other = tools.get(1)?;
+    if poses.windows(2).all(|pair| pair[0].line <= pair[1].line) {
+        return None;
+    }
+    let name = |frame: &FrameUse| frame.name == other.name;
+    let motion = poses.iter().find(|motion| name(&motion.tool))?;
+    let reason = format!(
+        "the tool `{}` is another one, in a program whose routines do not run in the order of their lines",
+        other.name
+    );
+    let remedy = "write one program for each tool, or the routines in their order";
+    Some(fault_at(program, motion, reason, remedy))
+}
+
+fn unknown_work_objects(program: &RobotProgram, poses: &[&Motion]) -> Vec<PathError> {
+    if has_one_work_object(poses) {
+        return Vec::new();
+    }
+    let unknown = poses
+        .iter()
+        .filter(|motion| motion.work_object.known().is_none());
+    let fault = |motion: &&Motion| {
+        let reason = format!(
+            "the work object `{}` is not known, and the program has another one",
+            motion.work_object.name
+        );
+        fault_at(program, motion, reason, "state where it is (`frames`)")
+    };
+    unknown.map(fault).collect()
+}
+
+fn no_speeds(program: &RobotProgram, poses: &[&Motion]) -> Vec<PathError> {
+    let fault = |motion: &&Motion| {
+        let is_none = |speed: &f64| !(*speed > 0.0 && speed.is_finite());
+        let speed = motion.speed.mm_per_s.filter(is_none)?;
+        let reason = format!("its speed is {speed} mm/s");
+        Some(fault_at(
+            program,
+            motion,
+            reason,
+            "write a speed above zero",
+        ))
+    };
+    poses.iter().filter_map(fault).collect()
+}
+
+fn closed_circles(program: &RobotProgram) -> Vec<PathError> {
+    let fault = |(index, pair): (usize, &[Motion])| {
+        let [from, to] = [&pair[0], &pair[1]].map(|motion| motion.target.pose());
+        let way = to?.position_mm - from?.position_mm;
+        let is_circle = matches!(pair[1].kind, MotionKind::Circular { .. });
+        let is_closed = is_circle && pair[1].follows == Some(index) && way.norm() < 1e-6;
+        is_closed.then(|| {
+            fault_at(
+                program,
+                &pair[1],
+                "a circle through a place that ends where it begins is no circle".to_owned(),
+                "write a full turn as two circular motions",
+            )
+        })
+    };
+    (program.motions.windows(2).enumerate())
+        .filter_map(fault)
+        .collect()
+}
