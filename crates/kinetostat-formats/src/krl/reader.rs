@@ -124,7 +124,7 @@ pub fn read_krl(
         motions,
         findings,
         declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
+        rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }
 

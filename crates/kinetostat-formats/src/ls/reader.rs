@@ -374,7 +374,7 @@ impl Reader<'_> {
             motions: self.motions,
             findings: self.findings,
             declarations: self.declarations,
-            even_axes: std::collections::BTreeSet::new(),
+            rotary: crate::model::stated_axes::StatedAxes::default(),
         })
     }
 

@@ -11,4 +11,5 @@ pub(crate) mod orientation;
 pub(crate) mod program;
 pub(crate) mod site;
 pub(crate) mod stated_arm;
+pub(crate) mod stated_axes;
 pub(crate) mod target;

@@ -2,7 +2,7 @@
 
 use kinetostat_program::{
     Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Move, Path, Plan,
-    PlannedMove, Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions,
+    PlannedMove, StatedBy, Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions,
     WrittenEnd, WrittenMove,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -132,13 +132,19 @@ impl Correctable<'_> {
         // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
         let same_speed =
             |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
+        let turn = motion.tool_turn.as_ref();
+        let rotary = turn.and_then(|turn| turn.rotary.as_ref());
+        let angles = rotary.filter(|turn| turn.stated == StatedBy::Angles);
         let mut pieces: Vec<Piece> = plan
             .pieces
             .iter()
             .map(|piece| Piece {
                 motion: number,
                 position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
-                orientation: (piece.orientation).map(|o| self.as_stated(own, to_own.rotation * o)),
+                orientation: (piece.orientation)
+                    .filter(|_| angles.is_none())
+                    .map(|o| self.as_stated(own, to_own.rotation * o)),
+                rotary_deg: angles.map(|turn| turn.angles_deg(piece.share_to)),
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),

@@ -4,7 +4,7 @@ use std::sync;
 
 use kinetostat_program::{
     Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, Path, RotaryAxes,
-    RotaryTurn, StatedBy, ToolTurn, Warning,
+    RotaryTurn, ToolTurn, Warning,
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
@@ -14,6 +14,7 @@ use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::orientation::OrientationText;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::{PoseText, TargetSite};
+use crate::model::stated_axes::AxesStated;
 use crate::model::target::Target;
 use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
 use crate::path::axis_turns::{axis_turns, first_leaning, is_by_axis};
@@ -173,14 +174,24 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         tool_axis: options.tool_axis,
     };
     let leaning = first_leaning(program);
-    if leaning.is_some() {
+    let angled = first_with_angles(program);
+    let letters = options.rotary.iter().flat_map(|rotary| &rotary.axes);
+    let same = letters.map(|axis| axis.letter).eq(program.rotary.letters.iter().copied());
+    if let (Some(motion), false) = (angled, same) {
+        return Err(vec![fault(
+            motion,
+            "angles of rotary axes say how the tool stands, and these axes are not those of the machine".to_owned(),
+            "state the axes of the machine, in the order in which their words were read (`rotary`, `rotary_axes`)",
+        )]);
+    }
+    if leaning.is_some() || angled.is_some() {
         let rule = (options.turn_about_axis, options.tool_axis);
         match &options.rotary {
             Some(rotary) => {
-                if let (false, Some(motion)) = (one, leaning) {
+                if let (false, Some(motion)) = (one, leaning.or(angled)) {
                     return Err(vec![fault(
                         motion,
-                        "the tool leans on rotary axes of the machine, and the program has several work objects".to_owned(),
+                        "rotary axes of the machine turn the tool, and the program has several work objects".to_owned(),
                         "write one program for each work object",
                     )]);
                 }
@@ -218,6 +229,13 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     })
 }
 
+/// The first motion at which angles of rotary axes say how the tool stands.
+fn first_with_angles(program: &RobotProgram) -> Option<&Motion> {
+    let mut stated = program.rotary.motions.iter();
+    let first = stated.find(|(_, stated)| matches!(stated, AxesStated::Angles { .. }));
+    program.motions.get(*first?.0)
+}
+
 /// The first motion with another frame than the first one.
 fn differs<'m>(poses: &[&'m Motion], frame: fn(&Motion) -> &FrameUse) -> Option<&'m Motion> {
     let first = frame(poses.first()?);
@@ -233,7 +251,7 @@ struct Maker<'a> {
     /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
     turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
     /// What the rotary axes of the machine do, instead.
-    rotary: Option<(sync::Arc<RotaryAxes>, Vec<AxesOfMotion>)>,
+    rotary: Option<(sync::Arc<RotaryAxes>, Vec<Option<AxesOfMotion>>)>,
     /// From the tip to the holder, in axes of the tool.
     tool_axis: Vector3<f64>,
 }
@@ -386,10 +404,9 @@ impl Maker<'_> {
             start: a,
             end: b,
             tool_turn: match &self.rotary {
-                Some((axes, motions)) => {
-                    let own = &motions[index];
+                Some((axes, motions)) => motions[index].as_ref().map(|own| {
                     let whole = known == Knowledge::Whole;
-                    Some(Box::new(ToolTurn::rotary(RotaryTurn {
+                    Box::new(ToolTurn::rotary(RotaryTurn {
                         axes: sync::Arc::clone(axes),
                         origin_deg: vec![0.0; own.end_deg.len()],
                         start_deg: match whole {
@@ -398,9 +415,9 @@ impl Maker<'_> {
                         },
                         end_deg: own.end_deg.clone(),
                         great_circle: own.great_circle.clone().filter(|_| whole),
-                        stated: StatedBy::Direction,
-                    })))
-                }
+                        stated: own.stated,
+                    }))
+                }),
                 None => self.states_orientation(motion).then(|| {
                     let start = nearest(from.rotation, &to.rotation);
                     let axis = Unit::new_normalize(self.tool_axis);

@@ -114,15 +114,23 @@ pub(crate) fn by_rule(
             "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
         ),
     }];
-    let unstated = |motion: &&Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
-    // APT says z where it says nothing.
-    let first = program.motions.iter().find(unstated);
-    if let (Language::Siemens, Some(motion)) = (program.language, first) {
+    let unstated = |motion: &Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
+    let has_angles = program.rotary.has_angles();
+    let by_axes = |index: &usize| has_angles && program.rotary.motions.contains_key(index);
+    let mut motions = program.motions.iter().enumerate();
+    let first = motions.find(|(index, motion)| unstated(motion) && !by_axes(index));
+    let words = match program.language {
+        Language::Siemens => Some("A3, B3, C3"),
+        Language::Heidenhain => Some("TX, TY, TZ"),
+        // APT says z where it says nothing.
+        _ => None,
+    };
+    if let (Some(words), Some((_, motion))) = (words, first) {
         warnings.push(Warning {
             line: motion.line,
-            text:
-                "the direction of the tool is not stated here (A3, B3, C3): z of the part is taken"
-                    .to_owned(),
+            text: format!(
+                "the direction of the tool is not stated here ({words}): z of the part is taken"
+            ),
         });
     }
     warnings

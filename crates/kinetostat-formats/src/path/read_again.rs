@@ -99,7 +99,8 @@ fn one(
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }
-    let between = input.axis_alone && motion.known == Knowledge::Whole;
+    let rotary = motion.tool_turn.as_ref().is_some_and(|turn| turn.rotary.is_some());
+    let between = (input.axis_alone || rotary) && motion.known == Knowledge::Whole;
     if between && !goes_as_stated((input, made), written, (index, piece)) {
         return fail("between its ends the tool stands otherwise than in the program".to_owned());
     }

@@ -152,7 +152,7 @@ pub fn read_rapid(
         motions,
         findings,
         declarations: targets.declarations,
-        even_axes: std::collections::BTreeSet::new(),
+        rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }
 

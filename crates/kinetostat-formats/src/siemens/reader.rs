@@ -38,7 +38,7 @@ pub fn read_siemens(
         motions,
         mut faults,
         mut findings,
-        even_axes,
+        rotary,
         ..
     } = scan(&files, options);
     if !faults.is_empty() {
@@ -56,6 +56,6 @@ pub fn read_siemens(
         motions,
         findings,
         declarations: Vec::new(),
-        even_axes,
+        rotary,
     })
 }

@@ -105,8 +105,11 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
-    if settings.corrected == Directions::ALL && path.axis_alone && settings.making.rotary.is_some()
-    {
+    let by_axes = |motion: &kinetostat_program::Move| {
+        let turn = motion.tool_turn.as_ref();
+        turn.is_some_and(|turn| turn.rotary.is_some())
+    };
+    if settings.corrected == Directions::ALL && path.path.moves.iter().any(by_axes) {
         return Err(Failure::input(
             "the rotary axes of the machine turn the tool, and they are not corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));

@@ -46,7 +46,7 @@ impl Reader<'_> {
         &mut self,
         span: &Range<usize>,
         reason: impl Into<String>,
-        remedy: &'static str,
+        remedy: &str,
     ) {
         let file = self.file;
         note(&mut self.found.faults, || {

@@ -48,6 +48,7 @@ pub(crate) fn write_heidenhain(
     let reading = ReadOptions {
         unknown_targets: UnknownTargets::LeftAsWritten,
         cutter_compensation: CutterCompensation::CentrePath,
+        rotary_axes: program.rotary.letters.clone(),
         ..ReadOptions::default()
     };
     let ways = interpret(&program.files, &reading).ways;
@@ -62,6 +63,8 @@ pub(crate) fn write_heidenhain(
         polar_broken: false,
         pole: None,
         axis: None,
+        turned_deg: Vec::new(),
+        angles_now: Vec::new(),
         off_at: Vec::with_capacity(program.motions.len()),
         changed: Vec::with_capacity(program.motions.len()),
         file: 0,
@@ -121,6 +124,7 @@ impl Writer<'_> {
             self.polar_broken = false;
             self.pole = None;
             self.axis = None;
+            self.turned_deg.clear();
         }
         self.changed
             .push(!pieces.is_empty() || self.off != Vector3::zeros());
