@@ -119,14 +119,13 @@ impl Standing {
                     format!("state it before by an absolute word ({letter}0)"),
                 ));
             }
-            (
-                AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to),
-                Some(at),
-            ) => {
+            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
                 let up = (within(to)? - at).rem_euclid(360.0);
                 if matches!(turn, AxisTurn::Shorter(_)) && (up - 180.0).abs() < ZERO_DEG {
                     return Err((
-                        format!("axis {letter} turns by half a turn, and which way is the shorter one is open"),
+                        format!(
+                            "axis {letter} turns by half a turn, and which way is the shorter one is open"
+                        ),
                         "let the CAM system write an angle between".to_owned(),
                     ));
                 }
@@ -190,7 +189,9 @@ impl Standing {
         let now = self.angles_now();
         match tip {
             true => self.any && !self.by_direction && now.contains(&None),
-            false => Self::leaning(&now).or(Self::leaning(&self.before)).is_some(),
+            false => Self::leaning(&now)
+                .or(Self::leaning(&self.before))
+                .is_some(),
         }
     }
 
@@ -244,9 +245,7 @@ impl Standing {
         let letter = self.axes[open].letter;
         Some((
             format!("where axis {letter} stands is not stated before this block cuts"),
-            format!(
-                "state it with a rapid and an absolute word ({rapid}{letter}{zero}) before it"
-            ),
+            format!("state it with a rapid and an absolute word ({rapid}{letter}{zero}) before it"),
         ))
     }
 

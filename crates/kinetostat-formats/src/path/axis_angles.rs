@@ -197,8 +197,7 @@ fn by_angles(
     if !on_circle || (from - to).norm() < SAME {
         return (own, None);
     }
-    const EVENLY: &str =
-        "write ORIAXES where the machine turns each axis evenly, or let the CAM system write a block between";
+    const EVENLY: &str = "write ORIAXES where the machine turns each axis evenly, or let the CAM system write a block between";
     let why = match GreatCircle::new(rotary, start, &to) {
         Ok(circle) => {
             let both = circle.end_deg().iter().zip(end);

@@ -176,7 +176,9 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let leaning = first_leaning(program);
     let angled = first_with_angles(program);
     let letters = options.rotary.iter().flat_map(|rotary| &rotary.axes);
-    let same = letters.map(|axis| axis.letter).eq(program.rotary.letters.iter().copied());
+    let same = letters
+        .map(|axis| axis.letter)
+        .eq(program.rotary.letters.iter().copied());
     if let (Some(motion), false) = (angled, same) {
         return Err(vec![fault(
             motion,

@@ -18,9 +18,10 @@ impl Reader<'_> {
         if let Some(change) = words.frame {
             return self.change_frame(block, change, &words);
         }
-        if let (true, Some((_, word, _))) =
-            (words.has_rotary() && words.has_direction(), words.rotary.first())
-        {
+        if let (true, Some((_, word, _))) = (
+            words.has_rotary() && words.has_direction(),
+            words.rotary.first(),
+        ) {
             return self.fault(
                 &word.word.clone(),
                 "an angle and a direction of the tool stand in one block",

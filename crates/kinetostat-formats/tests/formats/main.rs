@@ -11,6 +11,7 @@
 mod apt;
 mod axes_alone;
 mod axes_on_circles;
+mod axis_angles;
 mod chance;
 mod circles;
 mod corners;

@@ -92,7 +92,12 @@ impl Writer<'_> {
             let number = word.and_then(|word| words[word.at].number().map(|n| (word, n)));
             let Some((RotaryWord { step, .. }, number)) = number else {
                 if (to - now).abs() > self.half_deg() {
-                    let text = stands(&letter.to_string(), to - wound, digits, self.signs[motion.file]);
+                    let text = stands(
+                        &letter.to_string(),
+                        to - wound,
+                        digits,
+                        self.signs[motion.file],
+                    );
                     let value = parsed(&text.as_bytes()[1..]).unwrap_or(to - wound);
                     self.angles_now[axis] = value + wound;
                     added += &format!(" {text}");

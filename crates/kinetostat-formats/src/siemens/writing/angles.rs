@@ -34,7 +34,13 @@ impl Writer<'_> {
     }
 
     /// The number with which a word turns an axis from where it stands to an angle.
-    fn angle_text(&self, axis: usize, (word, how): (&Coordinate, How), from: f64, to: f64) -> AngleText {
+    fn angle_text(
+        &self,
+        axis: usize,
+        (word, how): (&Coordinate, How),
+        from: f64,
+        to: f64,
+    ) -> AngleText {
         let digits = self.options.angle_decimals;
         let wound = self.wound(axis);
         let (reference, value) = match (word.step, how) {
@@ -70,7 +76,12 @@ impl Writer<'_> {
     fn wanted_deg(&self, piece: &Piece) -> Option<Vec<f64>> {
         let [_, end] = self.angles?;
         let stated = piece.rotary_deg.as_ref();
-        Some(stated.filter(|all| all.len() == end.len()).cloned().unwrap_or_else(|| end.to_vec()))
+        Some(
+            stated
+                .filter(|all| all.len() == end.len())
+                .cloned()
+                .unwrap_or_else(|| end.to_vec()),
+        )
     }
 
     /// A word of an axis that the block has none of.
@@ -128,7 +139,9 @@ impl Writer<'_> {
             let found = match self.word_of(axis) {
                 Some((word, how)) if (wanted[axis] - from).abs() > SAME_DEG => {
                     let made = self.angle_text(axis, (word, how), from, wanted[axis]);
-                    let part = |from: usize, to: usize| String::from_utf8_lossy(self.file.part(&(from..to))).into_owned();
+                    let part = |from: usize, to: usize| {
+                        String::from_utf8_lossy(self.file.part(&(from..to))).into_owned()
+                    };
                     let before = part(word.word.start, word.number.start);
                     let behind = part(word.number.end, word.word.end);
                     Some((format!(" {before}{}{behind}", made.text), made.reached_deg))
@@ -154,7 +167,10 @@ impl Writer<'_> {
     /// Whether the axes stand where the program has them, as far as angles are written.
     pub(crate) fn angles_stand(&self) -> bool {
         let half = half_deg(self.options.angle_decimals);
-        self.held.turned_deg.iter().all(|turned| turned.abs() <= half)
+        self.held
+            .turned_deg
+            .iter()
+            .all(|turned| turned.abs() <= half)
     }
 
     /// In a motion that stays as it is written, axes with absolute words come to where the program has them.
