@@ -57,8 +57,8 @@ pub(crate) struct Standing {
     any: bool,
     /// A direction of the tool says since then how they stand.
     by_direction: bool,
-    /// A fault of these angles was reported.
-    reported: bool,
+    /// The fault of these angles that was reported.
+    reported: Option<String>,
 }
 
 impl Standing {
@@ -93,7 +93,7 @@ impl Standing {
         let Some(axis) = self.axes.get_mut(place) else {
             return Ok(());
         };
-        (self.any, self.reported) = (true, false);
+        self.any = true;
         if self.by_direction {
             // The other axes stand where the direction has brought them.
             self.by_direction = false;
@@ -157,7 +157,6 @@ impl Standing {
         if let Some(axis) = self.axes.get_mut(place) {
             (axis.at, axis.wound, axis.sent) = (None, 0.0, true);
         }
-        self.reported = false;
     }
 
     /// A direction of the tool says how the axes stand.
@@ -197,12 +196,11 @@ impl Standing {
 
     /// Why a block cannot cut, once for angles that stay.
     pub(crate) fn no_cut(&mut self, tip: bool, words: &TipWords) -> Option<AxisFault> {
-        if self.reported {
-            return None;
-        }
         let found = self.why_no_cut(tip, words);
-        self.reported = found.is_some();
-        found
+        let reason = found.as_ref().map(|(reason, _)| reason.clone());
+        let again = reason.is_some() && reason == self.reported;
+        self.reported = reason;
+        found.filter(|_| !again)
     }
 
     fn why_no_cut(&self, tip: bool, words: &TipWords) -> Option<AxisFault> {

@@ -2,8 +2,8 @@
 
 use kinetostat_program::{
     Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Move, Path, Plan,
-    PlannedMove, Verification, WriteError as PathWriteError,
-    WriteOptions as PathWriteOptions, WrittenEnd, WrittenMove,
+    PlannedMove, Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions,
+    WrittenEnd, WrittenMove,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 

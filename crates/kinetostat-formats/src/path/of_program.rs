@@ -22,7 +22,7 @@ use crate::path::circle::about;
 use crate::path::far_places::too_far;
 use crate::path::fault::PathError;
 use crate::path::options::PathOptions;
-use crate::path::path_warnings::{by_rule, warnings_of};
+use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
 use crate::text::source::SourceFile;
 
@@ -215,6 +215,9 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
             .iter()
             .flat_map(|motion| by_rule(program, motion, options)),
     );
+    let findings = made.rotary_findings();
+    made.warnings.extend(findings);
+    made.warnings.extend(turns_alone(&made.moves));
     if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
         made.spindle_changes = spindle_changes(file);
     }

@@ -1,6 +1,6 @@
 //! What a person should know of a path that was made.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Warning};
+use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, Warning};
 use nalgebra::Vector3;
 
 use crate::model::motion::{Motion, MotionKind};
@@ -134,4 +134,27 @@ pub(crate) fn by_rule(
         });
     }
     warnings
+}
+
+/// Blocks whose angles alone change at feed.
+pub(crate) fn turns_alone(moves: &[Move]) -> Option<Warning> {
+    let alone = |motion: &&Move| {
+        let turn = motion.tool_turn.as_ref();
+        let turn = turn.and_then(|turn| turn.rotary.as_ref());
+        let by_angles = turn.is_some_and(|turn| turn.stated == StatedBy::Angles);
+        by_angles && motion.is_known_feed() && motion.turns_in_place()
+    };
+    let mut all = moves.iter().filter(alone);
+    let first = all.next()?;
+    let more = match all.count() {
+        0 => String::new(),
+        1 => " (and in 1 more block)".to_owned(),
+        n => format!(" (and in {n} more blocks)"),
+    };
+    Some(Warning {
+        line: first.line,
+        text: format!(
+            "rotary axes turn alone here{more}: where the block is corrected its pieces keep F, which counts the way of the tip then, so that the axes may turn as fast as they can"
+        ),
+    })
 }
