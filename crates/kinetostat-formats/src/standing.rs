@@ -203,6 +203,11 @@ impl Standing {
         found.filter(|_| !again)
     }
 
+    /// The last cut was refused.
+    pub(crate) fn is_refused(&self) -> bool {
+        self.reported.is_some()
+    }
+
     fn why_no_cut(&self, tip: bool, words: &TipWords) -> Option<AxisFault> {
         let TipWords {
             control,

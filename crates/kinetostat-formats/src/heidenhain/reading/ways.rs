@@ -132,7 +132,8 @@ impl Reader<'_> {
         let is_arc = went.arc.is_some();
         let Some(place) = whole.filter(|_| !is_arc || start[2].is_some()) else {
             let reason = "where the tool is, is not wholly known here";
-            let carried = match rapid {
+            // A cut that was refused for its axes says nothing of its place.
+            let carried = match rapid || self.state.standing.is_refused() {
                 true => Carried::Yes,
                 false => Carried::IfLeft,
             };
