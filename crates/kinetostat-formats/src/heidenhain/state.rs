@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::heidenhain::datum::{Bend, Datum};
-use crate::heidenhain::reading::turned_axes::TipControl;
+use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
 use crate::standing::Standing;
 

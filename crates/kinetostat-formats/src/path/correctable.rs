@@ -19,7 +19,7 @@ use crate::path::header::{mark_line, with_header};
 use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
-use crate::path::turned_axes::by_angles;
+use crate::path::turned_axes::{angles_as_written, angles_of_piece, by_angles, refuse_lost_turn};
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 
@@ -143,7 +143,8 @@ impl Correctable<'_> {
                 orientation: (piece.orientation)
                     .filter(|_| angles.is_none())
                     .map(|o| self.as_stated(own, to_own.rotation * o)),
-                rotary_deg: angles.map(|turn| self.turned_axes(turn, piece)),
+                rotary_deg: angles
+                    .map(|turn| angles_of_piece(&self.path.path.tool_axis, turn, piece)),
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
@@ -218,7 +219,7 @@ impl Correctable<'_> {
             };
             let made: Vec<&Move> = moves.by_ref().take(count).collect();
             for (made, piece) in made.iter().zip(&planned.pieces) {
-                angles.push(self.angles_as_written(index, made, piece)?);
+                angles.push(angles_as_written(&self.path.path, index, made, piece)?);
             }
             let ends: Vec<_> = (made.into_iter().zip(&planned.pieces))
                 .map(|(m, piece)| WrittenEnd {
@@ -340,7 +341,7 @@ impl MachineProgram for Correctable<'_> {
             false => self.circles(),
         };
         let plan = Plan::with_circles(&self.path.path, field, (options, &circles), monitor)?;
-        self.refuse_lost_turn(&plan)?;
+        refuse_lost_turn(&self.path.path, &plan)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
         let planned = plan.moves().iter().enumerate();
         let pieces: Vec<Vec<Piece>> = planned

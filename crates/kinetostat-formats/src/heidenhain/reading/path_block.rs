@@ -81,7 +81,7 @@ impl Reader<'_> {
         if let Some(at) = parsed.compensation {
             self.state.aside = !words[at].is("R");
         }
-        let turns = self.turn_axes(words, &parsed, span, &acts);
+        let turns = self.turn_axes(words, &parsed, span, acts.machine);
         self.moved(block, words, (&parsed, turns), span, &acts);
         let functions = parsed.functions.iter().map(|(_, number)| *number);
         for number in functions.filter(|number| matches!(number, 127 | 129)) {

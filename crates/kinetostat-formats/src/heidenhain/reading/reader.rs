@@ -21,7 +21,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// Reads Heidenhain conversational programs (`.h`), each file for itself.
 ///
 /// Places are those that the blocks state, in mm in the axes of the control's preset: datum shifts, mirror images, rotations and
-/// scalings are followed. What is not stated stays as it was. Circles are [`crate::MotionKind::Arc`]. The work object is `PRESET`, the tool
+/// scalings are followed, and so are angles of the rotary axes that [`ReadOptions::rotary_axes`] names. What is not stated stays as it was. Circles are [`crate::MotionKind::Arc`]. The work object is `PRESET`, the tool
 /// `TOOL:5`; where they are, the options say. Places of the machine (`M91`) and retractions (`M140`) are carried. A program that
 /// repeats, jumps, counts or calls drilling cycles is refused: [`crate::expand_heidenhain`] writes it flat.
 ///

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::reading::walker::Reader;
-use crate::heidenhain::reading::ways::Acts;
+use crate::heidenhain::tip_control::TipControl;
 use crate::heidenhain::words::Word;
 use crate::standing::{AxisTurn, TipWords};
 
@@ -13,16 +13,6 @@ const TIP: TipWords = TipWords {
     rapid: "L ",
     zero: "+0 FMAX",
 };
-
-/// How tool centre point control is in force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct TipControl {
-    pub on: bool,
-    /// AXIS SPAT: words of rotary axes are angles in space.
-    pub spatial: bool,
-    /// PATHCTRL VECTOR: the tool's axis stays in a plane.
-    pub by_vector: bool,
-}
 
 impl Reader<'_> {
     /// FUNCTION TCPM and FUNCTION RESET TCPM.
@@ -57,13 +47,13 @@ impl Reader<'_> {
         }
     }
 
-    /// Turns the axes as the words of a block say; whether there are words of followed axes.
+    /// Turns the axes as the words of a block say, to places of the machine with M91; whether there are words of followed axes.
     pub(crate) fn turn_axes(
         &mut self,
         words: &[Word],
         parsed: &PathWords,
         span: &Range<usize>,
-        acts: &Acts,
+        machine: bool,
     ) -> bool {
         self.state.standing.begin_block();
         let mut turns = false;
@@ -83,7 +73,7 @@ impl Reader<'_> {
                 continue;
             };
             turns = true;
-            if acts.machine {
+            if machine {
                 self.state.standing.send_axis(place);
                 if self.state.tip.on {
                     self.state.lost();
