@@ -55,6 +55,7 @@ mod path;
 mod poses;
 mod rapid;
 mod siemens;
+mod standing;
 mod table;
 mod text;
 mod writing;

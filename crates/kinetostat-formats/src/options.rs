@@ -72,6 +72,9 @@ pub struct ReadOptions {
     pub cutter_compensation: CutterCompensation,
     /// Unit of the lengths of a list of poses that does not state it; none where it must.
     pub length_unit: Option<LengthUnit>,
+    /// Letters of the machine's rotary axes whose words are followed (SINUMERIK under `TRAORI`, Heidenhain with `M128`): those of
+    /// [`crate::PathOptions::rotary`], in their order. Words of other axes that turn are refused.
+    pub rotary_axes: Vec<char>,
     /// The arm of a table of joint values; without it such values are read, and not corrected.
     pub arm: Option<TableArm>,
 }

@@ -134,6 +134,8 @@ impl Setting {
     pub(crate) fn turned_by(&mut self, rotary: Option<Arc<RotaryAxes>>) {
         if let Some(robot) = &mut self.robot {
             robot.settings.making.rotary.clone_from(&rotary);
+            let axes = rotary.iter().flat_map(|rotary| &rotary.axes);
+            robot.settings.reading.rotary_axes = axes.map(|axis| axis.letter).collect();
             if rotary.is_some() {
                 robot.reading = Reading::new();
             }

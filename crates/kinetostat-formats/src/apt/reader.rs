@@ -103,6 +103,6 @@ pub fn read_apt(
         motions,
         findings,
         declarations: Vec::new(),
-        even_axes: std::collections::BTreeSet::new(),
+        rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }

@@ -11,6 +11,15 @@ pub(crate) struct Coordinate {
     pub step: bool,
 }
 
+/// The word of a rotary axis: its place, A, B or C, degrees, whether it is a step from where the axis stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RotaryWord {
+    pub at: usize,
+    pub letter: u8,
+    pub value: f64,
+    pub step: bool,
+}
+
 /// How the feed is stated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum FeedWord {
@@ -44,8 +53,8 @@ pub(crate) struct PathWords {
     pub compensation: Option<usize>,
     /// Miscellaneous functions: the word, the number.
     pub functions: Vec<(usize, u32)>,
-    /// Values of A, B, C.
-    pub rotary: Vec<f64>,
+    /// A, B, C, IA, IB, IC.
+    pub rotary: Vec<RotaryWord>,
     /// TX, TY, TZ.
     pub axis: [Option<f64>; 3],
     /// Words that say where the block ends, all of them.
@@ -168,7 +177,17 @@ impl PathWords {
             b"FAUTO" => self.feed = FeedWord::Auto,
             b"FU" | b"FZ" | b"FT" | b"FMAXT" => self.feed = FeedWord::Other,
             b"A" | b"B" | b"C" | b"IA" | b"IB" | b"IC" => {
-                self.rotary.push(word.value().ok_or(odd(word, at))?);
+                let value = word.value().ok_or(odd(word, at))?;
+                let letter = letters.letters().last().copied().unwrap_or_default();
+                if self.rotary.iter().any(|other| other.letter == letter) {
+                    return Err(Odd::Twice(at));
+                }
+                self.rotary.push(RotaryWord {
+                    at,
+                    letter,
+                    value,
+                    step: letters.letters().len() > 1,
+                });
             }
             b"NX" | b"NY" | b"NZ" => {
                 word.value().ok_or(odd(word, at))?;

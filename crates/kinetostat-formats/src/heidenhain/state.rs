@@ -3,7 +3,9 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::heidenhain::datum::{Bend, Datum};
+use crate::heidenhain::tip_control::TipControl;
 use crate::model::motion::Speed;
+use crate::standing::Standing;
 
 /// The pole of polar coordinates and the centre of circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,11 +52,16 @@ pub(crate) struct State {
     pub calls: bool,
     /// The path is moved aside by the tool's radius.
     pub aside: bool,
+    pub tip: TipControl,
+    /// M126: rotary axes turn the shorter way.
+    pub shorter: bool,
+    /// The machine's rotary axes whose words are followed.
+    pub standing: Standing,
 }
 
 impl State {
-    /// Of the beginning of a file.
-    pub(crate) fn new() -> Self {
+    /// Of the beginning of a file; `rotary_axes` are those whose words are followed.
+    pub(crate) fn new(rotary_axes: &[char]) -> Self {
         Self {
             place: [None; 3],
             unsettled: false,
@@ -75,6 +82,9 @@ impl State {
             normal: None,
             calls: false,
             aside: false,
+            tip: TipControl::default(),
+            shorter: false,
+            standing: Standing::of_letters(rotary_axes),
         }
     }
 

@@ -15,6 +15,7 @@ use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -123,7 +124,7 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
             motions,
             findings,
             declarations: targets.declarations,
-            even_axes: std::collections::BTreeSet::new(),
+            rotary: StatedAxes::default(),
         },
         faults,
     }

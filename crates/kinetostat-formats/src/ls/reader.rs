@@ -17,6 +17,7 @@ use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::{Declaration, MotionSite};
+use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -346,7 +347,7 @@ impl Reader<'_> {
                 motions: self.motions,
                 findings: self.findings,
                 declarations: self.declarations,
-                even_axes: std::collections::BTreeSet::new(),
+                rotary: StatedAxes::default(),
             },
             faults: self.faults,
         }

@@ -13,4 +13,5 @@ pub(crate) mod parsed;
 pub(crate) mod program;
 pub(crate) mod site;
 pub(crate) mod stated_arm;
+pub(crate) mod stated_axes;
 pub(crate) mod target;

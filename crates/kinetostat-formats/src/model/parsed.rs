@@ -1,9 +1,8 @@
 //! A program with what is refused in it.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::stated_axes::StatedAxes;
 use crate::text::source::SourceFile;
 
 /// A program as far as it could be read, and what is refused: with a fault it must not be corrected.
@@ -24,7 +23,7 @@ impl Parsed {
                 motions: Vec::new(),
                 findings: Vec::new(),
                 declarations: Vec::new(),
-                even_axes: BTreeSet::new(),
+                rotary: StatedAxes::default(),
             },
             faults,
         }

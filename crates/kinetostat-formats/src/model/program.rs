@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::model::motion::Motion;
 use crate::model::site::Declaration;
+use crate::model::stated_axes::StatedAxes;
 use crate::text::source::SourceFile;
 
 /// The languages that are read.
@@ -63,8 +64,8 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
-    /// The motions in which the rotary axes of a machine turn evenly, where others lead the tool's axis on a great circle.
-    pub(crate) even_axes: BTreeSet<usize>,
+    /// What it says of the rotary axes of a machine.
+    pub(crate) rotary: StatedAxes,
 }
 
 impl RobotProgram {

@@ -1,15 +1,17 @@
-//! How the rotary axes of a machine turn where a program states the direction of the tool's axis alone.
+//! How the rotary axes of a machine turn where a program states their angles, or the direction of the tool's axis alone.
 //!
 //! Where the axes stand at the end of a motion follows from the direction, and from where they stood before. How they get there is the
 //! controller's law: SINUMERIK takes the tool's axis on a great circle (ORIVECT, the basic setting of G group 51; a machine whose MD21104
 //! leaves it to ORIWKS does the same) or turns the axes evenly (ORIAXES); the postprocessors to which APT goes divide a motion until
-//! the tool's axis stays in the plane of both directions; Heidenhain with M128 turns the axes evenly (PATHCTRL AXIS).
+//! the tool's axis stays in the plane of both directions; Heidenhain with M128 turns the axes evenly (PATHCTRL AXIS). Angles end where
+//! they are stated, and on the way the same laws hold.
 
-use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, Unreached};
+use kinetostat_program::{GreatCircle, OffCircle, RotaryAxes, StatedBy, Unreached};
 use nalgebra::Vector3;
 
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::{OVER, axis_of};
 use crate::path::fault::PathError;
 
@@ -20,33 +22,57 @@ pub(crate) struct AxesOfMotion {
     pub end_deg: Vec<f64>,
     /// None where they turn evenly.
     pub great_circle: Option<GreatCircle>,
+    /// What the program says of them.
+    pub stated: StatedBy,
 }
 
 /// Whether the tool's axis goes on a great circle in a motion.
 pub(crate) fn on_great_circle(program: &RobotProgram, index: usize) -> bool {
     match program.language {
         Language::Heidenhain => false,
-        _ => !program.even_axes.contains(&index),
+        _ => !program.rotary.even.contains(&index),
     }
 }
 
-/// What the rotary axes do in every motion; they stay where a motion states no axis.
+/// What the rotary axes do in every motion; they stay where a motion states no axis. Nothing is known of them where a program that states
+/// their angles does not say them.
 ///
 /// Of the angles that point the tool along the axis, those nearest to the ones before, within the limits of the axes; at first, to zero.
 pub(crate) fn axes_of_motions(
     program: &RobotProgram,
     rotary: &RotaryAxes,
     is_rapid: impl Fn(&Motion) -> bool,
-) -> Result<Vec<AxesOfMotion>, Vec<PathError>> {
+) -> Result<Vec<Option<AxesOfMotion>>, Vec<PathError>> {
     let mut faults = Vec::new();
     let mut last = vec![0.0; rotary.axes.len()];
     let mut stated = false;
+    let has_angles = program.rotary.has_angles();
     let mut all = Vec::with_capacity(program.motions.len());
     for (index, motion) in program.motions.iter().enumerate() {
+        match program.rotary.motions.get(&index).filter(|_| has_angles) {
+            Some(AxesStated::Open) => {
+                all.push(None);
+                continue;
+            }
+            Some(AxesStated::Angles { start, end }) => {
+                let on_circle = on_great_circle(program, index) && motion.follows.is_some();
+                let (own, why_not) = by_angles(rotary, [start, end], on_circle);
+                // In air the axes may go over to other angles.
+                if let Some((reason, remedy)) = why_not.filter(|_| !is_rapid(motion)) {
+                    faults.push(fault_at(program, motion, reason, remedy));
+                }
+                stated = true;
+                last.clone_from(&own.end_deg);
+                all.push(Some(own));
+                continue;
+            }
+            None => {}
+        }
         let mut own = AxesOfMotion {
             start_deg: last.clone(),
             end_deg: last.clone(),
             great_circle: None,
+            stated: StatedBy::Direction,
         };
         if let Some(axis) = axis_of(program, motion) {
             let follows = stated && motion.follows.is_some();
@@ -68,7 +94,7 @@ pub(crate) fn axes_of_motions(
             stated = true;
         }
         last.clone_from(&own.end_deg);
-        all.push(own);
+        all.push(Some(own));
     }
     match faults.is_empty() {
         true => Ok(all),
@@ -87,6 +113,7 @@ fn of_motion(
             start_deg: circle.start_deg().to_vec(),
             end_deg: circle.end_deg().to_vec(),
             great_circle: Some(circle),
+            stated: StatedBy::Direction,
         });
     }
     match rotary.angles_towards(axis, last) {
@@ -94,6 +121,7 @@ fn of_motion(
             start_deg: last.to_vec(),
             end_deg,
             great_circle: None,
+            stated: StatedBy::Direction,
         }),
         Err(reason) => Err(OffCircle::Unreached(*axis, reason)),
     }
@@ -140,6 +168,10 @@ fn fault(
             }
         }
     };
+    fault_at(program, motion, reason, remedy)
+}
+
+fn fault_at(program: &RobotProgram, motion: &Motion, reason: String, remedy: &str) -> PathError {
     PathError {
         file: program.files[motion.file].name().to_owned(),
         line: motion.line,
@@ -147,6 +179,61 @@ fn fault(
         remedy: remedy.to_owned(),
     }
 }
+
+/// What the axes do between stated angles, and why it is not the great circle where it has to be.
+fn by_angles(
+    rotary: &RotaryAxes,
+    [start, end]: [&Vec<f64>; 2],
+    on_circle: bool,
+) -> (AxesOfMotion, Option<(String, &'static str)>) {
+    let mut own = AxesOfMotion {
+        start_deg: start.clone(),
+        end_deg: end.clone(),
+        great_circle: None,
+        stated: StatedBy::Angles,
+    };
+    let tool_axis = rotary.tool_at_zero.inverse() * Vector3::z();
+    let [from, to] = [start, end].map(|angles| rotary.tool_direction_at(angles, &tool_axis));
+    if !on_circle || (from - to).norm() < SAME {
+        return (own, None);
+    }
+    const EVENLY: &str = "write ORIAXES where the machine turns each axis evenly, or let the CAM system write a block between";
+    let why = match GreatCircle::new(rotary, start, &to) {
+        Ok(circle) => {
+            let both = circle.end_deg().iter().zip(end);
+            if both.into_iter().all(|(a, b)| (a - b).abs() < SAME_DEG) {
+                own.start_deg = circle.start_deg().to_vec();
+                own.great_circle = Some(circle);
+                return (own, None);
+            }
+            format!(
+                "the tool's axis goes on the great circle (ORIVECT, the basic setting), and so the axes come to {}, not to {}",
+                words_of_angles(rotary, circle.end_deg()),
+                words_of_angles(rotary, end)
+            )
+        }
+        Err(OffCircle::Opposite) => OVER.0.to_owned(),
+        Err(OffCircle::Unreached(_, Unreached::Limits(angles))) => format!(
+            "the tool's axis goes on the great circle (ORIVECT, the basic setting), and on it {}",
+            rotary.words_of_limits(&angles)
+        ),
+        Err(OffCircle::Unreached(_, Unreached::Direction)) => {
+            "the axes of the machine do not follow the great circle on which the tool's axis goes (ORIVECT, the basic setting)".to_owned()
+        }
+    };
+    (own, Some((why, EVENLY)))
+}
+
+fn words_of_angles(rotary: &RotaryAxes, angles: &[f64]) -> String {
+    let each = rotary.axes.iter().zip(angles);
+    let words: Vec<String> = each
+        .map(|(axis, angle)| format!("{}{angle:.3}", axis.letter))
+        .collect();
+    words.join(" ")
+}
+
+/// Angles that differ by less are one, deg: what the arithmetic of directions leaves.
+const SAME_DEG: f64 = 1e-4;
 
 /// Directions nearer than this are one.
 const SAME: f64 = 1e-9;

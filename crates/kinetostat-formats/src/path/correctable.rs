@@ -19,6 +19,7 @@ use crate::path::header::{mark_line, with_header};
 use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
+use crate::path::turned_axes::{angles_as_written, angles_of_piece, by_angles, refuse_lost_turn};
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 
@@ -132,13 +133,18 @@ impl Correctable<'_> {
         // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
         let same_speed =
             |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
+        let angles = by_angles(motion);
         let mut pieces: Vec<Piece> = plan
             .pieces
             .iter()
             .map(|piece| Piece {
                 motion: number,
                 position_mm: (to_own * nalgebra::Point3::from(piece.position_mm)).coords,
-                orientation: (piece.orientation).map(|o| self.as_stated(own, to_own.rotation * o)),
+                orientation: (piece.orientation)
+                    .filter(|_| angles.is_none())
+                    .map(|o| self.as_stated(own, to_own.rotation * o)),
+                rotary_deg: angles
+                    .map(|turn| angles_of_piece(&self.path.path.tool_axis, turn, piece)),
                 via_mm: piece
                     .via_mm
                     .map(|via| (to_own * nalgebra::Point3::from(via)).coords),
@@ -199,10 +205,11 @@ impl Correctable<'_> {
         plan: &Plan<'_>,
         changed: &[bool],
         files: &[(String, Vec<u8>)],
-    ) -> Result<Vec<WrittenMove>, PathWriteError> {
+    ) -> Result<(Vec<WrittenMove>, Vec<Vec<f64>>), PathWriteError> {
         let (_, again) = self.read_again(files)?;
         let mut moves = again.path.moves.iter();
         let mut written = Vec::with_capacity(plan.moves().len());
+        let mut angles = Vec::new();
         for ((index, planned), changed) in plan.moves().iter().enumerate().zip(changed) {
             let count = planned.pieces.len();
             // Where rotary axes turn the tool, the angles of the program say how it stands: written directions have fewer digits.
@@ -211,8 +218,11 @@ impl Correctable<'_> {
                 turn.is_none_or(|turn| turn.rotary.is_none())
                     .then(|| motion.orientation(1.0))?
             };
-            let ends: Vec<_> = (moves.by_ref().take(count))
-                .zip(&planned.pieces)
+            let made: Vec<&Move> = moves.by_ref().take(count).collect();
+            for (made, piece) in made.iter().zip(&planned.pieces) {
+                angles.push(angles_as_written(&self.path.path, index, made, piece)?);
+            }
+            let ends: Vec<_> = (made.into_iter().zip(&planned.pieces))
                 .map(|(m, piece)| WrittenEnd {
                     position_mm: m.end,
                     orientation: stands(m),
@@ -242,7 +252,7 @@ impl Correctable<'_> {
                 "it has more motions than were written".to_owned(),
             ));
         }
-        Ok(written)
+        Ok((written, angles))
     }
 
     fn read_again(
@@ -325,8 +335,14 @@ impl MachineProgram for Correctable<'_> {
         {
             return Err(PathWriteError::AlreadyCompensated { line });
         }
-        let circles = self.circles();
+        let turns_axes =
+            field.turns_tool() && self.path.path.moves.iter().any(|m| by_angles(m).is_some());
+        let circles = match turns_axes {
+            true => vec![Circles::Straight; self.path.motions.len()],
+            false => self.circles(),
+        };
         let plan = Plan::with_circles(&self.path.path, field, (options, &circles), monitor)?;
+        refuse_lost_turn(&self.path.path, &plan)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
         let planned = plan.moves().iter().enumerate();
         let pieces: Vec<Vec<Piece>> = planned
@@ -347,7 +363,7 @@ impl MachineProgram for Correctable<'_> {
                 options.max_line_bytes.min(LINE_BYTES),
             );
         }
-        let written = self.written_moves(&plan, &changed, &files)?;
+        let (written, angles) = self.written_moves(&plan, &changed, &files)?;
         let bytes = match self.path.file < files.len() {
             true => files.remove(self.path.file).1,
             false => Vec::new(),
@@ -355,6 +371,9 @@ impl MachineProgram for Correctable<'_> {
         let size = (self.statement_count(), self.bytes().len());
         let mut corrected = plan.corrected(size, &written, bytes);
         corrected.beside = files;
+        if turns_axes {
+            corrected.rotary_deg = angles;
+        }
         corrected.accounting.header_lines = header_lines;
         Ok(corrected)
     }

@@ -3,8 +3,7 @@
 use std::sync;
 
 use kinetostat_program::{
-    Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, RotaryTurn, StatedBy,
-    ToolTurn,
+    Arc, CoordinateWords, Curve, Feed, FeedMode, Knowledge, Move, MoveKind, RotaryTurn, ToolTurn,
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 
@@ -103,10 +102,9 @@ impl Maker<'_> {
     ) -> Option<Box<ToolTurn>> {
         let motion = &self.program.motions[index];
         match &self.rotary {
-            Some((axes, motions)) => {
-                let own = &motions[index];
+            Some((axes, motions)) => motions[index].as_ref().map(|own| {
                 let whole = known == Knowledge::Whole;
-                Some(Box::new(ToolTurn::rotary(RotaryTurn {
+                Box::new(ToolTurn::rotary(RotaryTurn {
                     axes: sync::Arc::clone(axes),
                     origin_deg: vec![0.0; own.end_deg.len()],
                     start_deg: match whole {
@@ -115,9 +113,9 @@ impl Maker<'_> {
                     },
                     end_deg: own.end_deg.clone(),
                     great_circle: own.great_circle.clone().filter(|_| whole),
-                    stated: StatedBy::Direction,
-                })))
-            }
+                    stated: own.stated,
+                }))
+            }),
             None => self.states_orientation(motion).then(|| {
                 let start = nearest(from.rotation, &to.rotation);
                 let axis = Unit::new_normalize(self.tool_axis);

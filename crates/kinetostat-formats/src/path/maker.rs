@@ -23,14 +23,14 @@ pub(super) struct Maker<'a> {
     /// How the tool stands at the end of every motion, in axes of the path, where the program states its axis alone and that leans.
     pub turns: Option<Vec<Option<UnitQuaternion<f64>>>>,
     /// What the rotary axes of the machine do, instead.
-    pub rotary: Option<(sync::Arc<RotaryAxes>, Vec<AxesOfMotion>)>,
+    pub rotary: Option<(sync::Arc<RotaryAxes>, Vec<Option<AxesOfMotion>>)>,
     /// From the tip to the holder, in axes of the tool.
     pub tool_axis: Vector3<f64>,
 }
 
 impl<'a> Maker<'a> {
     /// Of a program with one work object, or in the axes of the robot's base; with the first motion whose tool leans where the program
-    /// states its axis alone.
+    /// states its axis alone, or its rotary axes' angles.
     pub(super) fn of(
         program: &'a RobotProgram,
         options: &'a PathOptions,
@@ -51,7 +51,7 @@ impl<'a> Maker<'a> {
         let is_rapid = |motion: &Motion| maker.is_rapid(motion);
         match &options.rotary {
             Some(_) if in_base => {
-                let reason = "the tool leans on rotary axes of the machine, and the program has several work objects";
+                let reason = "rotary axes of the machine turn the tool, and the program has several work objects";
                 let remedy = "write one program for each work object";
                 return Err(vec![fault_at(program, leaning, reason.to_owned(), remedy)]);
             }

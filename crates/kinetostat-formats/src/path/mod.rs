@@ -23,3 +23,4 @@ pub(crate) mod options;
 pub(crate) mod path_warnings;
 pub(crate) mod read_again;
 pub(crate) mod tools;
+pub(crate) mod turned_axes;

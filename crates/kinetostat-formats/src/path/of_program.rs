@@ -5,14 +5,17 @@ use nalgebra::{Isometry3, UnitQuaternion};
 
 use crate::apt::spindle::spindle_changes;
 use crate::model::frame::FrameUse;
-use crate::model::motion::Runs;
+use crate::model::motion::{Motion, Runs};
 use crate::model::program::{Language, RobotProgram};
+use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::first_leaning;
 use crate::path::fault::PathError;
 use crate::path::maker::Maker;
-use crate::path::motion_faults::{faults_of_motions, has_one_work_object, motions_to_poses};
+use crate::path::motion_faults::{
+    fault_at, faults_of_motions, has_one_work_object, motions_to_poses,
+};
 use crate::path::options::PathOptions;
-use crate::path::path_warnings::{by_rule, warnings_of};
+use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
 
 /// The path of a robot's program, and in which axes it is.
@@ -81,13 +84,29 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     let tools = tools_of(&poses);
     let file = program.motions.first().map_or(0, |motion| motion.file);
     let leaning = first_leaning(program);
-    let maker = Maker::of(program, options, !one, leaning)?;
+    let angled = first_with_angles(program);
+    let letters = options.rotary.iter().flat_map(|rotary| &rotary.axes);
+    let same = letters
+        .map(|axis| axis.letter)
+        .eq(program.rotary.letters.iter().copied());
+    if let (Some(motion), false) = (angled, same) {
+        return Err(vec![fault_at(
+            program,
+            motion,
+            "angles of rotary axes say how the tool stands, and these axes are not those of the machine".to_owned(),
+            "state the axes of the machine, in the order in which their words were read (`rotary`, `rotary_axes`)",
+        )]);
+    }
+    let maker = Maker::of(program, options, !one, leaning.or(angled))?;
     let mut made = path_of_maker(&maker);
     made.warnings.extend(
         leaning
             .iter()
             .flat_map(|motion| by_rule(program, motion, options)),
     );
+    let findings = made.rotary_findings();
+    made.warnings.extend(findings);
+    made.warnings.extend(turns_alone(&made.moves));
     if let (Language::Apt, Some(file)) = (program.language, program.files.get(file)) {
         made.spindle_changes = spindle_changes(file);
     }
@@ -102,6 +121,13 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
         tools,
         file,
     })
+}
+
+/// The first motion at which angles of rotary axes say how the tool stands.
+fn first_with_angles(program: &RobotProgram) -> Option<&Motion> {
+    let mut stated = program.rotary.motions.iter();
+    let first = stated.find(|(_, stated)| matches!(stated, AxesStated::Angles { .. }));
+    program.motions.get(*first?.0)
 }
 
 /// The moves of all motions in their order.

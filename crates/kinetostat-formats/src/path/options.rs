@@ -26,8 +26,9 @@ pub struct PathOptions {
     pub tool_axis: Vector3<f64>,
     /// How the tool is turned about its axis where the program states the axis alone.
     pub turn_about_axis: TurnAboutAxis,
-    /// Rotary axes of the machine, in axes of the program's work object: where a program states the tool's axis alone they point the
-    /// tool along it, within their limits. Between two poses they lead it on the great circle (APT, and SINUMERIK with ORIVECT, its
+    /// Rotary axes of the machine, in axes of the program's work object: where a program states their angles
+    /// ([`crate::ReadOptions::rotary_axes`]) they stand there, and where it states the tool's axis alone they point the tool along it,
+    /// within their limits. Between two poses they lead it on the great circle (APT, and SINUMERIK with ORIVECT, its
     /// basic setting), or turn evenly with the way (SINUMERIK with ORIAXES, Heidenhain). They say how the tool is turned about its axis, too.
     pub rotary: Option<Arc<RotaryAxes>>,
 }

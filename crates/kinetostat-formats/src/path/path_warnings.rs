@@ -1,6 +1,6 @@
 //! What a person should know of a path that was made.
 
-use kinetostat_program::{Knowledge, Move, MoveKind, Warning};
+use kinetostat_program::{Knowledge, Move, MoveKind, StatedBy, Warning};
 use nalgebra::Vector3;
 
 use crate::model::motion::{Motion, MotionKind};
@@ -114,16 +114,47 @@ pub(crate) fn by_rule(
             "the program states the tool's axis alone, here first another one than z: about it the tool is taken to turn {rule}"
         ),
     }];
-    let unstated = |motion: &&Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
-    // APT says z where it says nothing.
-    let first = program.motions.iter().find(unstated);
-    if let (Language::Siemens, Some(motion)) = (program.language, first) {
+    let unstated = |motion: &Motion| matches!(&motion.site.target, TargetSite::Literal(text) if text.convention == OrientationText::Unstated);
+    let has_angles = program.rotary.has_angles();
+    let by_axes = |index: &usize| has_angles && program.rotary.motions.contains_key(index);
+    let mut motions = program.motions.iter().enumerate();
+    let first = motions.find(|(index, motion)| unstated(motion) && !by_axes(index));
+    let words = match program.language {
+        Language::Siemens => Some("A3, B3, C3"),
+        Language::Heidenhain => Some("TX, TY, TZ"),
+        // APT says z where it says nothing.
+        _ => None,
+    };
+    if let (Some(words), Some((_, motion))) = (words, first) {
         warnings.push(Warning {
             line: motion.line,
-            text:
-                "the direction of the tool is not stated here (A3, B3, C3): z of the part is taken"
-                    .to_owned(),
+            text: format!(
+                "the direction of the tool is not stated here ({words}): z of the part is taken"
+            ),
         });
     }
     warnings
+}
+
+/// Blocks whose angles alone change at feed.
+pub(crate) fn turns_alone(moves: &[Move]) -> Option<Warning> {
+    let alone = |motion: &&Move| {
+        let turn = motion.tool_turn.as_ref();
+        let turn = turn.and_then(|turn| turn.rotary.as_ref());
+        let by_angles = turn.is_some_and(|turn| turn.stated == StatedBy::Angles);
+        by_angles && motion.is_known_feed() && motion.turns_in_place()
+    };
+    let mut all = moves.iter().filter(alone);
+    let first = all.next()?;
+    let more = match all.count() {
+        0 => String::new(),
+        1 => " (and in 1 more block)".to_owned(),
+        n => format!(" (and in {n} more blocks)"),
+    };
+    Some(Warning {
+        line: first.line,
+        text: format!(
+            "rotary axes turn alone here{more}: where the block is corrected its pieces keep F, which counts the way of the tip then, so that the axes may turn as fast as they can"
+        ),
+    })
 }

@@ -4,6 +4,8 @@ use kinetostat_program::{
     Corrected, Knowledge, Move, Piece, Verification, WriteError, WriteOptions, irregular,
 };
 
+use nalgebra::UnitQuaternion;
+
 use crate::model::program::RobotProgram;
 use crate::path::fault::broken;
 use crate::path::kept_lines::{Read, kept_lines, lines};
@@ -90,8 +92,8 @@ fn one(
     }
     let wanted = match written.orientations.get(index) {
         Some(wanted) => Some(*wanted),
-        // Rotary axes of a machine go on as they were.
-        None => motion.orientation(piece.share_to),
+        // Rotary axes of a machine go on as they were, or stand where they were written.
+        None => turned_to(motion, written, index).or_else(|| motion.orientation(piece.share_to)),
     };
     let turned = wanted
         .zip(made.orientation(1.0))
@@ -99,7 +101,11 @@ fn one(
     if turned.is_some_and(|angle| angle.is_nan() || angle > TURN) {
         return fail("the tool stands otherwise than was to be written".to_owned());
     }
-    let between = input.axis_alone && motion.known == Knowledge::Whole;
+    let rotary = motion
+        .tool_turn
+        .as_ref()
+        .is_some_and(|turn| turn.rotary.is_some());
+    let between = (input.axis_alone || rotary) && motion.known == Knowledge::Whole;
     if between && !goes_as_stated((input, made), written, (index, piece)) {
         return fail("between its ends the tool stands otherwise than in the program".to_owned());
     }
@@ -140,6 +146,16 @@ fn one(
     speed((program, input), again, (index, piece), found).map_or(Ok(()), fail)
 }
 
+/// How the tool stands at the end of a piece whose angles were corrected.
+fn turned_to(motion: &Move, written: &Corrected, index: usize) -> Option<UnitQuaternion<f64>> {
+    let angles = written
+        .rotary_deg
+        .get(index)
+        .filter(|all| !all.is_empty())?;
+    let rotary = motion.tool_turn.as_ref()?.rotary.as_ref()?;
+    Some(rotary.axes.tool(angles))
+}
+
 /// Whether the tool's axis goes between the ends of a piece as it does in the input, but for what it is turned at them.
 fn goes_as_stated(
     (input, made): (&RobotPath, &Move),
@@ -150,7 +166,9 @@ fn goes_as_stated(
     let tilt = |index: usize| {
         let piece = written.pieces.get(index)?;
         let own = input.path.moves[piece.move_index].orientation(piece.share_to)?;
-        Some(input.turned(written.orientations.get(index)?, &own))
+        let stated = written.orientations.get(index).copied();
+        let to = stated.or_else(|| turned_to(&input.path.moves[piece.move_index], written, index));
+        Some(input.turned(&to?, &own))
     };
     let before = index.checked_sub(1).and_then(tilt);
     let allowed = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0) + TURN_BETWEEN;

@@ -108,7 +108,7 @@ pub fn read_poses(
         motions,
         findings,
         declarations: Vec::new(),
-        even_axes: std::collections::BTreeSet::new(),
+        rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }
 

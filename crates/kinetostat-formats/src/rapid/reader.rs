@@ -5,6 +5,7 @@ use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
 use crate::model::parsed::{Parsed, sort_faults};
 use crate::model::program::{Language, RobotProgram};
+use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
@@ -112,7 +113,7 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
             motions,
             findings,
             declarations: targets.declarations,
-            even_axes: std::collections::BTreeSet::new(),
+            rotary: StatedAxes::default(),
         },
         faults,
     }

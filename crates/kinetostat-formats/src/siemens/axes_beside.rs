@@ -57,7 +57,7 @@ impl Reader<'_> {
         self.fault(
             &item.span,
             format!("the axis {name} moves: where the tool stands on the part then, needs the kinematics of the machine"),
-            "give the parts of the program between such motions one by one, or let the CAM system write directions (A3, B3, C3) with TRAORI",
+            "give the parts of the program between such motions one by one, or describe the axis in the model ([[rotary_axis]]), if it is one of A, B, C that turns",
         );
     }
 }

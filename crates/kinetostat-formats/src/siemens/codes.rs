@@ -52,8 +52,8 @@ impl Reader<'_> {
             }
             "ORIWKS" => self.state.machine_orientation = false,
             "ORIMKS" => self.state.machine_orientation = true,
-            "ORIAXES" => self.state.even_axes = true,
-            "ORIVECT" | "ORIPLANE" => self.state.even_axes = false,
+            "ORIAXES" => self.state.even_axes = Some(true),
+            "ORIVECT" | "ORIPLANE" => self.state.even_axes = Some(false),
             "ORIEULER" => self.state.angles = Some(Angles::Euler),
             "ORIRPY" => self.state.angles = Some(Angles::Rpy),
             _ => words.frame = Change::of(&name).or(words.frame),

@@ -142,6 +142,9 @@ impl Reader<'_> {
     ) {
         let first = name.bytes().next().unwrap_or_default();
         let numbered = name.len() > 1 && name[1..].bytes().all(|byte| byte.is_ascii_digit());
+        if let (1, Some(place)) = (name.len(), self.state.standing.place_of_letter(first)) {
+            return self.rotary_word(item, (place, how), value, words);
+        }
         match name {
             "G" | "N" => {}
             "M" => self.m_word(item, value, words),

@@ -153,6 +153,7 @@ impl Reader<'_> {
             line: block.line.clone(),
             words_at: block.words_at,
             axes: words.axes.clone(),
+            rotary: self.rotary_of(words),
             via: words.via.clone(),
             arc_words: words.arc_words(),
             direction_words: words.direction_words(),
@@ -172,9 +173,7 @@ impl Reader<'_> {
             normal: state.normal,
             corner: words.corner.clone(),
         };
-        if state.even_axes {
-            self.out.even_axes.insert(self.out.motions.len());
-        }
+        self.note_axes(&block.span);
         self.out.motions.push(motion);
         self.out.written.push(written);
         self.state.place = end;

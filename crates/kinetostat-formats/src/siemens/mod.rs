@@ -1,6 +1,6 @@
 //! SINUMERIK 840D: part programs and subprograms as text.
 //!
-//! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`], [`codes`], [`axes_beside`]) and what blocks do
+//! From bytes to [`tokens`], [`expression`]s and [`block`]s; what words say ([`words`], [`gathering`], [`codes`], [`axes_beside`], [`turned_axes`]) and what blocks do
 //! ([`motion`], [`made_motion`], [`circle`], [`arcs`], [`frames`]) along a program that runs straight on ([`scan`]). Programs with jumps, loops, calls and
 //! drilling cycles are run once and written flat ([`flat`]); what is corrected is written by [`writing`]. What each word is taken for stands in [`table`].
 //!
@@ -25,6 +25,7 @@ pub(crate) mod scan;
 pub(crate) mod state;
 pub(crate) mod table;
 pub(crate) mod tokens;
+mod turned_axes;
 pub(crate) mod values;
 mod walker;
 mod words;

@@ -14,10 +14,25 @@ impl Reader<'_> {
     /// Does what the words of a block say; `stated`: whether code and feed were stated behind the last motion before it.
     pub(crate) fn act(&mut self, block: &Block, words: Words, stated: (bool, bool)) {
         self.change_tool(&words);
+        self.state.standing.begin_block();
         if let Some(change) = words.frame {
             return self.change_frame(block, change, &words);
         }
-        let moves = words.has_axes() || words.has_arc() || words.has_direction();
+        if let (true, Some((_, word, _))) = (
+            words.has_rotary() && words.has_direction(),
+            words.rotary.first(),
+        ) {
+            return self.fault(
+                &word.word.clone(),
+                "an angle and a direction of the tool stand in one block",
+                "keep one of them",
+            );
+        }
+        let turns = self.turn_axes(&words);
+        let moves = words.has_axes()
+            || words.has_arc()
+            || words.has_direction()
+            || turns && self.state.oriented && words.purpose == Purpose::Motion;
         match words.purpose {
             Purpose::Dwell | Purpose::Limits => return,
             Purpose::Machine if !words.has_axes() => return,
@@ -28,6 +43,7 @@ impl Reader<'_> {
                 });
                 return self.unknown(block, &words, stated, end, "it is a place of the machine");
             }
+            Purpose::Motion if !moves && turns => return self.turn_alone(block),
             Purpose::Motion if !moves => return,
             Purpose::Motion => {}
         }
@@ -63,6 +79,13 @@ impl Reader<'_> {
             );
         }
         let shifts = matches!(change, Change::Shift | Change::FurtherShift);
+        if let Some((_, word, _)) = words.rotary.iter().find(|(_, word, _)| word.written != 0.0) {
+            return self.fault(
+                &word.word.clone(),
+                "the frame shifts where a rotary axis counts from",
+                "let the CAM system write the angles without it",
+            );
+        }
         let values = [0, 1, 2].map(|axis| {
             words.axes[axis].as_ref().map_or(0.0, |word| match shifts {
                 true => word.mm,
@@ -97,6 +120,7 @@ impl Reader<'_> {
         let direction = stated.and_then(|vector| vector.try_normalize(1e-6));
         match direction {
             Some(direction) => {
+                self.state.standing.take_direction_instead();
                 self.state.direction = Some(self.state.frame.rotation * direction);
             }
             None if by_angles => self.fault(
@@ -114,6 +138,10 @@ impl Reader<'_> {
 
     fn motion(&mut self, block: &Block, words: &Words, stated: (bool, bool)) {
         let start = self.state.place;
+        if self.no_place_by_axes(block) {
+            let reason = "its places are not those of the tool's tip in the part";
+            return self.unknown(block, words, stated, [None; 3], reason);
+        }
         let mut end = [0, 1, 2].map(|axis| match &words.axes[axis] {
             Some(word) if word.step => start[axis].map(|at| at + word.mm),
             Some(word) => Some(word.mm),

@@ -12,7 +12,7 @@ use crate::text::source::SourceFile;
 /// Poses are in the axes of the part: those of the settable frame (G54, G505, ...), which is the work object; programmable frames
 /// (TRANS, ROT) are applied. Where these frames are, and the tools (`T1`), the options say. Where a direction of the tool is
 /// stated (A3, B3, C3, or A2, B2, C2) the orientation turns Z into it by the shortest way. R parameters and variables of a
-/// program that runs straight on are followed; jumps, loops, calls and cycles are refused: [`crate::expand_siemens`] runs them.
+/// program that runs straight on are followed, and so are angles of the rotary axes that [`ReadOptions::rotary_axes`] names; jumps, loops, calls and cycles are refused: [`crate::expand_siemens`] runs them.
 /// Rapids to places of the machine (SUPA, G53) and from places that are not known stay as they are.
 ///
 /// ```
@@ -38,7 +38,7 @@ pub fn read_siemens(
         motions,
         mut faults,
         mut findings,
-        even_axes,
+        rotary,
         ..
     } = scan(&files, options);
     if !faults.is_empty() {
@@ -56,6 +56,6 @@ pub fn read_siemens(
         motions,
         findings,
         declarations: Vec::new(),
-        even_axes,
+        rotary,
     })
 }

@@ -25,6 +25,7 @@ pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
 /// The same, with corners that are refused or followed.
 pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Corners) -> Scan {
     let mut out = Scan::default();
+    out.rotary.letters.clone_from(&options.rotary_axes);
     let frames = options.frames.iter();
     let frames: BTreeMap<String, Isometry3<f64>> = frames
         .map(|(name, frame)| (name.to_ascii_uppercase(), *frame))
@@ -40,7 +41,7 @@ pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Co
             frames: &frames,
             file,
             index,
-            state: State::new(),
+            state: State::new(&options.rotary_axes),
             variables: Variables::default(),
             corners,
         };
@@ -91,6 +92,7 @@ impl Reader<'_> {
         if self.out.faults.len() > faults {
             // What the block does is not known: its places are taken as stated.
             self.state.lost = true;
+            self.turn_axes(&words);
             for (axis, word) in words.axes.iter().enumerate() {
                 if let Some(word) = word.as_ref().filter(|word| !word.step) {
                     self.state.place[axis] = Some(word.mm);

@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::standing::Standing;
+
 /// How the tool goes to the next place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Code {
@@ -114,8 +116,13 @@ pub(crate) struct State {
     pub angles: Option<Angles>,
     /// ORIMKS.
     pub machine_orientation: bool,
-    /// ORIAXES; else ORIVECT, the basic setting, is in force: the tool's axis goes on a great circle.
-    pub even_axes: bool,
+    /// ORIAXES; or ORIVECT: the tool's axis goes on a great circle. Where neither is stated, ORIMKS turns the axes evenly, and ORIVECT
+    /// is the basic setting.
+    pub even_axes: Option<bool>,
+    /// It was remarked that neither is stated.
+    pub law_remarked: bool,
+    /// The machine's rotary axes whose words are followed.
+    pub standing: Standing,
     /// Direction of the tool in the part's axes, where it was stated.
     pub direction: Option<Vector3<f64>>,
     /// Where the tool is, in the frame's axes, mm.
@@ -134,8 +141,8 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a program.
-    pub(crate) fn new() -> Self {
+    /// Of the beginning of a program; `rotary_axes` are those whose words are followed.
+    pub(crate) fn new(rotary_axes: &[char]) -> Self {
         Self {
             code: Code::Line,
             normal: 2,
@@ -153,7 +160,9 @@ impl State {
             oriented: false,
             angles: None,
             machine_orientation: false,
-            even_axes: false,
+            even_axes: None,
+            law_remarked: false,
+            standing: Standing::of_letters(rotary_axes),
             direction: None,
             place: [None; 3],
             last: None,

@@ -1,6 +1,6 @@
 //! What the walk over a program knows and has found, and how it says what is wrong.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
@@ -9,7 +9,9 @@ use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
 use crate::model::program::Finding;
+use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
+use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
 use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
 use crate::siemens::tokens::Broken;
@@ -24,8 +26,8 @@ pub(crate) struct Scan {
     pub written: Vec<Written>,
     pub findings: Vec<Finding>,
     pub faults: Vec<ProgramError>,
-    /// Motions under ORIAXES.
-    pub even_axes: BTreeSet<usize>,
+    /// What motions say of rotary axes.
+    pub rotary: StatedAxes,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
 }
@@ -40,6 +42,9 @@ pub(crate) struct Written {
     /// X, Y, Z of its end; of the point on a CIP.
     pub axes: [Option<Coordinate>; 3],
     pub via: [Option<Coordinate>; 3],
+    /// Words of rotary axes, the axis among those that are followed with each; and the whole turns between the angles of all of them
+    /// and those that count on, deg.
+    pub rotary: (Vec<(usize, Coordinate, How)>, Vec<f64>),
     /// Words that an end elsewhere makes void.
     pub arc_words: Vec<Range<usize>>,
     pub direction_words: Vec<Range<usize>>,

@@ -47,6 +47,8 @@ pub(crate) struct Words {
     pub direction: [Option<(Range<usize>, f64)>; 3],
     /// A2, B2, C2, degrees.
     pub angles: [Option<(Range<usize>, f64)>; 3],
+    /// Words of rotary axes that are followed: the axis among them, its word in degrees, how it counts.
+    pub rotary: Vec<(usize, Coordinate, How)>,
     /// The word of the code of motion.
     pub code: Option<Range<usize>>,
     /// F, and its number where it is one.
@@ -63,6 +65,11 @@ impl Words {
     /// Whether a place along X, Y or Z is stated.
     pub(crate) fn has_axes(&self) -> bool {
         self.axes.iter().any(Option::is_some)
+    }
+
+    /// Whether an angle of a rotary axis is stated.
+    pub(crate) fn has_rotary(&self) -> bool {
+        !self.rotary.is_empty()
     }
 
     /// Whether an arc is stated.

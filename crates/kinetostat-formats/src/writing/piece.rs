@@ -22,6 +22,9 @@ pub struct Piece {
     /// Where a piece of a circular motion that is a circle itself passes between its start and its end, mm; without it the piece
     /// is straight. Of several pieces RAPID, KRL, FANUC TP and SINUMERIK programs have circles.
     pub via_mm: Option<Vector3<f64>>,
+    /// Where rotary axes of a machine stand there, deg, in the order of [`crate::ReadOptions::rotary_axes`], where the program states
+    /// their angles (SINUMERIK, Heidenhain); none for those of the motion's end.
+    pub rotary_deg: Option<Vec<f64>>,
     /// A place of the axis of the arc on which a piece of an arc goes there, mm: in the sense of that arc, about an axis of the same
     /// direction, by less than a turn, with an even rise. Of Heidenhain programs; without it the piece is straight.
     pub centre_mm: Option<Vector3<f64>>,
@@ -42,6 +45,7 @@ impl Piece {
             motion,
             position_mm,
             orientation: None,
+            rotary_deg: None,
             via_mm: None,
             centre_mm: None,
             via_orientation: None,

@@ -12,6 +12,7 @@ mod all_faults;
 mod apt;
 mod axes_alone;
 mod axes_on_circles;
+mod axis_angles;
 mod chance;
 mod circles;
 mod closed_circles;

@@ -42,7 +42,11 @@ pub(crate) fn odd_tool_axis(task: &Task<'_>) -> Option<Warning> {
         }
     }
     let line = first.filter(|_| along > MOST * all)?;
-    let [x, y, z] = [0, 1, 2].map(|k| path.tool_axis[k]);
+    // What a rotation leaves of a zero says nothing.
+    let [x, y, z] = [0, 1, 2].map(|k| match path.tool_axis[k].abs() < 1e-9 {
+        true => "0".to_owned(),
+        false => short(path.tool_axis[k]),
+    });
     Some(Warning::at_line(
         WarningCode::OddToolAxis,
         line,

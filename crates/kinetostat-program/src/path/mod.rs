@@ -14,6 +14,7 @@ pub(crate) mod pauses;
 pub(crate) mod position_offset;
 pub(crate) mod rotary;
 pub(crate) mod rotary_angles;
+pub(crate) mod rotary_findings;
 pub(crate) mod rotary_turn;
 pub(crate) mod spindle;
 pub(crate) mod tool_change;

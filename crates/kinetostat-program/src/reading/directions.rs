@@ -35,6 +35,16 @@ pub(crate) fn with_circle(mut turn: Box<ToolTurn>, circle: Option<GreatCircle>) 
     turn
 }
 
+/// A fault of a block, at one of its words.
+fn refused(block: &Block<'_>, word: u8, reason: &str, remedy: &str) -> ProgramError {
+    block.refuse(
+        ProgramErrorKind::Ambiguous,
+        block.word(word),
+        reason,
+        remedy,
+    )
+}
+
 impl RotaryWords<'_> {
     /// What the block of a G43.4 or G43.5 says of the way between directions; none of G43.4.
     pub fn law_of_directions(
@@ -42,14 +52,7 @@ impl RotaryWords<'_> {
         block: &Block<'_>,
         modes: &Modes,
     ) -> Result<Option<DirectionLaw>, ProgramError> {
-        let refuse = |word: u8, reason: &str, remedy: &str| {
-            Err(block.refuse(
-                ProgramErrorKind::Ambiguous,
-                block.word(word),
-                reason,
-                remedy,
-            ))
-        };
+        let refuse = |word, reason: &str, remedy: &str| Err(refused(block, word, reason, remedy));
         let law = match block.value(b'P') {
             None => DirectionLaw::Evenly,
             Some(0.0) => DirectionLaw::Evenly,
@@ -75,8 +78,8 @@ impl RotaryWords<'_> {
         let Some(axes) = self.axes() else {
             return refuse(
                 b'G',
-                "G43.5 (directions of the tool, I J K): which angles they are, is not known without the machine's rotary axes",
-                "describe them in the model ([[rotary_axis]]); a program with G43.5 is not expanded (--expand)",
+                "G43.5 (directions of the tool, I J K): a program with it is not written flat",
+                "leave out --expand where the program has no loops, variables, subprograms and cycles; or let the CAM system write it without them, or with angles (G43.4)",
             );
         };
         if axes.axes.len() > 2 {
@@ -115,9 +118,9 @@ impl RotaryWords<'_> {
         let leans = block.value(b'Q').is_some_and(|angle| angle != 0.0);
         match leans && modes.tool_centre_point {
             false => Ok(()),
-            true => Err(block.refuse(
-                ProgramErrorKind::Ambiguous,
-                block.word(b'Q'),
+            true => Err(refused(
+                block,
+                b'Q',
                 "Q leans the tool from the direction that is stated",
                 "let the CAM system write the direction of the tool itself, without Q",
             )),
@@ -134,14 +137,11 @@ impl RotaryWords<'_> {
         let (Some(law), Some(axes)) = (modes.directions, self.axes()) else {
             return Ok(None);
         };
-        let refuse = |word: u8, reason: &str, remedy: &str| {
-            Err(block.refuse(
-                ProgramErrorKind::Ambiguous,
-                block.word(word),
-                reason,
-                remedy,
-            ))
-        };
+        // What follows from a refused G43.5 is not reported again.
+        if modes.axes_in_doubt {
+            return Ok(None);
+        }
+        let refuse = |word, reason: &str, remedy: &str| Err(refused(block, word, reason, remedy));
         if matches!(motion, Motion::Clockwise | Motion::CounterClockwise) {
             return refuse(
                 b'G',

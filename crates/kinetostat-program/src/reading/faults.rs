@@ -66,6 +66,9 @@ pub(crate) fn take_over_understood(
     // A fault of the modes is the one that is reported already.
     let _ = interpreter.modes.set(&block);
     let codes = &block.codes;
+    if codes.tool_centre_point {
+        interpreter.modes.doubt_axes(codes.by_direction);
+    }
     let elsewhere = codes.position_offset.is_some() || codes.machine.is_some();
     if block.is_vendor() || elsewhere || codes.dwell && !block.dwells_before_motion() {
         return;

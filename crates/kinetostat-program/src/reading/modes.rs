@@ -33,6 +33,8 @@ pub(crate) struct Modes {
     pub tool_centre_point: bool,
     /// How the tool turns between directions I, J and K (G43.5); none where angles say how it stands.
     pub directions: Option<DirectionLaw>,
+    /// A block that began tool centre point control was refused: what its axes do is not asked until the next one.
+    pub axes_in_doubt: bool,
     /// H of the G43 in force, where it names one.
     length_number: Option<f64>,
 }
@@ -64,8 +66,16 @@ impl Modes {
             tool_length_on: [false; 3],
             tool_centre_point: false,
             directions: None,
+            axes_in_doubt: false,
             length_number: None,
         }
+    }
+
+    /// A block that began tool centre point control was refused: lines behind it have no fault because of it.
+    pub fn doubt_axes(&mut self, by_direction: bool) {
+        self.tool_centre_point = true;
+        self.axes_in_doubt = true;
+        self.directions = by_direction.then_some(DirectionLaw::Evenly);
     }
 
     /// Takes over the modal words of a block, in the order in which controllers do, but for the tool length.

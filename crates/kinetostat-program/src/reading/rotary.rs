@@ -62,7 +62,9 @@ impl<'o> RotaryWords<'o> {
                 ));
             }
             modes.tool_centre_point = true;
+            modes.axes_in_doubt = false;
         } else if block.codes.tool_length == Some(490) {
+            modes.axes_in_doubt = false;
             modes.tool_centre_point = self.options.tool_centre_point == ToolCentrePoint::Throughout;
             modes.directions = None;
         }
@@ -95,7 +97,7 @@ impl<'o> RotaryWords<'o> {
         (before, modes): (&[Option<f64>], &Modes),
         places: &mut Places,
     ) -> Result<Option<Box<ToolTurn>>, ProgramError> {
-        let Some(axes) = self.options.rotary.clone() else {
+        let Some(axes) = self.options.rotary.clone().filter(|_| !modes.axes_in_doubt) else {
             return Ok(None);
         };
         let after = self.angles(modes);
@@ -174,6 +176,9 @@ impl<'o> RotaryWords<'o> {
         modes: &Modes,
         angles: &[Option<f64>],
     ) -> Result<(), ProgramError> {
+        if modes.axes_in_doubt {
+            return Ok(());
+        }
         let axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);
         let unknown = axes.zip(angles).find(|(_, angle)| angle.is_none());
         let mut axes = self.options.rotary.iter().flat_map(|rotary| &rotary.axes);

@@ -28,6 +28,7 @@ mod real_programs;
 mod refusal_kinds;
 mod refusals;
 mod rotary;
+mod rotary_findings;
 mod sampled;
 mod sampled_maps;
 mod short_blocks;

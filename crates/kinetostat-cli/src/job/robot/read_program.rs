@@ -8,7 +8,7 @@ use kinetostat_formats::{
     Correctable, Language, Motion, ProgramFault, RobotPath, RobotProgram, Target, all_faults,
     path_of, read,
 };
-use kinetostat_program::Warning;
+use kinetostat_program::{Move, StatedBy, Warning};
 
 use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
@@ -110,10 +110,14 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
             "the program does not state how its tool stands, so that its orientation cannot be corrected: leave out --correct pose (correct = \"pose\" under [robot])",
         ));
     }
-    if settings.corrected == Directions::ALL && path.axis_alone && settings.making.rotary.is_some()
-    {
+    let by_direction = |motion: &Move| {
+        let turn = motion.tool_turn.as_ref();
+        let rotary = turn.and_then(|turn| turn.rotary.as_ref());
+        rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
+    };
+    if settings.corrected == Directions::ALL && path.path.moves.iter().any(by_direction) {
         return Err(Failure::input(
-            "the rotary axes of the machine turn the tool, and they are not corrected: leave out --correct pose (correct = \"pose\" under [robot])",
+            "the program states directions of the tool, and rotary axes that follow them are not corrected: leave out --correct pose (correct = \"pose\" under [robot]), or let the CAM system write their angles",
         ));
     }
     Ok(ReadOnce { program, path })

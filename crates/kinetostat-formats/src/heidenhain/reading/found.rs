@@ -1,5 +1,7 @@
 //! What a program says: its motions, how each is programmed, what is wrong.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Vector2, Vector3};
 
 use crate::error::ProgramError;
@@ -9,6 +11,7 @@ use crate::heidenhain::ends::Shape;
 use crate::heidenhain::reading::rounded::{Rounded, Unrounded};
 use crate::model::motion::Motion;
 use crate::model::program::Finding;
+use crate::model::stated_axes::AxesStated;
 
 /// A motion as it is programmed.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +32,9 @@ pub(crate) struct Way {
     pub pole: PoleThere,
     /// A block up to here stated the direction of the tool.
     pub directed: bool,
+    /// What it says of rotary axes whose words are followed, and the whole turns between their words and angles that count on, deg.
+    pub axes: Option<AxesStated>,
+    pub wound_deg: Vec<f64>,
     /// The motion at whose end the pole was set from where the tool was.
     pub pole_from: Option<usize>,
 }
@@ -52,6 +58,8 @@ pub(crate) struct Found {
     pub motions: Vec<Motion>,
     /// Of each motion.
     pub ways: Vec<Way>,
+    /// What motions say of rotary axes whose words are followed.
+    pub axes: BTreeMap<usize, AxesStated>,
     /// Rounded corners, in the order in which they run.
     pub corners: Vec<Result<Rounded, Unrounded>>,
     /// Behind the first of them, LP blocks that count on a radius or an angle of before: where they end, mm, and the unit, mm.

@@ -161,7 +161,16 @@ impl Reader<'_> {
             },
             speed,
         });
+        let axes = self.state.standing.of_motion(self.state.tip.on);
+        if let Some(axes) = &axes {
+            let index = self.found.motions.len() - 1;
+            self.found.axes.insert(index, axes.clone());
+        }
+        let places = 0..self.options.rotary_axes.len();
+        let wound = places.map(|place| self.state.standing.wound_of(place));
         self.found.ways.push(Way {
+            axes,
+            wound_deg: wound.collect(),
             block: block.clone(),
             shape,
             start: self.state.counts_from(),

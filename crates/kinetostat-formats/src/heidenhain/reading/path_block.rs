@@ -11,9 +11,6 @@ use crate::heidenhain::words::{Value, Word};
 use crate::options::CutterCompensation;
 use crate::text::name::Name;
 
-const FIVE_AXES: &str =
-    "programs whose rotary axes turn are not corrected yet: divide the program there";
-
 impl Reader<'_> {
     /// A path block, or one of functions alone; whether the program ends behind it.
     pub(crate) fn path(&mut self, block: &Block, words: &[Word], span: &Range<usize>) -> bool {
@@ -84,10 +81,12 @@ impl Reader<'_> {
         if let Some(at) = parsed.compensation {
             self.state.aside = !words[at].is("R");
         }
-        if parsed.rotary.iter().any(|angle| *angle != 0.0) {
-            self.fault(span, "a rotary axis turns the part or the tool", FIVE_AXES);
+        let turns = self.turn_axes(words, &parsed, span, acts.machine);
+        self.moved(block, words, (&parsed, turns), span, &acts);
+        let functions = parsed.functions.iter().map(|(_, number)| *number);
+        for number in functions.filter(|number| matches!(number, 127 | 129)) {
+            self.axis_function(number);
         }
-        self.moved(block, words, &parsed, span, &acts);
         acts.ends
     }
 
@@ -96,7 +95,7 @@ impl Reader<'_> {
         for (at, number) in &parsed.functions {
             let span = words[*at].span.clone();
             match function(*number) {
-                Function::AtStart => {}
+                Function::AtStart => self.axis_function(*number),
                 Function::AtEnd => acts.ends |= matches!(number, 2 | 30),
                 Function::Machine => acts.machine = true,
                 Function::Retracts => acts.retracts = true,

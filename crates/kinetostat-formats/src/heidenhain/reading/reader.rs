@@ -1,6 +1,6 @@
 //! The reader of Heidenhain conversational programs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::apt::places::Frames;
 use crate::error::ProgramError;
@@ -11,6 +11,7 @@ use crate::heidenhain::reading::rounded::has_corners;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
 
@@ -20,7 +21,7 @@ const MOST_BYTES: usize = 1 << 28;
 /// Reads Heidenhain conversational programs (`.h`), each file for itself.
 ///
 /// Places are those that the blocks state, in mm in the axes of the control's preset: datum shifts, mirror images, rotations and
-/// scalings are followed. What is not stated stays as it was. Circles are [`crate::MotionKind::Arc`]. The work object is `PRESET`, the tool
+/// scalings are followed, and so are angles of the rotary axes that [`ReadOptions::rotary_axes`] names. What is not stated stays as it was. Circles are [`crate::MotionKind::Arc`]. The work object is `PRESET`, the tool
 /// `TOOL:5`; where they are, the options say. Places of the machine (`M91`) and retractions (`M140`) are carried. A program that
 /// repeats, jumps, counts or calls drilling cycles is refused: [`crate::expand_heidenhain`] writes it flat.
 ///
@@ -60,7 +61,11 @@ pub fn read_heidenhain(
         motions: found.motions,
         findings,
         declarations: Vec::new(),
-        even_axes: std::collections::BTreeSet::new(),
+        rotary: StatedAxes {
+            letters: options.rotary_axes.clone(),
+            motions: found.axes,
+            ..StatedAxes::default()
+        },
     })
 }
 
@@ -73,6 +78,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
         ways: Vec::new(),
         corners: Vec::new(),
         polar: Vec::new(),
+        axes: BTreeMap::new(),
     };
     let frames = options.frames.iter();
     let frames: Frames = frames
@@ -92,7 +98,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
             file,
             index,
             unit_mm: 1.0,
-            state: State::new(),
+            state: State::new(&options.rotary_axes),
             pole_from: None,
             poles: [0; 2],
             has_corners: has_corners(file.bytes()),

@@ -100,6 +100,7 @@ impl Reader<'_> {
             "DWELL",
             "COUNT",
         ];
+        self.tip_function(words);
         let named = words.get(1);
         if !named.is_some_and(|word| known.iter().any(|name| word.is(name))) {
             self.fault(span, "what this function moves is not known", "take it out");

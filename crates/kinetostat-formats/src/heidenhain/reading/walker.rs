@@ -42,12 +42,7 @@ pub(crate) const TILTED_REMEDY: &str = "let the CAM system write the places in t
 pub(crate) const BY_PARAMETER: &str = "a Q parameter says its value";
 
 impl Reader<'_> {
-    pub(crate) fn fault(
-        &mut self,
-        span: &Range<usize>,
-        reason: impl Into<String>,
-        remedy: &'static str,
-    ) {
+    pub(crate) fn fault(&mut self, span: &Range<usize>, reason: impl Into<String>, remedy: &str) {
         let file = self.file;
         note(&mut self.found.faults, || {
             ProgramError::at(file, span.clone(), reason, remedy)

@@ -31,7 +31,7 @@ impl Reader<'_> {
         &mut self,
         block: &Block,
         words: &[Word],
-        parsed: &PathWords,
+        (parsed, turns): (&PathWords, bool),
         span: &Range<usize>,
         acts: &Acts,
     ) {
@@ -53,7 +53,11 @@ impl Reader<'_> {
             self.state.direction = None;
             return;
         }
-        if !parsed.moves() {
+        if !parsed.moves() && turns && !acts.machine && !self.state.tip.on {
+            self.turn_alone(span, rapid);
+        }
+        let moves = parsed.moves() || turns && !acts.machine && self.state.tip.on;
+        if !moves {
             if acts.calls {
                 let place = self.state.counts_from();
                 self.called(block, words, span, place);
@@ -80,9 +84,24 @@ impl Reader<'_> {
         if let [Some(x), Some(y), Some(z)] = parsed.axis {
             let axis = Vector3::new(x, y, z);
             match OrientationText::Axis.rotation_of(axis.as_slice()) {
-                Some(_) => (self.state.axis, self.state.directed) = (axis, true),
+                Some(_) => {
+                    (self.state.axis, self.state.directed) = (axis, true);
+                    self.state.standing.take_direction_instead();
+                }
                 None => self.fault(span, "the tool's axis has not the length 1", "mend it"),
             }
+        }
+        if self.no_place_by_axes(span, rapid) {
+            self.unknown(
+                block,
+                words,
+                span,
+                "its places are not those of the tool's tip in the part",
+                Carried::Yes,
+            );
+            self.state.place = [None; 3];
+            self.state.direction = None;
+            return;
         }
         let mut ends = Ends {
             state: &mut self.state,
@@ -113,7 +132,8 @@ impl Reader<'_> {
         let is_arc = went.arc.is_some();
         let Some(place) = whole.filter(|_| !is_arc || start[2].is_some()) else {
             let reason = "where the tool is, is not wholly known here";
-            let carried = match rapid {
+            // A cut that was refused for its axes says nothing of its place.
+            let carried = match rapid || self.state.standing.is_refused() {
                 true => Carried::Yes,
                 false => Carried::IfLeft,
             };
@@ -152,7 +172,10 @@ impl Reader<'_> {
                 value: place[i],
             }),
             orientation: Vec::new(),
-            convention: OrientationText::Axis,
+            convention: match self.state.directed {
+                true => OrientationText::Axis,
+                false => OrientationText::Unstated,
+            },
             external: Vec::new(),
             width: Width::Free,
         };

@@ -89,6 +89,11 @@ impl Writer<'_> {
                 }
             }
         }
+        let angles = self.write_angles(motion, way, words, piece, &mut edits);
+        match straight {
+            true if !angles.is_empty() => edits.replace(behind..behind, angles),
+            _ => new_words.push_str(&angles),
+        }
         let stood = self.write_tool_axis(motion, way, words, piece, &mut edits);
         let keyword = match stood.is_some() {
             true => "LN",

@@ -37,6 +37,7 @@ impl Writer<'_> {
             self.axis = None;
         }
         if way.shape == Shape::Unknown {
+            self.angles_left(&words);
             return self.unknown(motion, way, &words, &stated);
         }
         let pole_off = self.pole_is_off(way);
@@ -53,8 +54,11 @@ impl Writer<'_> {
                 "divide it into straight pieces, too, or write it with CC and C",
             ));
         }
-        let stands = self.axis.is_none();
+        let stands = self.axis.is_none() && self.angles_stand();
         let needs_feed = self.feed.is_some() && stated.feed == FeedWord::None && way.feed.is_some();
+        if stands {
+            self.angles_left(&words);
+        }
         if off == Vector3::zeros() && whole && stands && !needs_feed {
             if matches!(
                 stated.feed,

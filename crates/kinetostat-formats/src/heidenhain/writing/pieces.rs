@@ -49,6 +49,7 @@ impl Writer<'_> {
                 "write it in a block of its own",
             ));
         }
+        self.begin_angles(way);
         let off = way.datum.step(&self.off);
         let mut place = [0, 1, 2].map(|axis| way.start[axis].map(|at| at + off[axis]));
         let mut inserted = Vec::new();
@@ -80,6 +81,7 @@ impl Writer<'_> {
         let Block { before, edits } =
             self.as_block(motion, way, &words, (last, part, 1.0), &mut place)?;
         inserted.extend(self.line_before(motion, way, before));
+        self.end_angles(way);
         let [x, y, z] =
             [0, 1, 2].map(|axis| place[axis].zip(way.end[axis]).map_or(0.0, |(a, b)| a - b));
         let off = way.datum.preset(&Vector3::new(x, y, z)) - way.datum.shift_mm;

@@ -1,6 +1,6 @@
 //! The words of a block as they are written: coordinates, feeds, which functions stand on which piece.
 
-use crate::heidenhain::path_words::{FeedWord, PathWords, has_words};
+use crate::heidenhain::path_words::{FeedWord, PathWords, RotaryWord, has_words};
 use crate::heidenhain::table::{Function, function};
 use crate::heidenhain::words::Word;
 use crate::text::edits::Edits;
@@ -83,6 +83,8 @@ pub(crate) struct Stated {
     pub feed: FeedWord,
     /// The direction of the tool.
     pub directs: bool,
+    /// Angles of rotary axes.
+    pub rotary: Vec<RotaryWord>,
 }
 
 impl Stated {
@@ -94,6 +96,7 @@ impl Stated {
                 places: parsed.places,
                 feed: parsed.feed,
                 directs: parsed.axis.iter().all(Option::is_some),
+                rotary: parsed.rotary,
             },
             Err(_) => Self {
                 word: [None; 3],
@@ -101,6 +104,7 @@ impl Stated {
                 places: Vec::new(),
                 feed: FeedWord::None,
                 directs: false,
+                rotary: Vec::new(),
             },
         }
     }

@@ -45,7 +45,10 @@ pub(crate) fn write_heidenhain(
         }
         of_motion.entry(piece.motion).or_default().push(piece);
     }
-    let reading = ReadOptions::default().as_written();
+    let reading = ReadOptions {
+        rotary_axes: program.rotary.letters.clone(),
+        ..ReadOptions::default().as_written()
+    };
     let ways = interpret(&program.files, &reading).ways;
     let mut writer = Writer {
         program,
@@ -58,6 +61,8 @@ pub(crate) fn write_heidenhain(
         polar_broken: false,
         pole: None,
         axis: None,
+        turned_deg: Vec::new(),
+        angles_now: Vec::new(),
         off_at: Vec::with_capacity(program.motions.len()),
         changed: Vec::with_capacity(program.motions.len()),
         file: 0,
@@ -117,6 +122,7 @@ impl Writer<'_> {
             self.polar_broken = false;
             self.pole = None;
             self.axis = None;
+            self.turned_deg.clear();
         }
         self.changed
             .push(!pieces.is_empty() || self.off != Vector3::zeros());

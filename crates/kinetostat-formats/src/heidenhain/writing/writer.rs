@@ -38,6 +38,9 @@ pub(crate) struct Writer<'w> {
     pub pole: Option<OwnPole>,
     /// How the tool stands, where it stands otherwise than in the program; in the preset's axes.
     pub axis: Option<Vector3<f64>>,
+    /// By how much rotary axes stand otherwise than in the program, and where they stand within a motion, deg.
+    pub turned_deg: Vec<f64>,
+    pub angles_now: Vec<f64>,
     /// A polar block was written by X and Y: those behind it have no last radius.
     pub polar_broken: bool,
     /// Whether the written blocks are elsewhere at the end of each motion.

@@ -47,6 +47,7 @@ impl Writer<'_> {
         }
         self.held.off = written.frame.rotation * Vector3::from(place.off);
         self.direction(first, &mut added);
+        self.angles_of_own(first, &mut added);
         self.insert(anchor, &added);
         self.feed(first.speed_factor)?;
         if !further.is_empty() {
@@ -99,6 +100,7 @@ impl Writer<'_> {
             }
             self.held.off = written.frame.rotation * Vector3::from(off);
             self.direction_of(piece, &mut line);
+            self.angles_of_further(piece, &mut line);
             if let Some(feed) = self.feed_text(piece.speed_factor)? {
                 line += &format!(" {feed}");
             }

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use crate::error::WriteError;
 use crate::model::motion::MotionKind;
 use crate::model::program::RobotProgram;
+use crate::model::stated_axes::AxesStated;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::siemens::scan::scan;
 use crate::siemens::writing::writer::{Held, Reason, SAME, Writer};
@@ -46,7 +47,10 @@ pub(crate) fn write_siemens(
     };
     let mut edits: Vec<Edits> = program.files.iter().map(|_| Edits::default()).collect();
     if !pieces.is_empty() {
-        let reading = ReadOptions::default().as_written();
+        let reading = ReadOptions {
+            rotary_axes: program.rotary.letters.clone(),
+            ..ReadOptions::default().as_written()
+        };
         let found = scan(&program.files, &reading);
         if found.written.len() != program.motions.len() {
             return Err(overlap(0));
@@ -59,6 +63,11 @@ pub(crate) fn write_siemens(
             }
             let source = &program.files[motion.file];
             let mut writer = Writer {
+                letters: &program.rotary.letters,
+                angles: match program.rotary.motions.get(&index) {
+                    Some(AxesStated::Angles { start, end }) => Some([start, end]),
+                    _ => None,
+                },
                 file: source,
                 motion,
                 written,
@@ -138,7 +147,8 @@ impl Writer<'_> {
             own.via_mm = via.pose().map(|via| via.position_mm);
         }
         let keeps_direction = self.held.direction.is_none();
-        match displaced || !keeps_direction {
+        let keeps_angles = self.angles_stand();
+        match displaced || !keeps_direction || !keeps_angles {
             true => self.pieces(&[&own]),
             false => {
                 self.code(written.code);
@@ -164,6 +174,7 @@ impl Writer<'_> {
         if !written.direction_words.is_empty() {
             self.held.direction = None;
         }
+        self.angles_left();
         self.code(written.code);
         // A feed that is not known cannot be another one.
         let _ = self.feed(1.0);

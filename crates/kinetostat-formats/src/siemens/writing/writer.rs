@@ -24,10 +24,15 @@ pub(crate) struct Held {
     pub code: Option<Code>,
     pub feed: Option<f64>,
     pub direction: Option<Vector3<f64>>,
+    /// By how much rotary axes stand otherwise, deg.
+    pub turned_deg: Vec<f64>,
 }
 
 /// The writer at a motion.
 pub(crate) struct Writer<'w> {
+    /// Letters of the rotary axes whose words are followed, and where they stand at the start and the end of the motion, deg.
+    pub letters: &'w [char],
+    pub angles: Option<[&'w [f64]; 2]>,
     pub file: &'w SourceFile,
     pub motion: &'w Motion,
     pub written: &'w Written,

@@ -62,11 +62,11 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ),
         (
             "L A+30 FMAX",
-            "a rotary axis turns the part or the tool; programs whose rotary axes turn are not corrected yet: divide the program there",
+            "a rotary axis (A) turns the part or the tool, and there is no model of it; describe the rotary axes of the machine in the model ([[rotary_axis]]), or divide the program there",
         ),
         (
             "L X+5 C+90 F100",
-            "a rotary axis turns the part or the tool",
+            "a rotary axis (C) turns the part or the tool",
         ),
         (
             "PLANE SPATIAL SPA+0 SPB+45 SPC+0 STAY",

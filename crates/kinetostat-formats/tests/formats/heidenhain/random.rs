@@ -5,10 +5,17 @@ use kinetostat_formats::*;
 
 use crate::harness::{Chance, Kind, PLACE_MM, broken};
 
+/// With two rotary axes in the model.
+fn followed() -> ReadOptions {
+    let mut options = ReadOptions::default();
+    options.rotary_axes = vec!['A', 'C'];
+    options
+}
+
 pub fn kind() -> Kind {
     Kind {
         language: Language::Heidenhain,
-        options: ReadOptions::default(),
+        options: followed(),
         turns: false,
         speeds: false,
         words: &[
@@ -47,6 +54,11 @@ pub fn kind() -> Kind {
             "TOOL CALL 2 Z F100\n",
             "END PGM A MM\n",
             "99999999999999999999 ",
+            "M128\n",
+            "M126\n",
+            "L C+350 FMAX\n",
+            " A+20 ",
+            " IC-30 ",
         ],
         place_mm: PLACE_MM,
         turn_rad: 4e-7,
@@ -61,6 +73,8 @@ struct Writer<'c> {
     place: [f64; 3],
     style: usize,
     inch: bool,
+    /// Rotary axes turn, under tool centre point control.
+    turns: bool,
 }
 
 impl Writer<'_> {
@@ -111,6 +125,11 @@ impl Writer<'_> {
                     text += &self.word(["X", "Y", "Z"][axis], to);
                 }
             }
+        }
+        if self.turns && self.chance.below(3) == 0 {
+            let letters = self.chance.of(&["A", "C", "IA", "IC"]);
+            let angle = self.rounded(90.0);
+            text += &self.word(letters, angle);
         }
         text += self.chance.of(&["", " R0", ""]);
         text += self.chance.of(&["", " FMAX", " F500", " F333.5"]);
@@ -199,12 +218,18 @@ pub fn program(chance: &mut Chance) -> String {
         place: [0.0; 3],
         style,
         inch: unit == "INCH",
+        turns: false,
     };
     writer.block(&format!("BEGIN PGM R {unit}"));
     writer.block("BLK FORM 0.1 Z X+0 Y+0 Z-9");
     writer.block("TOOL CALL 3 Z S5000 F800");
     writer.block("L Z-10 R0 FMAX M91");
     writer.all(" R0 FMAX");
+    if writer.chance.below(2) == 0 {
+        writer.block("L A+0 C+0 FMAX");
+        writer.block("M128");
+        writer.turns = true;
+    }
     for _ in 0..writer.chance.below(16) {
         match writer.chance.below(12) {
             0..=4 => writer.straight(),

@@ -4,10 +4,17 @@ use kinetostat_formats::*;
 
 use crate::harness::{Chance, Kind, PLACE_MM, broken};
 
+/// With two rotary axes in the model.
+fn followed() -> ReadOptions {
+    let mut options = ReadOptions::default();
+    options.rotary_axes = vec!['A', 'C'];
+    options
+}
+
 pub fn kind() -> Kind {
     Kind {
         language: Language::Siemens,
-        options: ReadOptions::default(),
+        options: followed(),
         turns: false,
         speeds: false,
         words: &[
@@ -41,6 +48,10 @@ pub fn kind() -> Kind {
             "CYCLE81(1,2,3)\n",
             "G700 ",
             ";",
+            " A20 ",
+            " C=DC(350) ",
+            " C=ACP(R1) ",
+            "ORIAXES\n",
         ],
         place_mm: PLACE_MM,
         turn_rad: 4e-7,
@@ -53,6 +64,8 @@ struct Writer<'c> {
     number: usize,
     place: [f64; 3],
     steps: bool,
+    /// Rotary axes turn, under TRAORI.
+    turns: bool,
 }
 
 fn rounded(value: f64) -> f64 {
@@ -110,6 +123,15 @@ impl Writer<'_> {
                     .of(&["F500", "F1200.5", "M8", "M0", "G9"])
                     .to_owned(),
             );
+        }
+        if self.turns && self.chance.below(3) == 0 {
+            let angle = rounded(self.chance.within(90.0));
+            words.push(match self.chance.below(4) {
+                0 => format!("A=IC({angle})"),
+                1 => format!("C=DC({})", angle.abs()),
+                2 => format!("C=AC({angle})"),
+                _ => format!("A=AC({angle}) C=ACN({})", angle.abs()),
+            });
         }
         let code = match self.chance.below(4) {
             0 if code == "G1" => "G01",
@@ -174,6 +196,7 @@ pub fn program(chance: &mut Chance) -> String {
         number: 0,
         place: [0.0; 3],
         steps: false,
+        turns: false,
     };
     writer.line("G17 G90 G94 G71 G54");
     writer.line("T1 D1 M6");
@@ -182,6 +205,11 @@ pub fn program(chance: &mut Chance) -> String {
     let [x, y, z] = first;
     writer.line(&format!("G0 X{x} Y{y} Z{z}"));
     writer.line("F600");
+    if writer.chance.below(2) == 0 {
+        writer.line("TRAORI");
+        writer.line(&format!("G0 X{x} Y{y} Z{z} A0 C0"));
+        writer.turns = true;
+    }
     for _ in 0..writer.chance.below(16) {
         match writer.chance.below(14) {
             0 => writer.arc(),

@@ -30,6 +30,7 @@ impl Interpreter<'_> {
             events: self.events,
         };
         self.tools.finish(&mut path, program, self.options)?;
+        path.warnings.extend(path.rotary_findings());
         path.warnings.sort_by_key(|warning| warning.line);
         Ok(path)
     }

@@ -1,0 +1,272 @@
+//! Where the rotary axes of a machine stand, as far as the words of a program say it, and what it may do there.
+//!
+//! Takes the words of SINUMERIK (A, B, C with AC, IC, DC, ACP, ACN) and Heidenhain (A, IA, ...) programs, gives angles that count on over
+//! whole turns. The laws are those of G43.4: with tool centre point control a cut needs all angles; without it X, Y and Z are
+//! places of the slides, and a cut is where the program says only with all axes at zero.
+
+use crate::model::stated_axes::AxesStated;
+
+/// Angles below this are zero, deg.
+const ZERO_DEG: f64 = 1e-9;
+
+/// How a word turns an axis, deg.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum AxisTurn {
+    /// To an angle, straight on.
+    To(f64),
+    /// By an angle.
+    By(f64),
+    /// To an angle of one turn, the shorter way (DC; M126).
+    Shorter(f64),
+    /// To an angle of one turn, upwards (ACP).
+    Upwards(f64),
+    /// To an angle of one turn, downwards (ACN).
+    Downwards(f64),
+}
+
+/// What is wrong, and what to do.
+pub(crate) type AxisFault = (String, String);
+
+/// The words with which a language has tool centre point control, and states an angle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TipWords {
+    /// `TRAORI`, `M128`.
+    pub control: &'static str,
+    /// `G0 `, `L `: what stands before the word of an axis at zero.
+    pub rapid: &'static str,
+    /// What stands behind the letter of an axis at zero.
+    pub zero: &'static str,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct StandingAxis {
+    letter: char,
+    at: Option<f64>,
+    /// Whole turns by which the control's count differs from that over all turns, deg.
+    wound: f64,
+    /// It was sent to a place of the machine.
+    sent: bool,
+}
+
+/// Where the rotary axes stand.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Standing {
+    axes: Vec<StandingAxis>,
+    before: Vec<Option<f64>>,
+    /// A word stated an angle.
+    any: bool,
+    /// A direction of the tool says since then how they stand.
+    by_direction: bool,
+    /// The fault of these angles that was reported.
+    reported: Option<String>,
+}
+
+impl Standing {
+    pub(crate) fn of_letters(letters: &[char]) -> Self {
+        let axis = |letter: &char| StandingAxis {
+            letter: *letter,
+            at: None,
+            wound: 0.0,
+            sent: false,
+        };
+        let axes: Vec<StandingAxis> = letters.iter().map(axis).collect();
+        Self {
+            before: vec![None; axes.len()],
+            axes,
+            ..Self::default()
+        }
+    }
+
+    /// The place of a letter among the axes.
+    pub(crate) fn place_of_letter(&self, letter: u8) -> Option<usize> {
+        let mut axes = self.axes.iter();
+        axes.position(|axis| axis.letter == char::from(letter))
+    }
+
+    /// A block begins.
+    pub(crate) fn begin_block(&mut self) {
+        self.before = self.axes.iter().map(|axis| axis.at).collect();
+    }
+
+    /// A word turns an axis.
+    pub(crate) fn turn_axis(&mut self, place: usize, turn: AxisTurn) -> Result<(), AxisFault> {
+        let Some(axis) = self.axes.get_mut(place) else {
+            return Ok(());
+        };
+        self.any = true;
+        if self.by_direction {
+            // The other axes stand where the direction has brought them.
+            self.by_direction = false;
+        }
+        let letter = axis.letter;
+        let within = |to: f64| match (0.0..360.0).contains(&to) {
+            true => Ok(to),
+            false => Err((
+                format!("axis {letter} is sent to {to} deg of one turn (DC, ACP, ACN)"),
+                "write an angle from 0 to 359.999".to_owned(),
+            )),
+        };
+        let (at, by) = match (turn, axis.at) {
+            (AxisTurn::To(to), _) => {
+                axis.sent = false;
+                axis.at = Some(to + axis.wound);
+                return Ok(());
+            }
+            (AxisTurn::By(by), Some(at)) => (at, by),
+            (AxisTurn::By(_), None) => {
+                return Err((
+                    format!("axis {letter} turns by an angle, and where it stands is not stated"),
+                    format!("state it before by an absolute word ({letter}0)"),
+                ));
+            }
+            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
+                let up = (within(to)? - at).rem_euclid(360.0);
+                if matches!(turn, AxisTurn::Shorter(_)) && (up - 180.0).abs() < ZERO_DEG {
+                    return Err((
+                        format!(
+                            "axis {letter} turns by half a turn, and which way is the shorter one is open"
+                        ),
+                        "let the CAM system write an angle between".to_owned(),
+                    ));
+                }
+                let by = match turn {
+                    AxisTurn::Upwards(_) => up,
+                    AxisTurn::Downwards(_) if up > 0.0 => up - 360.0,
+                    AxisTurn::Shorter(_) if up > 180.0 => up - 360.0,
+                    _ => up,
+                };
+                axis.wound = ((at + by - to) / 360.0).round() * 360.0;
+                (to + axis.wound, 0.0)
+            }
+            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), None) => {
+                (within(to)?, 0.0)
+            }
+        };
+        axis.sent = false;
+        axis.at = Some(at + by);
+        Ok(())
+    }
+
+    /// Whole turns between the angles of a word and those that count on, deg.
+    pub(crate) fn wound_of(&self, place: usize) -> f64 {
+        self.axes.get(place).map_or(0.0, |axis| axis.wound)
+    }
+
+    /// An axis is sent to a place of the machine: where it stands is not known.
+    pub(crate) fn send_axis(&mut self, place: usize) {
+        if let Some(axis) = self.axes.get_mut(place) {
+            (axis.at, axis.wound, axis.sent) = (None, 0.0, true);
+        }
+    }
+
+    /// A direction of the tool says how the axes stand.
+    pub(crate) fn take_direction_instead(&mut self) {
+        for axis in &mut self.axes {
+            (axis.at, axis.wound, axis.sent) = (None, 0.0, false);
+        }
+        self.by_direction = true;
+    }
+
+    fn leaning(angles: &[Option<f64>]) -> Option<(usize, f64)> {
+        let mut all = angles.iter().enumerate();
+        all.find_map(|(place, angle)| Some((place, angle.filter(|a| a.abs() > ZERO_DEG)?)))
+    }
+
+    fn angles_now(&self) -> Vec<Option<f64>> {
+        self.axes.iter().map(|axis| axis.at).collect()
+    }
+
+    /// Whether an axis turns in the block, as far as it is known.
+    pub(crate) fn is_turning(&self) -> bool {
+        let both = self.axes.iter().zip(&self.before);
+        let mut both = both.filter_map(|(axis, before)| axis.at.zip(*before));
+        both.any(|(now, before)| now != before)
+    }
+
+    /// Whether the block does not end, in the part, where its places say; `tip` where they are those of the tool's tip.
+    pub(crate) fn loses_place(&self, tip: bool) -> bool {
+        let now = self.angles_now();
+        match tip {
+            true => self.any && !self.by_direction && now.contains(&None),
+            false => Self::leaning(&now)
+                .or(Self::leaning(&self.before))
+                .is_some(),
+        }
+    }
+
+    /// Why a block cannot cut, once for angles that stay.
+    pub(crate) fn no_cut(&mut self, tip: bool, words: &TipWords) -> Option<AxisFault> {
+        let found = self.why_no_cut(tip, words);
+        let reason = found.as_ref().map(|(reason, _)| reason.clone());
+        let again = reason.is_some() && reason == self.reported;
+        self.reported = reason;
+        found.filter(|_| !again)
+    }
+
+    /// The last cut was refused.
+    pub(crate) fn is_refused(&self) -> bool {
+        self.reported.is_some()
+    }
+
+    fn why_no_cut(&self, tip: bool, words: &TipWords) -> Option<AxisFault> {
+        let TipWords {
+            control,
+            rapid,
+            zero,
+        } = words;
+        let now = self.angles_now();
+        if !tip {
+            if let Some(axis) = self.axes.iter().find(|axis| axis.sent) {
+                let letter = axis.letter;
+                return Some((
+                    format!(
+                        "axis {letter} was sent to a place of the machine, and tool centre point control is off: where the tip is in the part is not known"
+                    ),
+                    format!(
+                        "turn it back with an absolute word ({rapid}{letter}{zero}) before the cut, or let the CAM system write places of the tool's tip in the part ({control})"
+                    ),
+                ));
+            }
+            let (place, angle) = Self::leaning(&now).or(Self::leaning(&self.before))?;
+            return Some((
+                format!(
+                    "axis {} stands at {angle} deg, and tool centre point control is off: X, Y and Z are places of the machine's slides",
+                    self.axes[place].letter
+                ),
+                format!(
+                    "let the CAM system write places of the tool's tip in the part ({control})"
+                ),
+            ));
+        }
+        if !self.any || self.by_direction {
+            return None;
+        }
+        let all = [&now, &self.before];
+        let open = all
+            .iter()
+            .find_map(|angles| angles.iter().position(Option::is_none))?;
+        let letter = self.axes[open].letter;
+        Some((
+            format!("where axis {letter} stands is not stated before this block cuts"),
+            format!("state it with a rapid and an absolute word ({rapid}{letter}{zero}) before it"),
+        ))
+    }
+
+    /// What is noted of a motion; nothing where a direction says how the tool stands.
+    pub(crate) fn of_motion(&self, tip: bool) -> Option<AxesStated> {
+        if self.axes.is_empty() || self.by_direction {
+            return None;
+        }
+        let now: Option<Vec<f64>> = self.angles_now().into_iter().collect();
+        Some(match now.filter(|_| tip) {
+            Some(end) => {
+                let start = self.before.iter().zip(&end);
+                AxesStated::Angles {
+                    start: start.map(|(start, end)| start.unwrap_or(*end)).collect(),
+                    end,
+                }
+            }
+            None => AxesStated::Open,
+        })
+    }
+}
