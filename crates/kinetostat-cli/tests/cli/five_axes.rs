@@ -110,7 +110,7 @@ fn angles_under_traori_and_m128_are_those_under_g43_4() {
                 serde_json::from_str(&read(here, &format!("{name}.json"))).unwrap();
             let number = |key: &str| json["summary"][key].as_f64().unwrap();
             found.push([
-                number("max_deviation_mm"),
+                number("max_position_error_before_mm"),
                 number("max_residual_rotation_deg"),
             ]);
         }
