@@ -279,6 +279,11 @@ fn pieces_share_the_angles_out_and_end_where_the_block_does() {
             Language::Siemens,
             siemens("ORIVECT\nG1 X50 Y20 Z0 A20 C30 F600\nX80 Y-10 A30 C60\nX10 A5\n"),
         ),
+        // From the pole, where C turns at once to where the way leads, and back.
+        (
+            Language::Siemens,
+            siemens("G1 Z0 F600\nX50 A20 C30\nX0 A0\n").replace("ORIAXES\n", ""),
+        ),
     ];
     for (language, text) in bodies {
         let made =
