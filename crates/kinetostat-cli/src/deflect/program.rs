@@ -6,6 +6,7 @@ use crate::deflect::arguments::DeflectArgs;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
+use crate::job::axes_of_program::give_axes;
 use crate::job::free_turn::FreeTurn;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
@@ -47,6 +48,8 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         (job.as_ref(), named),
         &args.program,
     )?;
+    let model_of_job = (job.as_ref(), named);
+    give_axes(&mut setting, &files, model_of_job, &args.program)?;
     let frames = setting.robot_frames()?;
     let (machine, model) = machine_setup(
         &files,

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::axes_of_program::give_axes;
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
 use crate::job::machine::machine_setup;
@@ -142,6 +143,10 @@ fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -
             (Some(&job), query.model),
             query.program,
         )
+        .and_then(|()| {
+            let named = (Some(&job), query.model);
+            give_axes(&mut setting, files, named, query.program)
+        })
         .and_then(|()| program::read_program(&setting).map(drop))
     {
         add(&mut found, failure);

@@ -6,6 +6,7 @@
 
 pub(crate) mod all_faults;
 pub(crate) mod arguments;
+pub(crate) mod axes_of_program;
 pub(crate) mod cut;
 mod cut_tables;
 mod dialect_word;

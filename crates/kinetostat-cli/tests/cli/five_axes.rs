@@ -23,7 +23,7 @@ fn shown(name: &str) -> String {
 
 fn place() -> tempfile::TempDir {
     let here = tempfile::tempdir().unwrap();
-    for name in ["portal.toml", "cone.nc"] {
+    for name in ["portal.toml", "cone.nc", "cone.mpf"] {
         std::fs::write(here.path().join(name), shown(name)).unwrap();
     }
     here
@@ -90,6 +90,37 @@ fn the_tool_s_axis_is_corrected_on_request() {
     let said = run(here, &words(&line));
     assert_eq!(said.code, 1);
     assert!(said.err.contains("--correct pose"), "{said:?}");
+}
+
+/// The same path with angles in three languages has the same deflection, and `--correct pose` corrects the angles of all.
+#[test]
+fn angles_under_traori_and_m128_are_those_under_g43_4() {
+    let here = place();
+    let here = here.path();
+    let conversational = "0 BEGIN PGM CONE MM\n1 L X+60 Y+0 Z+50 A+0 C+0 R0 FMAX\n2 M128\n3 L A+20 FMAX\n4 L Z+0 F600\n5 L X+0 Y+60 C+90\n6 L X-60 Y+0 Z-5 IC+90\n7 L Z+50 A+0 FMAX\n8 M129\n9 L Z+90 FMAX M30\n10 END PGM CONE MM\n";
+    std::fs::write(here.join("cone.h"), conversational).unwrap();
+    for more in ["", "--correct pose"] {
+        let mut found = Vec::new();
+        for name in ["cone.nc", "cone.mpf", "cone.h"] {
+            let line = format!(
+                "compensate --program {name} {MACHINE} {more} --out o_{name} --json {name}.json --force-overwrite"
+            );
+            run(here, &words(&line)).answered();
+            let json: serde_json::Value =
+                serde_json::from_str(&read(here, &format!("{name}.json"))).unwrap();
+            let number = |key: &str| json["summary"][key].as_f64().unwrap();
+            found.push([
+                number("max_position_error_before_mm"),
+                number("max_residual_rotation_deg"),
+            ]);
+        }
+        for other in &found[1..] {
+            assert!((other[0] - found[0][0]).abs() < 1e-6, "{found:?}");
+            // The digits of the angles.
+            assert!((other[1] - found[0][1]).abs() < 2e-4, "{found:?}");
+        }
+    }
+    assert!(read(here, "o_cone.mpf").contains("C=IC("));
 }
 
 /// A copy is told by the rotary axes of the model whether its program could be compensated.

@@ -69,6 +69,22 @@ pub struct RobotProgram {
 }
 
 impl RobotProgram {
+    /// Whether angles of rotary axes say anywhere how the tool stands ([`crate::ReadOptions::rotary_axes`]).
+    ///
+    /// ```
+    /// use kinetostat_formats::{ReadOptions, SourceFile, read_heidenhain};
+    ///
+    /// let text = "BEGIN PGM A MM\nL X+0 Y+0 Z+5 A+0 FMAX\nM128\nL X+9 A+20 F100\nEND PGM A MM\n";
+    /// let mut options = ReadOptions::default();
+    /// options.rotary_axes = vec!['A'];
+    /// let program = read_heidenhain(vec![SourceFile::new("a.h", text)], &options).unwrap();
+    /// assert!(program.states_axis_angles());
+    /// ```
+    #[must_use]
+    pub fn states_axis_angles(&self) -> bool {
+        self.rotary.has_angles()
+    }
+
     /// Lines of a file, counted from 1, that hold a part of a motion or of a declared target.
     pub(crate) fn lines_of_targets(&self, file: usize) -> BTreeSet<usize> {
         let motions = self.motions.iter().filter(|motion| motion.file == file);

@@ -40,13 +40,15 @@ pub struct RobotPath {
     /// The program states the direction of the tool's axis alone, and it is not z throughout: about it the tool is turned by
     /// [`PathOptions::turn_about_axis`].
     pub axis_alone: bool,
+    /// Rotary axes of the machine turn the tool: about it they may stand otherwise where the tool lies along one of them.
+    pub(crate) by_axes: bool,
 }
 
 impl RobotPath {
     /// How far the tool is turned from one orientation to another, as far as the text of the program says it, rad.
     pub(crate) fn turned(&self, to: &UnitQuaternion<f64>, from: &UnitQuaternion<f64>) -> f64 {
         let axis = self.path.tool_axis;
-        match self.axis_alone {
+        match self.axis_alone || self.by_axes {
             true => (to * axis).angle(&(from * axis)),
             false => to.angle_to(from),
         }
@@ -115,6 +117,7 @@ pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPat
     }
     Ok(RobotPath {
         axis_alone: leaning.is_some(),
+        by_axes: angled.is_some(),
         motions: (0..program.motions.len()).collect(),
         path: made,
         work_object: work_object.filter(|_| one),

@@ -51,9 +51,14 @@ impl Path {
             (motion.known != Knowledge::Nothing).then_some((motion, turn))
         });
         let (mut beyond, mut open) = (Vec::new(), Vec::new());
+        let mut before = StatedBy::Angles;
         for (motion, turn) in turns {
             note_beyond(motion, turn, &mut beyond);
-            note_open(motion, turn, &self.tool_axis, &mut open);
+            // Where words have said the angle it is known.
+            if before == StatedBy::Direction {
+                note_open(motion, turn, &self.tool_axis, &mut open);
+            }
+            before = turn.stated;
         }
         let mut found: Vec<Warning> = (beyond.into_iter().chain(open))
             .map(|(_, several)| Warning {

@@ -1,0 +1,51 @@
+//! The rotary axes of the model for the first reading of a program in the language of a machine's control.
+//!
+//! Its tool and its frames are asked for before the machine of the run is known; where its words turn rotary axes, it cannot be
+//! read without these.
+
+use kinetostat_formats::{Language, read};
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::ProgramArgs;
+use crate::job::job_file::JobFile;
+use crate::job::model_named::model_named;
+use crate::job::placement::placement;
+use crate::job::rotary::rotary;
+use crate::job::setting::Setting;
+use crate::job::tools::tool;
+use crate::ui::failure::Answer;
+
+/// Gives a SINUMERIK or Heidenhain program whose words turn rotary axes those of the model; others stay as they are.
+pub(crate) fn give_axes(
+    setting: &mut Setting,
+    files: &InputFiles,
+    (job, flag_model): (Option<&JobFile>, Option<&str>),
+    flags: &ProgramArgs,
+) -> Answer<()> {
+    let Some(source) = &setting.robot else {
+        return Ok(());
+    };
+    if !matches!(source.language, Language::Siemens | Language::Heidenhain) {
+        return Ok(());
+    }
+    let (named, base) = model_named(job, flag_model)?;
+    let (model, _) = files.model(&named, &base)?;
+    let letters: Vec<char> = (model.rotary_axes().iter())
+        .map(|axis| axis.letter)
+        .collect();
+    if letters.is_empty() {
+        return Ok(());
+    }
+    let mut reading = source.settings.reading.clone();
+    reading.rotary_axes = letters;
+    let found = read(source.language, source.files.clone(), &reading);
+    // Its faults are reported where it is read.
+    if found.is_ok_and(|program| !program.states_axis_angles()) {
+        return Ok(());
+    }
+    let (tool, _) = tool(job, flags)?;
+    let mechanism = model.mechanism.with_tool(&tool);
+    let placement = placement(job, flags, &mechanism)?;
+    setting.turned_by(rotary(&model, &placement));
+    Ok(())
+}
