@@ -31,8 +31,10 @@ impl Reader<'_> {
             (word.is("F") || !is_chamfer && (word.is("R") || word.is("RND")))
                 && word.value().is_some()
         };
-        let size = size.filter(|_| words[1..].iter().all(known));
         let cut = match (size.map(|size| size * self.unit_mm), is_chamfer) {
+            (Some(_), _) if !words[1..].iter().all(known) => {
+                Err("another word stands beside its size and its feed".to_owned())
+            }
             (Some(size), true) => Ok(Cut::Sides(size)),
             (Some(size), false) => Ok(Cut::Rounded(size)),
             (None, true) => Err("its length is not stated as a number".to_owned()),

@@ -52,6 +52,18 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
         ),
         (
             FLAT,
+            "L X+10\nCHF 2 M8\nL Y+10",
+            5,
+            "another word stands beside its size and its feed",
+        ),
+        (
+            FLAT,
+            "L X+10\nRND R2 M8\nL Y+10",
+            5,
+            "another word stands beside its size and its feed",
+        ),
+        (
+            FLAT,
             "L X+10\nCHF R2\nL Y+10",
             5,
             "its length is not stated as a number",
