@@ -54,6 +54,7 @@ mod options;
 mod path;
 mod poses;
 mod rapid;
+mod rounding;
 mod siemens;
 mod standing;
 mod table;

@@ -242,3 +242,136 @@ fn sizes_of_corners_may_be_computed() {
     assert_eq!(computed, written(["7", "3", "2.5"]));
     assert!(computed.contains("\nG3 X40 Y7 CR=7\n"), "{computed}");
 }
+
+/// A line and an arc about a pole, or the other way round, with a rounded corner between them.
+fn beside_an_arc(chance: &mut Chance, arc_first: bool) -> Option<(String, [f64; 6])> {
+    let digits = |value: f64| (value * 1e4).round() / 1e4;
+    let [x, y] = [0, 1].map(|_| digits(chance.within(20.0)));
+    let size = 5.0 + chance.within(4.0).abs();
+    let [start, turn] = [chance.within(3.0), 0.9 + chance.within(2.0).abs()];
+    let sense = if chance.below(2) == 0 { 1.0 } else { -1.0 };
+    let on = |angle: f64| {
+        [
+            digits(x + size * angle.cos()),
+            digits(y + size * angle.sin()),
+        ]
+    };
+    let (begin, end) = (on(start), on(start + sense * turn));
+    let outer = [
+        digits(x + chance.within(30.0)),
+        digits(y + chance.within(30.0)),
+    ];
+    let radius = digits(0.2 + chance.within(0.25).abs());
+    let corner = if arc_first { end } else { begin };
+    let away = Vector2::from(outer) - Vector2::from(corner);
+    // The angle between the line, from outside or inside, and the circle at the corner.
+    let out = Vector2::from(corner) - Vector2::new(x, y);
+    let slant = (away.dot(&out) / (away.norm() * out.norm())).abs();
+    if away.norm() < 8.0 || slant < 0.6 {
+        return None;
+    }
+    let turned = if sense > 0.0 { "DR+" } else { "DR-" };
+    let line = |[x, y]: [f64; 2]| format!("L X{x:+.4} Y{y:+.4}");
+    let arc = |[x, y]: [f64; 2]| format!("C X{x:+.4} Y{y:+.4} {turned}");
+    let blocks = match arc_first {
+        false => [line(outer), line(begin), arc(end)],
+        true => [line(begin), arc(end), line(outer)],
+    };
+    let text = format!(
+        "BEGIN PGM A MM\nCC X{x:+.4} Y{y:+.4}\n{} Z-1 R0 FMAX M3\n{} F500\nRND R{radius:.4} F200\n{}\nEND PGM A MM\n",
+        blocks[0], blocks[1], blocks[2]
+    );
+    Some((text, [x, y, size, radius, corner[0], corner[1]]))
+}
+
+#[test]
+fn corners_between_a_line_and_an_arc_are_tangential_to_both() {
+    for arc_first in [false, true] {
+        let mut chance = Chance::new(11);
+        let (mut worst, mut count) = (Worst::new(), 0);
+        for _ in 0..200 {
+            let Some((text, [x, y, size, radius, at_x, at_y])) =
+                beside_an_arc(&mut chance, arc_first)
+            else {
+                continue;
+            };
+            let (output, path) = path(Language::Heidenhain, &text);
+            let moves = &path.path.moves;
+            assert_eq!(moves.len(), 4, "{output}");
+            let [before, corner, behind] = [&moves[1], &moves[2], &moves[3]];
+            // The rounding has its radius, and goes on from each way in the direction of that: nothing else is tangential to both.
+            let length = corner.length_mm();
+            let chord = (corner.end - corner.start).norm();
+            worst.add((2.0 * radius * (0.5 * length / radius).sin() - chord) / 10.0);
+            let step = 1e-4;
+            let ends = [
+                [
+                    before.point(1.0 - step),
+                    before.point(1.0),
+                    corner.point(step),
+                ],
+                [
+                    corner.point(1.0 - step),
+                    corner.point(1.0),
+                    behind.point(step),
+                ],
+            ];
+            for [a, b, c] in ends {
+                let [came, goes] = [(b - a).normalize(), (c - b).normalize()];
+                assert!(came.dot(&goes) > 0.999, "{text}{output}");
+                worst.add(came.cross(&goes).norm() / 300.0);
+            }
+            // It is the short way at the corner, and the arc is about its pole as it was.
+            assert!(
+                corner.turn_deg().is_finite() && length < 3.15 * radius,
+                "{text}{output}"
+            );
+            let there = Vector2::new(at_x, at_y);
+            assert!(
+                (corner.start.xy() - there).norm() < 12.0 * radius,
+                "{text}{output}"
+            );
+            let arc = if arc_first { before } else { behind };
+            let line = if arc_first { behind } else { before };
+            for k in 0..=10 {
+                let off = (arc.point(f64::from(k) / 10.0).xy() - Vector2::new(x, y)).norm();
+                worst.add((off - size) / 3.0);
+            }
+            assert!(line.length_mm() > 0.0);
+            let feeds = [before, corner, behind].map(|one| one.feed.unwrap().value.round());
+            assert_eq!(feeds, [500.0, 200.0, 500.0], "{output}");
+            count += 1;
+        }
+        let off = worst.measured().unwrap();
+        println!("arc first {arc_first}: {count} corners, {off:.2e}");
+        assert!(count > 40 && off < 1e-4, "{count} {off}");
+    }
+}
+
+#[test]
+fn a_slot_with_arcs_between_rounded_lines_is_followed() {
+    // A line into a circle from outside, round it, and out again: at 90 degrees, R1 beside R10.
+    let text = "BEGIN PGM A MM\nCC X+0 Y+0\nL X-20 Y+0 Z-1 R0 FMAX M3\nL X-10 F500\nRND R1\nCP PA+0 DR+\nRND R1\nL X+20\nEND PGM A MM\n";
+    let (output, path) = path(Language::Heidenhain, text);
+    let moves = &path.path.moves;
+    // The centre of the first rounding: 1 beside the line, 11 from the pole.
+    let reach = 120_f64.sqrt();
+    let share = 10.0 / 11.0;
+    let wanted = [
+        [-reach, 0.0],
+        [-reach * share, -share],
+        [reach * share, -share],
+        [reach, 0.0],
+        [20.0, 0.0],
+    ];
+    assert_eq!(moves.len(), 6, "{output}");
+    for (one, wanted) in moves[1..].iter().zip(wanted) {
+        let off = (one.end.xy() - Vector2::from(wanted)).norm();
+        assert!(off < 1e-4, "{off} {output}");
+    }
+    let turned = 2.0 * (0.5 * std::f64::consts::PI - (1.0 / 11.0_f64).asin());
+    assert!(
+        (moves[3].length_mm() - 10.0 * turned).abs() < 1e-3,
+        "{output}"
+    );
+}

@@ -135,13 +135,15 @@ fn line_ends(file: &SourceFile, block: &Block, wanted: &Wanted, edits: &mut Edit
     };
     let stated = Stated::of(&words);
     let digits = decimals(unit_mm);
-    let keeps_height = |at: &&usize| words[**at].is("Z") || words[**at].is("IZ");
-    for at in stated.places.iter().filter(|at| !keeps_height(at)) {
+    let stays = |at: &&usize| ["Z", "IZ", "DR"].iter().any(|name| words[**at].is(name));
+    for at in stated.places.iter().filter(|at| !stays(at)) {
         edits.replace(with_blanks(&words, *at), "");
     }
     let texts = [0, 1].map(|axis| word_text(axis, end[axis] / unit_mm, digits, true));
     if first.is("LP") {
         edits.replace(first.span.clone(), "L");
+    } else if first.is("CP") {
+        edits.replace(first.span.clone(), "C");
     }
     let at = first.span.end;
     edits.replace(at..at, format!(" {} {}", texts[0], texts[1]));

@@ -16,8 +16,8 @@ use crate::text::source::SourceFile;
 const MOST_BLOCKS: usize = 5_000_000;
 
 /// Runs a Heidenhain program once and writes it flat: labels that are called and repeated, other programs (given behind the first
-/// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners between two lines that are
-/// rounded (RND) or broken (CHF, whose number is how much it takes of each line). Each line says where it is from. A program
+/// one), jumps and Q parameters, drilling by cycles 200, 201, 203 and 1, corners that are rounded (RND, between two lines or a line and an
+/// arc about a pole) or broken (CHF, between two lines, whose number is how much it takes of each). Each line says where it is from. A program
 /// without anything of that comes back byte for byte.
 ///
 /// Coordinates that parameters say are written with 4 decimals in mm (5 in inches), as the control resolves them. Holes become

@@ -12,6 +12,10 @@ use crate::heidenhain::blocks::Block;
 use crate::heidenhain::reading::rounded::{AS_ARC, AS_LINE, Line, Pending, Rounded};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
+use crate::rounding::{Beside, rounding};
+
+/// An arc that turns by more has no corner of its own, rad.
+const MOST_OF_A_TURN: f64 = 6.28;
 
 /// Heights nearer than this are one, mm.
 const SAME_MM: f64 = 1e-9;
@@ -31,8 +35,10 @@ impl Reader<'_> {
             (word.is("F") || !is_chamfer && (word.is("R") || word.is("RND")))
                 && word.value().is_some()
         };
-        let size = size.filter(|_| words[1..].iter().all(known));
         let cut = match (size.map(|size| size * self.unit_mm), is_chamfer) {
+            (Some(_), _) if !words[1..].iter().all(known) => {
+                Err("another word stands beside its size and its feed".to_owned())
+            }
             (Some(size), true) => Ok(Cut::Sides(size)),
             (Some(size), false) => Ok(Cut::Rounded(size)),
             (None, true) => Err("its length is not stated as a number".to_owned()),
@@ -51,11 +57,11 @@ impl Reader<'_> {
         });
     }
 
-    /// A straight block that was followed: the line before a corner, or the one behind.
+    /// A block that was followed: the line before a corner, or the one behind; or an arc about a pole.
     pub(crate) fn line_went(
         &mut self,
         (block, words): (&Block, &[Word]),
-        (start, to): ([Option<f64>; 3], Vector3<f64>),
+        (start, to, arc): ([Option<f64>; 3], Vector3<f64>, Option<Beside>),
         rapid: bool,
     ) {
         if words[0].is("LP") && !self.found.corners.is_empty() {
@@ -65,13 +71,21 @@ impl Reader<'_> {
         let [Some(x), Some(y), Some(z)] = start else {
             return;
         };
-        if !(words[0].is("L") || words[0].is("LP")) {
+        let known = match arc {
+            None => words[0].is("L") || words[0].is("LP"),
+            // More than a turn has no end of its own.
+            Some(arc) => {
+                (words[0].is("C") || words[0].is("CP")) && arc.angle.abs() < MOST_OF_A_TURN
+            }
+        };
+        if !known {
             return;
         }
         self.line = Some(Line {
             block: block.clone(),
             from: Vector3::new(x, y, z),
             to,
+            arc,
             rapid,
             unit_mm: self.unit_mm,
             feed: self.state.feed,
@@ -88,6 +102,7 @@ impl Reader<'_> {
             Ok(rounded) => {
                 if let Some(line) = &mut self.line {
                     let [_, second] = rounded.corner.ends;
+                    line.arc = line.leg().rest_from(second).arc;
                     line.from = Vector3::new(second.x, second.y, line.from.z);
                 }
                 self.found.corners.push(Ok(rounded));
@@ -100,10 +115,12 @@ impl Reader<'_> {
 fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> {
     let cut = pending.cut.clone()?;
     let before = pending.line.as_ref().ok_or_else(|| {
-        "the block before it is no straight line whose start and end are known".to_owned()
+        "the block before it is no straight line, and no arc about a pole, whose start and end are known".to_owned()
     })?;
-    let behind = behind
-        .ok_or_else(|| "the block behind it is no straight line whose end is known".to_owned())?;
+    let behind = behind.ok_or_else(|| {
+        "the block behind it is no straight line, and no arc about a pole, whose end is known"
+            .to_owned()
+    })?;
     let heights = [before.from.z, before.to.z, behind.to.z];
     if heights.iter().any(|z| (z - heights[0]).abs() > SAME_MM) {
         return Err("the tool rises or sinks along a line at the corner".to_owned());
@@ -115,6 +132,13 @@ fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> 
         return Err("the feed behind it is not known as a number".to_owned());
     }
     let places = [before.from, before.to, behind.to].map(|place| place.xy());
+    let arcs = [before.arc, behind.arc].iter().flatten().count();
+    let corner = match (cut, arcs) {
+        (_, 0) => Corner::cut(places, cut)?,
+        (Cut::Rounded(radius), 1) => rounding([before.leg(), behind.leg()], radius)?,
+        (Cut::Rounded(_), _) => return Err("it is between two arcs".to_owned()),
+        _ => return Err("a chamfer is between two straight lines".to_owned()),
+    };
     let unit_mm = before.unit_mm;
     Ok(Rounded {
         blocks: [
@@ -122,7 +146,7 @@ fn rounded(pending: &Pending, behind: Option<&Line>) -> Result<Rounded, String> 
             pending.block.clone(),
             behind.block.clone(),
         ],
-        corner: Corner::cut(places, cut)?,
+        corner,
         cut,
         feed: pending.feed,
         feed_behind: before.feed,

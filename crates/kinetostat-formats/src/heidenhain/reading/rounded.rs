@@ -6,6 +6,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::corner::{Corner, Cut};
 use crate::heidenhain::blocks::Block;
+use crate::rounding::{Beside, Leg};
 
 /// Whether a program may hold rounded corners or chamfers.
 pub(crate) fn has_corners(bytes: &[u8]) -> bool {
@@ -14,16 +15,28 @@ pub(crate) fn has_corners(bytes: &[u8]) -> bool {
         .any(|part| part.eq_ignore_ascii_case(b"RND") || part.eq_ignore_ascii_case(b"CHF"))
 }
 
-/// A straight block whose start and end are known, in the programmed axes, mm.
+/// A straight block, or an arc about a pole, whose start and end are known, in the programmed axes, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Line {
     pub block: Block,
     pub from: Vector3<f64>,
     pub to: Vector3<f64>,
+    pub arc: Option<Beside>,
     pub rapid: bool,
     pub unit_mm: f64,
     /// In force at its end, as programmed.
     pub feed: Option<f64>,
+}
+
+impl Line {
+    /// In the plane.
+    pub(crate) fn leg(&self) -> Leg {
+        Leg {
+            from: self.from.xy(),
+            to: self.to.xy(),
+            arc: self.arc,
+        }
+    }
 }
 
 /// What to do where a corner is not followed.

@@ -14,6 +14,7 @@ use crate::model::motion::MotionKind;
 use crate::model::orientation::OrientationText;
 use crate::model::site::{PoseText, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
+use crate::rounding::Beside;
 use crate::text::number::{NumberText, Width};
 
 /// What the functions of a block do.
@@ -193,8 +194,12 @@ impl Reader<'_> {
             (target, TargetSite::Literal(text)),
             (went.shape, went.end, rapid),
         );
-        if self.has_corners && !is_arc {
-            self.line_went((block, words), (start, place), rapid);
+        if self.has_corners {
+            let arc = went.arc.as_ref().map(|arc| Beside {
+                centre: arc.centre,
+                angle: arc.angle,
+            });
+            self.line_went((block, words), (start, place, arc), rapid);
         }
         self.state.place = went.end;
     }

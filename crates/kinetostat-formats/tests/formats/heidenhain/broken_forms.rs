@@ -52,6 +52,18 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
         ),
         (
             FLAT,
+            "L X+10\nCHF 2 M8\nL Y+10",
+            5,
+            "another word stands beside its size and its feed",
+        ),
+        (
+            FLAT,
+            "L X+10\nRND R2 M8\nL Y+10",
+            5,
+            "another word stands beside its size and its feed",
+        ),
+        (
+            FLAT,
             "L X+10\nCHF R2\nL Y+10",
             5,
             "its length is not stated as a number",
@@ -73,13 +85,43 @@ fn each_of_these_files_is_refused_with_its_line_and_a_remedy() {
             FLAT,
             "L X+10\nRND R2\nCC X+10 Y+10\nL Y+10",
             5,
-            "the block behind it is no straight line whose end is known",
+            "the block behind it is no straight line, and no arc about a pole, whose end is known",
         ),
         (
             FLAT,
             "L X+10\nRND R2\nCR X+20 Y+10 R+20 DR+",
             5,
             "the block behind it is no straight line",
+        ),
+        (
+            FLAT,
+            "CC X+10 Y+10\nL X+10\nRND R11\nC X+20 Y+10 DR-",
+            6,
+            "the ways at the corner go straight on, or back on themselves",
+        ),
+        (
+            FLAT,
+            "CC X+20 Y+0\nL X+10\nRND R30\nC X+20 Y+10 DR-",
+            6,
+            "it takes more of a way at the corner than there is",
+        ),
+        (
+            FLAT,
+            "CC X+20 Y+0\nL X+10\nRND R4\nC X+20 Y+10 Z-2 DR-",
+            6,
+            "the tool rises or sinks along a line at the corner",
+        ),
+        (
+            FLAT,
+            "CC X+20 Y+0\nL X+10\nCHF 2\nC X+20 Y+10 DR-",
+            6,
+            "a chamfer is between two straight lines",
+        ),
+        (
+            FLAT,
+            "CC X+20 Y+0\nL X+10\nC X+20 Y+10 DR-\nRND R1\nC X+30 Y+0 DR-",
+            7,
+            "it is between two arcs",
         ),
         (
             FLAT,
