@@ -155,7 +155,7 @@ fn whole(
     let files = files.map(|(name, bytes)| SourceFile::new(name.as_str(), bytes.as_slice()));
     let Some(divided) = Divided::of(of_robot, files.collect()) else {
         return Err(Failure::input(format!(
-            "the program needs {} files in {}, and a run compensates one with at most {MOST_POINTS_OF_LS} places: state no smaller most_points in the template, or divide the program and run each part by itself",
+            "the program needs {} files in {}, and a run compensates one, with at most {MOST_POINTS_OF_LS} places: leave most_points out of the template where it is smaller, or divide the program and run each part by itself",
             made.files.len(),
             language.title()
         )));

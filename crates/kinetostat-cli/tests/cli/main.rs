@@ -22,6 +22,7 @@ mod cut;
 mod cut_end_to_end;
 mod cut_refused;
 mod demo;
+mod divided;
 mod draw;
 mod endings;
 mod engagement;

@@ -40,6 +40,23 @@ fn parts_go_on_where_the_part_before_ended() {
             worst.add((motion.target.pose().unwrap().position_mm - wanted.end).norm());
         }
         assert!(worst.value() < 1e-6);
+        // Lines of the motions, counted through the files.
+        assert_eq!(made.lines.len(), program.motions.len());
+        let mut through = made.files.iter().flat_map(|(_, bytes)| {
+            let text = String::from_utf8(bytes.clone()).unwrap();
+            text.lines().map(str::to_owned).collect::<Vec<_>>()
+        });
+        let mut at = 0;
+        for ([line, source], wanted) in made.lines.iter().zip(&path.moves) {
+            assert_eq!(*source, wanted.line);
+            let text = through.nth(line - at - 1).unwrap();
+            at = *line;
+            let words = ["LIN", "CIRC", "PTP", "Move", "L P[", "C P[", "J P["];
+            assert!(
+                words.iter().any(|word| text.contains(word)),
+                "{line}: {text}"
+            );
+        }
         let file = text_of(&made, 3);
         let places =
             file.matches("{X ").count() + file.matches("[[").count() + file.matches("\nP[").count();
