@@ -122,9 +122,9 @@ const NO_END: Reason = (
     "leave its pieces out",
 );
 
-const PARTIAL: Reason = (
-    "it states only some of X, Y, Z, A, B, C: the others are those of before",
-    "write all of them",
+const NO_VIA: Reason = (
+    "through which place its circle goes is not known from the text",
+    "leave its pieces out, or state that place",
 );
 
 const NO_JOINTS: Reason = (
@@ -161,6 +161,9 @@ impl Writer<'_> {
             };
         };
         let end = motion.target.pose().ok_or(NO_END)?;
+        if !motion.has_known_way() {
+            return Err(NO_VIA);
+        }
         let pieces: Vec<&Piece> = with_axes.iter().map(|(piece, _)| *piece).collect();
         check_pieces(&pieces)?;
         let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
@@ -373,7 +376,8 @@ impl Writer<'_> {
                     put(file, number, *value, least, Width::Free, edits);
                 }
             }
-            (TargetSite::Partial(_), Some(_)) => return Err(PARTIAL),
+            // What KRL leaves open is stated before.
+            (TargetSite::Partial(_), Some(_)) => return Err(NO_END),
             (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
         }
         Ok(())
