@@ -92,7 +92,7 @@ fn the_tool_s_axis_is_corrected_on_request() {
     assert!(said.err.contains("--correct pose"), "{said:?}");
 }
 
-/// A copy is told by the rotary axes of the model whether its program could be compensated.
+/// Whether the program of a copy could be compensated is judged with the rotary axes of the model.
 #[test]
 fn a_copy_knows_the_axes_of_its_model() {
     let here = place();
