@@ -123,7 +123,7 @@ fn angles_under_traori_and_m128_are_those_under_g43_4() {
     assert!(read(here, "o_cone.mpf").contains("C=IC("));
 }
 
-/// A copy is told by the rotary axes of the model whether its program could be compensated.
+/// Whether the program of a copy could be compensated is judged with the rotary axes of the model.
 #[test]
 fn a_copy_knows_the_axes_of_its_model() {
     let here = place();

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::krl::behind_ends::rest_of;
+use crate::krl::lex::TokenFile;
 use crate::krl::settings::Setter;
 use crate::krl::state::{Settings, State, Thing};
 use crate::krl::steps::{by_step, step_of};
@@ -58,44 +59,9 @@ pub(crate) fn follow(
     } = *statement;
     let file = values.file(routine);
     let ends = ends_of(file, tokens, row.ends);
-    if row.ends == Ends::Circular
-        && let Some(via) = ends.first()
-        && via.end < tokens.end
-        && !file.is(via.end, b',')
-    {
-        return Err((
-            "no comma stands between the place on the circle and its end".to_owned(),
-            "write  CIRC place, end",
-        ));
-    }
     let end_tokens = ends.last().cloned().unwrap_or(tokens.end..tokens.end);
-    let next = file
-        .tokens
-        .get(end_tokens.end)
-        .map(|token| token.bytes().start);
-    if end_tokens.end < tokens.end
-        && next == Some(file.span(&end_tokens).end)
-        && file.name(end_tokens.end).is_some()
-    {
-        return Err((
-            "nothing stands between the target and the word behind it".to_owned(),
-            "write a blank there",
-        ));
-    }
-    let mut behind = end_tokens.end;
-    // In whose axes a step is: those of the base without a word.
-    if row.ends == Ends::Step && file.is(behind, b'#') {
-        if !file.name(behind + 1).is_some_and(|name| name.is("BASE")) {
-            return Err((
-                "its steps are in the axes of the tool".to_owned(),
-                "write the end with LIN and all its numbers",
-            ));
-        }
-        behind += 2;
-    }
-    if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
-        behind += 1;
-    }
+    are_apart(file, (row, tokens), &ends, &end_tokens)?;
+    let behind = behind_end(file, row, end_tokens.end)?;
     let rest = rest_of(file, behind..tokens.end)?;
     let speed_before = state.get(Thing::Speed);
     with((values, settings, routine), &rest.with, &mut state)?;
@@ -166,6 +132,53 @@ pub(crate) fn follow(
         open: end.open,
         via_open,
     })
+}
+
+/// Between the ends of a circle stands a comma, and behind the last end a blank.
+fn are_apart(
+    file: &TokenFile<'_>,
+    (row, tokens): (&MotionRow, &Range<usize>),
+    ends: &[Range<usize>],
+    last: &Range<usize>,
+) -> Result<(), Reason> {
+    if row.ends == Ends::Circular
+        && let Some(via) = ends.first()
+        && via.end < tokens.end
+        && !file.is(via.end, b',')
+    {
+        return Err((
+            "no comma stands between the place on the circle and its end".to_owned(),
+            "write  CIRC place, end",
+        ));
+    }
+    let next = file.tokens.get(last.end);
+    let next = next.map(|token| token.bytes().start);
+    let touches = next == Some(file.span(last).end);
+    if last.end < tokens.end && touches && file.name(last.end).is_some() {
+        return Err((
+            "nothing stands between the target and the word behind it".to_owned(),
+            "write a blank there",
+        ));
+    }
+    Ok(())
+}
+
+/// Behind what belongs to an end: in whose axes a step is, and the angle of a circle.
+fn behind_end(file: &TokenFile<'_>, row: &MotionRow, mut behind: usize) -> Result<usize, Reason> {
+    // In whose axes a step is: those of the base without a word.
+    if row.ends == Ends::Step && file.is(behind, b'#') {
+        if !file.name(behind + 1).is_some_and(|name| name.is("BASE")) {
+            return Err((
+                "its steps are in the axes of the tool".to_owned(),
+                "write the end with LIN and all its numbers",
+            ));
+        }
+        behind += 2;
+    }
+    if file.is(behind, b',') && file.name(behind + 1).is_some_and(|name| name.is("CA")) {
+        behind += 1;
+    }
+    Ok(behind)
 }
 
 /// Takes what WITH puts in force.

@@ -99,6 +99,15 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// Whether the text says its whole way: its end, and the place on its circle.
+    pub(crate) fn has_known_way(&self) -> bool {
+        let via = match &self.kind {
+            MotionKind::Circular { via } => via.pose().is_some(),
+            MotionKind::Joint | MotionKind::Linear | MotionKind::Arc { .. } => true,
+        };
+        via && self.target.pose().is_some()
+    }
+
     /// The pose of the tool at the end in the axes of the base, mm; none without a pose or a known work object.
     ///
     /// ```

@@ -81,9 +81,12 @@ impl<'a> Maker<'a> {
         Some(self.frame_in_path(motion) * target.pose()?.isometry())
     }
 
-    /// Where a motion ends, and how the tool stands there.
+    /// Where a motion ends, and how the tool stands there; none where that, or its way there, is not known.
     pub(super) fn end_in_path(&self, index: usize) -> Option<Isometry3<f64>> {
         let motion = &self.program.motions[index];
+        if !motion.has_known_way() {
+            return None;
+        }
         let mut end = self.pose_in_path(motion, &motion.target)?;
         if let Some(turn) = self.turns.as_ref().and_then(|turns| turns[index]) {
             end.rotation = turn;
@@ -105,7 +108,7 @@ impl<'a> Maker<'a> {
             _ => false,
         };
         motion.kind == MotionKind::Joint
-            || motion.target.pose().is_none()
+            || !motion.has_known_way()
             || said
             || self.options.rapid_from_mm_per_s.is_some_and(fast)
     }

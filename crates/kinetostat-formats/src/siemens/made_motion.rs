@@ -74,82 +74,92 @@ impl Reader<'_> {
         end: [Option<f64>; 3],
         reason: &str,
     ) {
-        let (state, file) = (&self.state, self.file);
-        let start_known = state.known_place().is_some();
-        let rapid = state.code == Code::Rapid;
-        let feed = state.feed.clone().filter(|_| !rapid);
-        let per_minute = state.feed_mode == FeedMode::PerMinute;
-        let mm_per_s = (feed.as_ref().filter(|_| per_minute))
-            .map(|feed| feed.value * state.feed_unit_mm / 60.0);
-        let speed = Speed {
-            mm_per_s,
-            text: match rapid {
-                true => "G0".to_owned(),
-                false => feed
-                    .as_ref()
-                    .map_or(String::new(), |feed| feed.text.clone()),
-            },
-        };
+        let state = &self.state;
+        let follows = state.last.filter(|_| state.known_place().is_some());
+        let speed = self.speed_in_force();
         let anchor = behind_axes(block, words);
         let (kind, target, site) = match known {
-            Some(Known { kind, end }) => {
-                let site = TargetSite::Literal(self.text(words, anchor, end));
-                let mut pose = self.pose(end);
-                // A turned frame leaves rounding where the tool stays: it is no way.
-                let before = state.last.filter(|_| start_known);
-                let before = before.and_then(|last| self.out.motions[last].target.pose());
-                if let Some(before) = before
-                    && (before.position_mm - pose.position_mm).norm() < SAME_MM
-                {
-                    pose.position_mm = before.position_mm;
-                }
-                (kind, Target::Pose(pose), site)
-            }
+            Some(known) => self.known_end((words, anchor), known, follows),
             None => {
-                let target = Target::Unknown {
-                    reason: reason.to_owned(),
-                };
+                let reason = reason.to_owned();
                 let site = TargetSite::Fixed("its end or its way is not known");
-                (MotionKind::Linear, target, site)
+                (MotionKind::Linear, Target::Unknown { reason }, site)
             }
         };
-        let keyword = words.code.clone().unwrap_or(block.words_at..block.words_at);
-        let exact = state.exact || words.exact;
         let motion = Motion {
             file: self.index,
-            line: file.line_of(block.span.start),
+            line: self.file.line_of(block.span.start),
             span: block.span.clone(),
             kind,
             target,
-            zone: match exact {
+            zone: match state.exact || words.exact {
                 true => Zone::Exact,
                 false => Zone::Unstated,
             },
             tool: self.frame_use(&state.tool),
             work_object: self.frame_use(&state.work_object),
             runs: Runs::Once,
-            follows: state.last.filter(|_| start_known),
-            site: MotionSite {
-                keyword,
-                target_span: anchor..anchor,
-                target: site,
-                via: None,
-                speed: speed.mm_per_s.map(|_| SpeedSite {
-                    span: words
-                        .feed
-                        .as_ref()
-                        .map_or(anchor..anchor, |(f, _)| f.clone()),
-                    before: "F".to_owned(),
-                    after: String::new(),
-                }),
-                zone: None,
-                external: Vec::new(),
-                external_moved_behind: false,
-                indivisible: None,
-            },
+            follows,
+            site: site_of((block, words), anchor, site, &speed),
             speed,
         };
-        let written = Written {
+        let written = self.as_written(block, words, (code_stated, feed_stated), end);
+        self.note_axes(&block.span);
+        self.out.motions.push(motion);
+        self.out.written.push(written);
+        self.state.place = end;
+        self.state.last = Some(self.out.motions.len() - 1);
+        self.state.code_stated = false;
+        self.state.feed_stated = false;
+        if self.state.known_place().is_some() {
+            self.state.lost = false;
+        }
+    }
+
+    fn speed_in_force(&self) -> Speed {
+        let state = &self.state;
+        let rapid = state.code == Code::Rapid;
+        let feed = state.feed.as_ref().filter(|_| !rapid);
+        let per_minute = state.feed_mode == FeedMode::PerMinute;
+        Speed {
+            mm_per_s: (feed.filter(|_| per_minute))
+                .map(|feed| feed.value * state.feed_unit_mm / 60.0),
+            text: match rapid {
+                true => "G0".to_owned(),
+                false => feed.map_or(String::new(), |feed| feed.text.clone()),
+            },
+        }
+    }
+
+    /// An end that is known, with its numbers, behind the motion that it follows.
+    fn known_end(
+        &self,
+        (words, anchor): (&Words, usize),
+        Known { kind, end }: Known,
+        follows: Option<usize>,
+    ) -> (MotionKind, Target, TargetSite) {
+        let site = TargetSite::Literal(self.text(words, anchor, end));
+        let mut pose = self.pose(end);
+        // A turned frame leaves rounding where the tool stays: it is no way.
+        let before = follows.and_then(|last| self.out.motions[last].target.pose());
+        if let Some(before) = before
+            && (before.position_mm - pose.position_mm).norm() < SAME_MM
+        {
+            pose.position_mm = before.position_mm;
+        }
+        (kind, Target::Pose(pose), site)
+    }
+
+    /// What the writer must know of a block beside its motion.
+    fn as_written(
+        &self,
+        block: &Block,
+        words: &Words,
+        (code_stated, feed_stated): (bool, bool),
+        end: [Option<f64>; 3],
+    ) -> Written {
+        let state = &self.state;
+        Written {
             line: block.line.clone(),
             words_at: block.words_at,
             axes: words.axes.clone(),
@@ -172,16 +182,6 @@ impl Reader<'_> {
             steps: state.steps,
             normal: state.normal,
             corner: words.corner.clone(),
-        };
-        self.note_axes(&block.span);
-        self.out.motions.push(motion);
-        self.out.written.push(written);
-        self.state.place = end;
-        self.state.last = Some(self.out.motions.len() - 1);
-        self.state.code_stated = false;
-        self.state.feed_stated = false;
-        if self.state.known_place().is_some() {
-            self.state.lost = false;
         }
     }
 
@@ -241,4 +241,32 @@ pub(crate) fn behind_axes(block: &Block, words: &Words) -> usize {
     last(&mut axes)
         .or(last(&mut code))
         .unwrap_or(block.words_at)
+}
+
+/// Where the parts of a motion stand in its block.
+fn site_of(
+    (block, words): (&Block, &Words),
+    anchor: usize,
+    target: TargetSite,
+    speed: &Speed,
+) -> MotionSite {
+    let feed_word = || {
+        let feed = words.feed.as_ref();
+        feed.map_or(anchor..anchor, |(feed, _)| feed.clone())
+    };
+    MotionSite {
+        keyword: words.code.clone().unwrap_or(block.words_at..block.words_at),
+        target_span: anchor..anchor,
+        target,
+        via: None,
+        speed: speed.mm_per_s.map(|_| SpeedSite {
+            span: feed_word(),
+            before: "F".to_owned(),
+            after: String::new(),
+        }),
+        zone: None,
+        external: Vec::new(),
+        external_moved_behind: false,
+        indivisible: None,
+    }
 }

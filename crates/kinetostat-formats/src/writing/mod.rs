@@ -6,9 +6,15 @@
 //! `Syntax`, a table of statements, a variant of `Language`, and one arm each in `document.rs`. Nothing here changes.
 
 pub(crate) mod declared;
+mod divided;
+mod ends;
 pub(crate) mod external_axes;
 pub(crate) mod joints;
+pub(crate) mod line_length;
 pub(crate) mod literal;
 pub(crate) mod motions;
 pub(crate) mod piece;
+pub(crate) mod refusals;
+mod speeds;
 pub(crate) mod syntax;
+mod target_texts;

@@ -320,3 +320,58 @@ fn a_circle_of_nearly_a_whole_turn_becomes_shorter_ones() {
         "{sweeps:?}"
     );
 }
+
+/// Where the place on a circle is not known the motion stays a circle: straight, it would cut another way.
+#[test]
+fn circles_through_a_place_that_is_not_known_stay_circles() {
+    let texts = [
+        (
+            Language::Rapid,
+            "MODULE M\nPROC main()\nMoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\n\
+             MoveC CRobT(),[[100,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;\nENDPROC\nENDMODULE\n",
+            "MoveC CRobT(),",
+        ),
+        (
+            Language::Krl,
+            "DEF m()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\nLIN {X 0,Y 0,Z 0,A 0,B 0,C 180}\n\
+             CIRC XNO, {X 100,Y 0,Z 0,A 0,B 0,C 180}\nEND\n",
+            "CIRC XNO,",
+        ),
+        (
+            Language::Krl,
+            "DEF m()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\nLIN XNO\n\
+             CIRC {X 50}, {X 100,Y 0,Z 0,A 0,B 0,C 180}\nEND\n",
+            "CIRC {X 50},",
+        ),
+    ];
+    let mut reading = ReadOptions::default();
+    reading.unknown_targets = UnknownTargets::LeftAsWritten;
+    for (language, text, kept) in texts {
+        let files = vec![SourceFile::new("m.txt", text)];
+        let program = read(language, files, &reading).unwrap();
+        let path = path_of(&program, &PathOptions::default()).unwrap();
+        let robot = Correctable {
+            program: &program,
+            path: &path,
+            reading: &reading,
+            making: &PathOptions::default(),
+            writing: &WriteOptions::default(),
+        };
+        let field = |_: &kinetostat_program::Request| Ok(nalgebra::Vector3::z() * 0.1);
+        let mut writing = kinetostat_program::WriteOptions::default();
+        writing.header = None;
+        let written = kinetostat_program::MachineProgram::write(
+            &robot,
+            &field,
+            &writing,
+            &kinetostat_program::Unwatched,
+        );
+        match written {
+            Ok(written) => {
+                let written = String::from_utf8(written.bytes).unwrap();
+                assert!(written.contains(kept), "{written}");
+            }
+            Err(refused) => panic!("{refused}"),
+        }
+    }
+}

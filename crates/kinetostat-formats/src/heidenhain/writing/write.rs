@@ -21,7 +21,7 @@ use crate::model::program::RobotProgram;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::text::edits::Edits;
 use crate::text::source::SourceFile;
-use crate::writing::motions::check_lines;
+use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
 
 /// The files of a program with pieces in place of its motions.

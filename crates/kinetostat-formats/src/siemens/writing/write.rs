@@ -16,8 +16,9 @@ use crate::options::{ReadOptions, WriteOptions};
 use crate::siemens::scan::scan;
 use crate::siemens::writing::writer::{Held, Reason, SAME, Writer};
 use crate::text::edits::Edits;
-use crate::writing::motions::{check_lines, check_pieces};
+use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
+use crate::writing::refusals::check_pieces;
 
 /// Most bytes of a block.
 const LONGEST_BLOCK: usize = 512;

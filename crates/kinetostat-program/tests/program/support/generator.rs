@@ -10,7 +10,7 @@ pub struct Generator<'s> {
     pub(super) truths: Vec<Truth>,
     pub(super) facts: Vec<Fact>,
     pub(super) known: [bool; 3],
-    /// The reader is told the places of the machine.
+    /// The options of the reader state where the places of the machine are.
     pub(super) machine_is_known: bool,
     pub(super) tool: usize,
     pub(super) place: [f64; 3],

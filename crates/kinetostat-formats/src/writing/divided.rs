@@ -1,0 +1,161 @@
+//! A motion with its pieces: further statements before it, and its own end.
+
+use nalgebra::UnitQuaternion;
+
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::orientation::OrientationText;
+use crate::model::program::Language;
+use crate::model::site::PoseText;
+use crate::writing::ends::Writer;
+use crate::writing::external_axes::AxesOfPiece;
+use crate::writing::literal::Wanted;
+use crate::writing::piece::Piece;
+use crate::writing::refusals::{NO_END, NO_VIA, Reason, check_pieces};
+use crate::writing::speeds::{Stated, speed_of};
+use crate::writing::syntax::PieceLiterals;
+use crate::writing::target_texts::{span_of, text_of};
+
+/// Orientations nearer than this are the same: the text of the orientation stays.
+const SAME_RAD: f64 = 1e-9;
+
+impl Writer<'_> {
+    /// Writes a motion with its pieces; without pieces it stays.
+    pub(super) fn write_motion(
+        &mut self,
+        motion: &Motion,
+        with_axes: &[(&Piece, &AxesOfPiece)],
+    ) -> Result<(), Reason> {
+        let Some(((last, last_axes), before)) = with_axes.split_last() else {
+            self.write_end(motion, &motion.site.target, None)?;
+            return match &motion.site.via {
+                Some((_, site)) => self.write_end(motion, site, None),
+                None => Ok(()),
+            };
+        };
+        let end = motion.target.pose().ok_or(NO_END)?;
+        if !motion.has_known_way() {
+            return Err(NO_VIA);
+        }
+        let pieces: Vec<&Piece> = with_axes.iter().map(|(piece, _)| *piece).collect();
+        check_pieces(&pieces)?;
+        let states_none = |text: &PoseText| text.convention == OrientationText::Unstated;
+        let turns = |to: UnitQuaternion<f64>| to.angle_to(&end.orientation) > SAME_RAD;
+        // Places of APT may have an axis from before: its own writer knows.
+        if self.program.language != Language::Apt
+            && text_of(self.program, &motion.site.target).is_some_and(states_none)
+            && pieces
+                .iter()
+                .any(|piece| piece.orientation.is_some_and(turns))
+        {
+            return Err((
+                "the end states no orientation that could be corrected",
+                "write its angles, or correct its place alone",
+            ));
+        }
+        let is_circle = matches!(
+            motion.kind,
+            MotionKind::Circular { .. } | MotionKind::Arc { .. }
+        );
+        let divided = !before.is_empty() && !self.syntax.writes_circles();
+        let becomes_straight = is_circle && (divided || last.via_mm.is_none());
+        if let (true, false, Some(via)) = (is_circle, becomes_straight, last.via_mm) {
+            let (_, site) = motion.site.via.as_ref().ok_or(NO_END)?;
+            let wanted = Wanted {
+                position_mm: via,
+                orientation: last.via_orientation.filter(|_| !before.is_empty()),
+                external: &last_axes.halfway,
+            };
+            self.write_end(motion, site, Some(wanted))?;
+        }
+        let wanted = Wanted {
+            position_mm: last.position_mm,
+            orientation: last
+                .orientation
+                .filter(|to| to.angle_to(&end.orientation) > SAME_RAD),
+            external: &last_axes.end,
+        };
+        self.write_end(motion, &motion.site.target, Some(wanted))?;
+        (self.syntax).moved(self.program, motion, &mut self.edits[motion.file]);
+        // Where a speed stays in force, each piece states its own, and the speed of before is restored behind them.
+        let restored = match pieces.iter().any(|piece| piece.speed_factor != 1.0) {
+            true => self.syntax.restored_speed(self.program, motion),
+            false => None,
+        };
+        let stated = match &restored {
+            Some(_) => Stated::Always,
+            None => Stated::IfChanged,
+        };
+        let own_speed = speed_of(motion, last, stated)?;
+        if let Some((at, text)) = restored {
+            self.edits[motion.file].replace(at..at, text);
+        }
+        if before.is_empty() && !becomes_straight {
+            self.state_speed(motion, own_speed);
+            return Ok(());
+        }
+        if motion.kind == MotionKind::Joint {
+            return Err((
+                "a joint motion cannot be divided: the tool does not go straight",
+                "give it one piece, at its end",
+            ));
+        }
+        if let Some(reason) = motion.site.indivisible {
+            return Err((
+                reason,
+                "write it so that several motions can take its place: with a speed instead of a time, what it starts at a motion of its own, its IF over several lines",
+            ));
+        }
+        if becomes_straight {
+            let edits = &mut self.edits[motion.file];
+            self.syntax.straighten(self.program, motion, edits);
+        }
+        let mut inserted = Vec::new();
+        for (piece, axes) in before {
+            let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
+            inserted.extend(self.inserted(motion, (piece, axes), speed.as_deref())?);
+        }
+        self.edits[motion.file].replace(motion.span.start..motion.span.start, inserted);
+        self.state_speed(motion, own_speed);
+        Ok(())
+    }
+
+    /// The statement of a piece before the end of a motion, with what parts it from that motion.
+    fn inserted(
+        &mut self,
+        motion: &Motion,
+        (piece, axes): (&Piece, &AxesOfPiece),
+        speed: Option<&[u8]>,
+    ) -> Result<Vec<u8>, Reason> {
+        let end = motion.target.pose().ok_or(NO_END)?;
+        let wanted = Wanted {
+            position_mm: piece.position_mm,
+            orientation: Some(piece.orientation.unwrap_or(end.orientation)),
+            external: &axes.end,
+        };
+        let mut literals = PieceLiterals {
+            end: self.literal_near(motion, &motion.site.target, &wanted)?,
+            via: None,
+        };
+        let circle = (&motion.kind, &motion.site.via, piece.via_mm);
+        if let (MotionKind::Circular { via }, Some((_, site)), Some(via_mm)) = circle
+            && self.syntax.writes_circles()
+        {
+            let written = via.pose().map(|via| via.orientation);
+            let wanted = Wanted {
+                position_mm: via_mm,
+                orientation: piece.via_orientation.or(written),
+                external: &axes.halfway,
+            };
+            literals.via = Some((span_of(site), self.literal_near(motion, site, &wanted)?));
+        }
+        let (program, options) = (self.program, self.options);
+        let statement = self
+            .syntax
+            .piece(program, motion, &literals, speed, options);
+        let mut statement = statement.ok_or(NO_END)?;
+        let file = &program.files[motion.file];
+        statement.extend_from_slice(file.line_ending());
+        statement.extend_from_slice(file.indentation(motion.span.start));
+        Ok(statement)
+    }
+}

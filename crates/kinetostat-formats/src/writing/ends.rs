@@ -1,0 +1,123 @@
+//! The ends of motions and of their pieces, as literals and declarations.
+
+use crate::model::motion::Motion;
+use crate::model::program::RobotProgram;
+use crate::model::site::{OffsetAxes, SpeedSite, TargetSite};
+use crate::options::WriteOptions;
+use crate::text::edits::Edits;
+use crate::text::number::Width;
+use crate::writing::declared::{Demands, Names};
+use crate::writing::joints::{put_joints, row_of_joints};
+use crate::writing::literal::{Wanted, literal_of, put, put_pose};
+use crate::writing::refusals::{NO_END, NO_JOINTS, NO_NAME, Reason};
+use crate::writing::syntax::Syntax;
+use crate::writing::target_texts::text_of;
+
+/// What is written so far.
+pub(super) struct Writer<'a> {
+    pub program: &'a RobotProgram,
+    pub options: &'a WriteOptions,
+    pub syntax: &'a dyn Syntax,
+    /// One for each file.
+    pub edits: Vec<Edits>,
+    pub demands: Demands,
+    pub names: Names,
+}
+
+impl Writer<'_> {
+    /// A pose like that of a target: a literal, or the name of a further declaration.
+    pub(super) fn literal_near(
+        &mut self,
+        motion: &Motion,
+        site: &TargetSite,
+        wanted: &Wanted<'_>,
+    ) -> Result<Vec<u8>, Reason> {
+        if let TargetSite::Joints(text) = site {
+            let end = motion.target.pose().ok_or(NO_END)?;
+            let file = &self.program.files[motion.file];
+            return row_of_joints(file, text, (wanted, end.orientation)).ok_or(NO_JOINTS);
+        }
+        let text = text_of(self.program, site).ok_or(NO_END)?;
+        let home = &self.program.files[text.file];
+        let literal = literal_of(home, text, wanted, self.options).ok_or(NO_END)?;
+        match (self.syntax.declares_pieces(), site) {
+            (true, TargetSite::Declared { declaration, .. }) => {
+                let declared = self.program.declarations.get(*declaration).ok_or(NO_END)?;
+                let (program, syntax) = (self.program, self.syntax);
+                (self.names)
+                    .declare(program, syntax, declared, &literal, &mut 2, &mut self.edits)
+                    .ok_or(NO_NAME)
+            }
+            _ => Ok(literal),
+        }
+    }
+
+    pub(super) fn state_speed(&mut self, motion: &Motion, speed: Option<(&SpeedSite, Vec<u8>)>) {
+        if let Some((site, text)) = speed {
+            self.edits[motion.file].replace(site.span.clone(), text);
+        }
+    }
+
+    /// Writes one pose of a motion; without a wanted one it stays, which other uses of its declaration must know.
+    pub(super) fn write_end(
+        &mut self,
+        motion: &Motion,
+        site: &TargetSite,
+        wanted: Option<Wanted<'_>>,
+    ) -> Result<(), Reason> {
+        let program = self.program;
+        let edits = &mut self.edits[motion.file];
+        let file = &program.files[motion.file];
+        match (site, wanted) {
+            (TargetSite::Declared { declaration, name }, wanted) => {
+                let declared = program.declarations.get(*declaration).ok_or(NO_END)?;
+                let home = &program.files[declared.text.file];
+                let literal = match &wanted {
+                    Some(wanted) => literal_of(home, &declared.text, wanted, self.options),
+                    None => Some(home.part(&declared.text.whole).to_vec()),
+                };
+                let literal = literal.ok_or(NO_END)?;
+                (self.demands).demand(*declaration, motion.file, name.clone(), literal);
+            }
+            (_, None) => {}
+            (TargetSite::Literal(text), Some(wanted)) => {
+                put_pose(file, text, &wanted, self.options, edits);
+            }
+            (TargetSite::Joints(text), Some(wanted)) => {
+                let own = motion.target.pose().ok_or(NO_END)?.orientation;
+                put_joints(file, text, (&wanted, own), edits).ok_or(NO_JOINTS)?;
+            }
+            (TargetSite::Offset { call, literal, .. }, Some(wanted))
+                if wanted.orientation.is_some() =>
+            {
+                // The arguments cannot turn the tool: the end itself is written in place of the call.
+                let home = &program.files[literal.file];
+                let text = literal_of(home, literal, &wanted, self.options).ok_or(NO_END)?;
+                edits.replace(call.clone(), text);
+            }
+            (
+                TargetSite::Offset {
+                    arguments,
+                    axes,
+                    base,
+                    ..
+                },
+                Some(wanted),
+            ) => {
+                let by = wanted.position_mm - base.position_mm;
+                let by = match axes {
+                    OffsetAxes::WorkObject => by,
+                    OffsetAxes::Tool => base.orientation.inverse() * by,
+                };
+                let least = self.options.position_decimals;
+                for (number, value) in arguments.iter().zip(by.iter()) {
+                    put(file, number, *value, least, Width::Free, edits);
+                }
+            }
+            // What KRL leaves open is stated before.
+            (TargetSite::Partial(_), Some(_)) => return Err(NO_END),
+            (TargetSite::Fixed(reason), Some(_)) => return Err((reason, NO_END.1)),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,58 @@
+//! Why a motion does not take its pieces, and what pieces must be.
+
+use crate::writing::piece::Piece;
+
+/// Why a motion cannot be written, and what to do.
+pub(crate) type Reason = (&'static str, &'static str);
+
+pub(super) const NO_END: Reason = (
+    "the motion has no pose that could be corrected",
+    "leave its pieces out",
+);
+
+pub(super) const NO_VIA: Reason = (
+    "through which place its circle goes is not known from the text",
+    "leave its pieces out, or state that place",
+);
+
+pub(super) const NO_JOINTS: Reason = (
+    "no joint values next to those of the row give the corrected pose",
+    "keep away from singular postures and from the end of the reach",
+);
+
+pub(super) const NO_NAME: Reason = (
+    "no name or number is free for a further pose",
+    "give fewer pieces, or divide the program",
+);
+
+/// Farther than any robot reaches, mm.
+pub(crate) const FARTHEST_MM: f64 = 1e6;
+
+/// Whether pieces are numbers.
+pub(crate) fn check_pieces(pieces: &[&Piece]) -> Result<(), Reason> {
+    let finite = |piece: &&Piece| {
+        let via = piece.via_mm.unwrap_or_default();
+        let far = |value: &f64| value.abs() < FARTHEST_MM;
+        piece.position_mm.iter().chain(via.iter()).all(far)
+            && piece.speed_factor.is_finite()
+            && piece.speed_factor > 0.0
+            && piece
+                .orientation
+                .iter()
+                .chain(&piece.via_orientation)
+                .all(|q| q.coords.iter().all(|part| part.is_finite()))
+    };
+    if pieces.iter().any(|piece| piece.centre_mm.is_some()) {
+        return Err((
+            "a piece goes about a centre, and only Heidenhain programs are written so",
+            "give it a place between its ends, or make it straight",
+        ));
+    }
+    match pieces.iter().all(finite) {
+        true => Ok(()),
+        false => Err((
+            "a piece has no finite place, orientation or speed, or one farther than 1 km",
+            "mend the correction",
+        )),
+    }
+}
