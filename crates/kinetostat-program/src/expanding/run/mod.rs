@@ -3,6 +3,7 @@
 //! Takes statements; gives plain blocks to the flat program, one after the other, with the line of each.
 
 pub(crate) mod adding;
+pub(crate) mod beside_call;
 pub(crate) mod calls;
 pub(crate) mod control;
 pub(crate) mod frame;

@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::expanded::Origin;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
+use crate::expanding::run::beside_call::CallBlock;
 use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
@@ -150,8 +151,15 @@ impl Runner<'_> {
 
     /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
-        if let Some(next) = self.called(text)? {
-            return Ok(next);
+        if let Some(mut block) = CallBlock::of(text) {
+            block.does_more |= polar.is_there();
+            self.check_beside_call(&block)?;
+            if block.does_more
+                && let Next::End = self.emit(&block.rest, polar)?
+            {
+                return Ok(Next::End);
+            }
+            return self.called(&block);
         }
         if self.macro_call(text)? {
             return Ok(Next::Line);
