@@ -43,7 +43,7 @@ impl Map {
     }
 
     /// Takes away what G50 or G50.1 ends.
-    pub fn end(&mut self, ending: Option<Ending>) -> Result<(), Wrong> {
+    pub fn take_away(&mut self, ending: Option<Ending>) -> Result<(), Wrong> {
         let (Some(ending), Some((about, factors))) = (ending, &mut self.scale) else {
             return Ok(());
         };

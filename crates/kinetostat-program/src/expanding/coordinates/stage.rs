@@ -78,10 +78,10 @@ impl<'o> Coordinates<'o> {
         }
         let block = Block::of(text)?;
         if let Some(switch) = block.switch {
-            return self.switch(switch, radius, flat);
+            return self.switch(switch, origin, (radius, flat));
         }
         let mut map = self.map;
-        map.end(block.ends)?;
+        map.take_away(block.ends)?;
         map.turn = map.turn.filter(|_| !block.ends_turn);
         if map != self.map {
             refuse_contour(radius)?;
@@ -150,8 +150,8 @@ impl<'o> Coordinates<'o> {
     fn switch(
         &mut self,
         switch: Switch,
-        radius: &mut Radius<'o>,
-        flat: &mut Flat<'o>,
+        origin: Origin,
+        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
     ) -> Result<(), Trouble> {
         refuse_contour(radius)?;
         let state = self.interpreter().unwrap_or(&flat.interpreter);
@@ -260,7 +260,7 @@ impl<'o> Coordinates<'o> {
             }
         }
         self.to_state = to_state;
-        self.become_(map, Origin { line: 0, file: 0 }, (radius, flat))
+        self.become_(map, origin, (radius, flat))
     }
 
     /// A block in other coordinates than the machine's.

@@ -7,6 +7,15 @@ use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened, Rules};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
 
+/// Which word closes a subprogram.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Closing {
+    /// `endsub`.
+    End,
+    /// `return`.
+    Return,
+}
+
 impl Runner<'_> {
     /// `O.. call`.
     pub fn call(&mut self, label: Label, values: &[Expression]) -> Result<(), ProgramError> {
@@ -51,9 +60,17 @@ impl Runner<'_> {
     }
 
     /// `endsub`, `return`, with the value that they give.
-    pub fn close(&mut self, value: Option<&Expression>) -> Result<Next, ProgramError> {
+    pub fn close(
+        &mut self,
+        ending: Closing,
+        value: Option<&Expression>,
+    ) -> Result<Next, ProgramError> {
         let value = value.map(|of| self.value(of)).transpose()?;
         if self.frame().opened != Opened::Call {
+            if ending == Closing::Return && self.frame().opened == Opened::Program {
+                // LinuxCNC passes over it.
+                return Ok(Next::Line);
+            }
             return Err(self.refuse(
                 "the end of a subprogram that was not called",
                 "call it, or take the line out",

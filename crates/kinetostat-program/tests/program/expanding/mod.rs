@@ -9,6 +9,8 @@ mod coordinates;
 mod cycles;
 mod expressions;
 mod fanuc;
+mod fanuc_cycles;
+mod messages;
 mod mirrors;
 mod modes;
 mod offsets;
