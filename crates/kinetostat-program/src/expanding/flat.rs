@@ -7,9 +7,11 @@ use nalgebra::Vector3;
 use crate::error::{ProgramError, excerpt};
 use crate::expanding::expanded::Origin;
 use crate::expanding::options::{ExpandOptions, OriginComments};
+use crate::expanding::source_lines::{in_source_lines, of_source};
 use crate::path::moves::{Path, Warning};
 use crate::reading::faults::take_over_understood;
 use crate::reading::interpreting::interpreter::Interpreter;
+use crate::reading::repeated::Repeated;
 use crate::text::program::{Program, Reader};
 
 /// Plain blocks, read and interpreted one by one.
@@ -22,6 +24,8 @@ pub(crate) struct Flat<'o> {
     comments: OriginComments,
     /// What the path does not say.
     warnings: Vec<Warning>,
+    /// What is said once of many lines.
+    repeated: Repeated,
     options: &'o ExpandOptions,
     /// Whether the places in the plane of arcs rested on a refused line when the last block came.
     was_unsure: bool,
@@ -37,6 +41,7 @@ impl<'o> Flat<'o> {
             files: BTreeMap::new(),
             comments: options.origin_comments,
             warnings: Vec::new(),
+            repeated: Repeated::default(),
             options,
             was_unsure: false,
         }
@@ -51,6 +56,7 @@ impl<'o> Flat<'o> {
             files: BTreeMap::new(),
             comments: OriginComments::Left,
             warnings: Vec::new(),
+            repeated: Repeated::default(),
             options: self.options,
             was_unsure: false,
         }
@@ -62,6 +68,16 @@ impl<'o> Flat<'o> {
             line: self.origins.len(),
             text: text.to_owned(),
         });
+    }
+
+    /// Says something about a line that may hold for many.
+    pub fn warn_of_lines(&mut self, line: usize, text: &str) {
+        self.repeated.note(line, text);
+    }
+
+    /// A text about lines of the flat program, which nobody has seen yet: about those of the files that they came from.
+    pub fn in_source_lines(&self, text: &str) -> String {
+        in_source_lines(text, &self.origins, &self.files)
     }
 
     /// Where the tool's point is at the machine's zero, mm, where that is known.
@@ -112,11 +128,17 @@ impl<'o> Flat<'o> {
             }
             of_source(error, origin.line, file)
         };
-        self.reader.add_line(text).map_err(of_source)?;
+        let read = self.reader.add_line(text);
         self.origins.push(origin);
         let index = self.origins.len() - 1;
-        let program = self.reader.program();
-        self.interpreter.run_line(program, index).map_err(of_source)
+        let done = read.and_then(|()| {
+            let program = self.reader.program();
+            self.interpreter.run_line(program, index)
+        });
+        done.map_err(|mut error| {
+            error.reason = self.in_source_lines(&error.reason);
+            of_source(error)
+        })
     }
 
     /// Whether no further block is allowed.
@@ -169,7 +191,8 @@ impl<'o> Flat<'o> {
     pub fn finish(self) -> Result<(Program, Path, Vec<Origin>, Vec<Warning>), ProgramError> {
         let program = self.reader.into_program();
         let (origins, files) = (self.origins, self.files);
-        let path = self.interpreter.finish(&program).map_err(|error| {
+        let path = self.interpreter.finish(&program).map_err(|mut error| {
+            error.reason = in_source_lines(&error.reason, &origins, &files);
             match origins.get(error.line.wrapping_sub(1)) {
                 Some(origin) => {
                     let file = files.get(&origin.file).map_or("", String::as_str);
@@ -178,20 +201,9 @@ impl<'o> Flat<'o> {
                 None => error,
             }
         })?;
-        Ok((program, path, origins, self.warnings))
-    }
-}
-
-/// What is wrong with a flat block, said of the line that it came from.
-fn of_source(error: ProgramError, line: usize, file: &str) -> ProgramError {
-    let reason = match file {
-        "" => error.reason,
-        name => format!("in the subprogram '{name}': {}", error.reason),
-    };
-    ProgramError {
-        line,
-        reason,
-        ..error
+        let mut warnings = self.warnings;
+        warnings.extend(self.repeated.finish());
+        Ok((program, path, origins, warnings))
     }
 }
 

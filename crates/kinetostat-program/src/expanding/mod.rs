@@ -14,4 +14,5 @@ pub(crate) mod options;
 mod radius;
 pub(crate) mod run;
 mod source;
+mod source_lines;
 mod translate;

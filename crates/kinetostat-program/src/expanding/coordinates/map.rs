@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 
+use crate::expanding::coordinates::switch::Ending;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, in_plane};
+use crate::expanding::translate::wrong::Wrong;
 
 /// Two scales that differ by less keep a circle a circle.
 const SAME: f64 = 1e-12;
@@ -13,6 +15,8 @@ pub(crate) struct Map {
     pub shift: Vector3<f64>,
     /// Centre and factors, negative ones mirror.
     pub scale: Option<(Vector3<f64>, Vector3<f64>)>,
+    /// Whether G51.1 has made the scale; G51 otherwise.
+    pub is_mirror: bool,
     /// Axes of the plane, centre, angle in rad.
     pub turn: Option<(Axes, Point, f64)>,
 }
@@ -22,6 +26,7 @@ impl Default for Map {
         Self {
             shift: Vector3::zeros(),
             scale: None,
+            is_mirror: false,
             turn: None,
         }
     }
@@ -35,6 +40,43 @@ impl Map {
     /// Whether places keep their differences.
     pub fn only_shifts(&self) -> bool {
         self.scale.is_none() && self.turn.is_none()
+    }
+
+    /// Takes away what G50 or G50.1 ends.
+    pub fn take_away(&mut self, ending: Option<Ending>) -> Result<(), Wrong> {
+        let (Some(ending), Some((about, factors))) = (ending, &mut self.scale) else {
+            return Ok(());
+        };
+        match (ending, self.is_mirror) {
+            (Ending::Scale, false) => self.scale = None,
+            (Ending::Mirrors(axes), true) => {
+                for axis in (0..3).filter(|axis| axes[*axis]) {
+                    (about[axis], factors[axis]) = (0.0, 1.0);
+                }
+                if factors.iter().all(|factor| *factor == 1.0) {
+                    (self.scale, self.is_mirror) = (None, false);
+                }
+            }
+            (Ending::Scale, true) => {
+                return Err((
+                    "G50 ends the scale of G51, and the mirrors of G51.1 are in force".to_owned(),
+                    "write G50.1 where the mirrors end",
+                ));
+            }
+            (Ending::Mirrors(_), false) => {
+                return Err((
+                    "G50.1 ends the mirrors of G51.1, and the scale of G51 is in force".to_owned(),
+                    "write G50 where the scale ends",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether left and right of a way in a plane change places: one of its axes is mirrored.
+    pub fn turns_over(&self, axes: Axes) -> bool {
+        let sign = |(_, factors): &(_, Vector3<f64>)| factors[axes[0]] * factors[axes[1]] < 0.0;
+        self.scale.as_ref().is_some_and(sign)
     }
 
     /// Where a programmed place is.
@@ -70,9 +112,9 @@ impl Map {
         };
         let [a, b] = [factors[axes[0]], factors[axes[1]]];
         let same = (a.abs() - b.abs()).abs() < SAME;
-        same.then_some(match a * b > 0.0 {
-            true => sense,
-            false => sense.other(),
+        same.then_some(match self.turns_over(axes) {
+            true => sense.other(),
+            false => sense,
         })
     }
 }

@@ -13,6 +13,7 @@ use crate::expanding::radius::motion::{Motion, no_motion};
 use crate::expanding::radius::piece::Shape;
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::radius::trouble::Trouble;
+use crate::expanding::radius::words::{divided, other_side};
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
@@ -77,15 +78,17 @@ impl<'o> Coordinates<'o> {
         }
         let block = Block::of(text)?;
         if let Some(switch) = block.switch {
-            return self.switch(switch, radius, flat);
+            return self.switch(switch, origin, (radius, flat));
         }
-        let ends = block.ends_scale && self.map.scale.is_some()
-            || block.ends_turn && self.map.turn.is_some();
-        if ends {
+        let mut map = self.map;
+        map.take_away(block.ends)?;
+        map.turn = map.turn.filter(|_| !block.ends_turn);
+        if map != self.map {
             refuse_contour(radius)?;
-            let mut map = self.map;
-            map.scale = map.scale.filter(|_| !block.ends_scale);
-            map.turn = map.turn.filter(|_| !block.ends_turn);
+            let ended = |axis: usize| map.scale.is_none_or(|(_, factors)| factors[axis] == 1.0);
+            if map.turn.is_none() {
+                self.to_state = [0, 1, 2].map(|axis| self.to_state[axis] && !ended(axis));
+            }
             self.become_(map, origin, (radius, flat))?;
         }
         match (block.rest.trim_ascii_end(), &mut self.programmed) {
@@ -147,8 +150,8 @@ impl<'o> Coordinates<'o> {
     fn switch(
         &mut self,
         switch: Switch,
-        radius: &mut Radius<'o>,
-        flat: &mut Flat<'o>,
+        origin: Origin,
+        (radius, flat): (&mut Radius<'o>, &mut Flat<'o>),
     ) -> Result<(), Trouble> {
         refuse_contour(radius)?;
         let state = self.interpreter().unwrap_or(&flat.interpreter);
@@ -204,6 +207,7 @@ impl<'o> Coordinates<'o> {
                     }
                 }
                 map.scale = Some((about, factors));
+                map.is_mirror = true;
             }
             Switch::Turn(..) if map.turn.is_some() => {
                 return wrong(
@@ -232,6 +236,17 @@ impl<'o> Coordinates<'o> {
                         "write the two axes of the plane and R",
                     );
                 }
+                let angle = match (map.turns_over(axes), map.is_mirror) {
+                    (false, _) => angle,
+                    // Fanuc turns the other way in the mirror.
+                    (true, true) => -angle,
+                    (true, false) => {
+                        return wrong(
+                            "G68 in coordinates that G51 mirrors with a negative factor: which way it turns depends on the controller",
+                            "mirror with G51.1",
+                        );
+                    }
+                };
                 let mut at = Vector3::zeros();
                 (at[axes[0]], at[axes[1]]) = (a, b);
                 // A centre in scaled coordinates is scaled.
@@ -245,7 +260,7 @@ impl<'o> Coordinates<'o> {
             }
         }
         self.to_state = to_state;
-        self.become_(map, Origin { line: 0, file: 0 }, (radius, flat))
+        self.become_(map, origin, (radius, flat))
     }
 
     /// A block in other coordinates than the machine's.
@@ -259,7 +274,12 @@ impl<'o> Coordinates<'o> {
         let Some(programmed) = self.programmed.as_mut() else {
             return radius.block(text, origin, flat);
         };
-        let (switch, rest) = crate::expanding::radius::words::divided(text)?;
+        let turned_over = self.map.turns_over(programmed.interpreter.plane_axes());
+        let text = &match turned_over {
+            true => other_side(text),
+            false => text.to_vec(),
+        };
+        let (switch, rest) = divided(text)?;
         let Some(motion) = Motion::of(&rest, &programmed.interpreter) else {
             if !rest.trim_ascii().is_empty() {
                 programmed.add(&rest, origin)?;

@@ -16,12 +16,21 @@ pub(crate) enum Switch {
     Turn([Option<f64>; 3], f64),
 }
 
+/// What of scaling and mirroring ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// G50: the scale of G51.
+    Scale,
+    /// G50.1: the mirrors of G51.1 on these axes. The numbers of the axis words mean nothing.
+    Mirrors([bool; 3]),
+}
+
 /// A block, the words that end scaling and turning taken out.
 #[derive(Debug, Default)]
 pub(crate) struct Block {
     pub switch: Option<Switch>,
-    /// G50 or G50.1.
-    pub ends_scale: bool,
+    /// G50 or G50.1, and the axes whose mirrors are taken away.
+    pub ends: Option<Ending>,
     /// G69.
     pub ends_turn: bool,
     pub rest: Vec<u8>,
@@ -39,6 +48,8 @@ impl Block {
         tokens_of(text, &mut tokens);
         let mut block = Self::default();
         let mut words: Vec<(u8, f64, bool)> = Vec::new();
+        let ends_mirrors = is_there(&tokens, 501);
+        let mut selected = [false; 3];
         for spanned in &tokens {
             let piece = &text[spanned.span.clone()];
             if let Token::Word { letter, value, .. } = spanned.token {
@@ -48,26 +59,67 @@ impl Block {
                 }
                 if letter == b'G' && ENDING.contains(&tenths) {
                     block.ends_turn |= tenths == 690;
-                    block.ends_scale |= tenths != 690;
+                    if tenths == 500 {
+                        block.ends = Some(Ending::Scale);
+                    }
+                    continue;
+                }
+                if let (true, Some(axis)) = (ends_mirrors, b"XYZ".iter().position(|a| *a == letter))
+                {
+                    selected[axis] = true;
                     continue;
                 }
                 words.push((letter, value, piece.contains(&b'.')));
             }
             block.rest.extend_from_slice(piece);
         }
+        if ends_mirrors {
+            block.ends = Some(Ending::Mirrors(match selected {
+                [false, false, false] => [true; 3],
+                selected => selected,
+            }));
+        }
+        check_beside_ending(&block, selected, &words)?;
         let begins = |code: &u32| BEGINNING.contains(code);
         if let Some(code) = block.codes.iter().copied().find(begins) {
             block.switch = Some(switch(code, &block.codes, &words)?);
-        } else if block.ends_scale && words.iter().any(|(letter, ..)| *letter == b'S') {
-            return Err((
-                "G50 with S is the largest speed of a lathe's spindle".to_owned(),
-                "remove it, or write G50 without S where it ends scaling",
-            ));
         }
         if block.rest.trim_ascii().is_empty() {
             block.rest.clear();
         }
         Ok(block)
+    }
+}
+
+fn is_there(tokens: &[Spanned], code: u32) -> bool {
+    tokens.iter().any(|one| {
+        matches!(one.token, Token::Word { letter: b'G', value, .. } if (10.0 * value).round() as u32 == code)
+    })
+}
+
+/// Words that mean something else beside G50 and G50.1 on some controllers.
+fn check_beside_ending(
+    block: &Block,
+    selected: [bool; 3],
+    words: &[(u8, f64, bool)],
+) -> Result<(), Wrong> {
+    let has = |letters: &[u8]| words.iter().any(|word| letters.contains(&word.0));
+    match block.ends {
+        Some(Ending::Scale) if has(b"S") => Err((
+            "G50 with S is the largest speed of a lathe's spindle".to_owned(),
+            "remove it, or write G50 without S where it ends scaling",
+        )),
+        Some(Ending::Scale) if has(b"XYZABCUVWIJKPR") || selected != [false; 3] => Err((
+            "axis words beside G50: it ends scaling on a mill, and sets the coordinates of a lathe"
+                .to_owned(),
+            "write G50 in a block of its own",
+        )),
+        Some(Ending::Mirrors(_)) if has(b"GABCUVWIJKPR") => Err((
+            "G50.1 and other words are in one block: its axis words choose the mirrors that end"
+                .to_owned(),
+            "write them in two blocks",
+        )),
+        _ => Ok(()),
     }
 }
 

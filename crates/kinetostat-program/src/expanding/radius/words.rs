@@ -120,6 +120,32 @@ pub(crate) fn divided(text: &[u8]) -> Result<(Vec<u8>, Vec<u8>), Wrong> {
     Ok((switch.trim_ascii_end().to_vec(), found.rest))
 }
 
+/// A block with G41 and G42, G41.1 and G42.1 exchanged: left is right in a mirror.
+pub(crate) fn other_side(text: &[u8]) -> Vec<u8> {
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(text, &mut tokens);
+    let mut other = Vec::with_capacity(text.len());
+    for one in &tokens {
+        let code = match one.token {
+            Token::Word {
+                letter: b'G',
+                value,
+                ..
+            } => tenths(value),
+            _ => 0,
+        };
+        let piece: &[u8] = match code {
+            410 => b"G42",
+            420 => b"G41",
+            411 => b"G42.1",
+            421 => b"G41.1",
+            _ => &text[one.span.clone()],
+        };
+        other.extend_from_slice(piece);
+    }
+    other
+}
+
 fn tenths(value: f64) -> u32 {
     (10.0 * value).round() as u32
 }

@@ -3,10 +3,19 @@
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
 use crate::expanding::options::Dialect;
+use crate::expanding::run::beside_call::{CallBlock, Jump};
 use crate::expanding::run::frame::{Frame, LOCAL, Label, Locals, Opened};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::source::Source;
-use crate::text::lex::{Token, tokens_of};
+
+/// Which word closes a subprogram.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Closing {
+    /// `endsub`.
+    End,
+    /// `return`.
+    Return,
+}
 
 impl Runner<'_> {
     /// `O.. call`.
@@ -52,9 +61,17 @@ impl Runner<'_> {
     }
 
     /// `endsub`, `return`, with the value that they give.
-    pub fn close(&mut self, value: Option<&Expression>) -> Result<Next, ProgramError> {
+    pub fn close(
+        &mut self,
+        ending: Closing,
+        value: Option<&Expression>,
+    ) -> Result<Next, ProgramError> {
         let value = value.map(|of| self.value(of)).transpose()?;
         if self.frame().opened != Opened::Call {
+            if ending == Closing::Return && self.frame().opened == Opened::Program {
+                // LinuxCNC passes over it.
+                return Ok(Next::Line);
+            }
             return Err(self.refuse(
                 "the end of a subprogram that was not called",
                 "call it, or take the line out",
@@ -104,47 +121,29 @@ impl Runner<'_> {
         }
     }
 
-    /// M98 and M99 of a block of plain words.
-    pub fn called(&mut self, text: &[u8]) -> Result<Option<Next>, ProgramError> {
-        if !text.contains(&b'9') {
-            return Ok(None);
-        }
-        let mut tokens = Vec::new();
-        tokens_of(text, &mut tokens);
-        let word = |wanted: u8| {
-            tokens.iter().find_map(|spanned| match spanned.token {
-                Token::Word { letter, value, .. } if letter == wanted => Some(value),
-                _ => None,
-            })
-        };
-        let is_m = |code: f64| {
-            tokens.iter().any(|spanned| {
-                matches!(spanned.token, Token::Word { letter: b'M', value, .. } if value == code)
-            })
-        };
-        if is_m(99.0) {
-            if let (Some(_), 1) = (word(b'P'), self.frames.len()) {
+    /// M98 and M99.
+    pub fn called(&mut self, block: &CallBlock) -> Result<Next, ProgramError> {
+        if block.jump == Jump::Back {
+            if let (Some(_), 1) = (block.number, self.frames.len()) {
                 return Err(self.refuse(
                     "M99 P in the program itself goes on at a block, again and again",
                     "write GOTO, or M30 at the end",
                 ));
             }
             let next = self.return_from_m98()?;
-            if let Some(number) = word(b'P') {
+            if let Some(number) = block.number {
                 self.go_on_at(number)?;
             }
-            return Ok(Some(next));
+            return Ok(next);
         }
-        if !is_m(98.0) {
-            return Ok(None);
-        }
-        let Some(number) = word(b'P').filter(|p| p.fract() == 0.0 && (0.0..1e9).contains(p)) else {
+        let is_number = |p: &f64| p.fract() == 0.0 && (0.0..1e9).contains(p);
+        let Some(number) = block.number.filter(is_number) else {
             return Err(self.refuse(
                 "M98 calls no subprogram",
                 "write its number as P, as in M98 P1000",
             ));
         };
-        let (mut number, mut times) = (number as u32, word(b'L'));
+        let (mut number, mut times) = (number as u32, block.times);
         // P00031000 is three times O1000.
         if number > 9999 && times.is_none() {
             (number, times) = (number % 10_000, Some(f64::from(number / 10_000)));
@@ -165,7 +164,7 @@ impl Runner<'_> {
                 ..Frame::new(file, line, again)
             })?;
         }
-        Ok(Some(Next::Line))
+        Ok(Next::Line)
     }
 
     pub fn find_program(&mut self, number: u32) -> Result<(usize, usize), ProgramError> {

@@ -2,6 +2,7 @@
 
 use crate::error::ProgramError;
 use crate::expanding::expression::tree::Expression;
+use crate::expanding::run::calls::Closing;
 use crate::expanding::run::frame::{Label, LoopKind};
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::source::statement::{Statement, Structure};
@@ -58,9 +59,8 @@ impl Runner<'_> {
                 let end = self.o_word_behind(line, &label, is_end, "endsub")?;
                 self.frame_mut().next = end + 1;
             }
-            Structure::EndSub(value) | Structure::Return(value) => {
-                return self.close(value.as_ref());
-            }
+            Structure::EndSub(value) => return self.close(Closing::End, value.as_ref()),
+            Structure::Return(value) => return self.close(Closing::Return, value.as_ref()),
             Structure::Call(values) => self.call(label, &values)?,
             Structure::If(condition) => {
                 if !self.holds(Some(&condition))? {

@@ -45,6 +45,10 @@ pub(crate) struct Runner<'o> {
     pub functions: Functions,
     /// M72 has put back the modes from before the first F.
     pub no_feed: bool,
+    /// M29 is in force: the next tap is tied to the spindle (Fanuc).
+    pub taps_rigidly: bool,
+    /// The clearance of pecks has been warned of.
+    pub pecks_warned: bool,
 }
 
 /// The frame of the program itself.
@@ -73,6 +77,8 @@ impl<'o> Runner<'o> {
             steps: 0,
             functions: Functions::default(),
             no_feed: false,
+            taps_rigidly: false,
+            pecks_warned: false,
         }
     }
 
@@ -108,6 +114,7 @@ impl<'o> Runner<'o> {
 
     /// A refusal of the line that runs.
     pub fn refuse(&self, reason: &str, remedy: &str) -> ProgramError {
+        let reason = self.flat.in_source_lines(reason);
         let source = &self.sources[self.frame().file];
         let index = self.running();
         let span = source

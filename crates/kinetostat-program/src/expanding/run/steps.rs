@@ -5,12 +5,14 @@ use crate::expanding::expanded::Origin;
 use crate::expanding::expression::tree::Expression;
 use crate::expanding::number::number;
 use crate::expanding::options::Dialect;
+use crate::expanding::run::beside_call::CallBlock;
+use crate::expanding::run::cycles::InCycle;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::run::system_variables::STOP;
 use crate::expanding::source::statement::{Piece, Statement};
-use crate::expanding::translate::block::{MotionBlock, Polar};
-use crate::expanding::translate::cycle::{cycle, is_cycle};
+use crate::expanding::translate::block::{MotionBlock, Polar, without_cancel};
+use crate::expanding::translate::cycle::is_cycle;
 use crate::reading::options::BlockDelete;
 
 /// Lines that are run for each flat block that is allowed: loops that only count are not endless.
@@ -85,9 +87,25 @@ impl Runner<'_> {
         if line.block_delete && self.options.reading.block_delete == BlockDelete::Skip {
             return Ok(Next::Line);
         }
+        let before = self.flat.blocks();
         match line.statement.clone() {
-            Statement::Plain => self.plain(file, index),
-            Statement::Block(pieces) => self.block(&pieces, file, index),
+            Statement::Plain => {
+                let next = self.plain(file, index)?;
+                let text = self.sources[file].text(index).to_vec();
+                self.note_points(&text, before);
+                Ok(next)
+            }
+            Statement::Block(pieces) => {
+                let next = self.block(&pieces, file, index)?;
+                let whole = self.sources[file].text(index);
+                let plain = pieces.iter().filter_map(|piece| match piece {
+                    Piece::Text(range) => whole.get(range.clone()),
+                    _ => None,
+                });
+                let text = plain.collect::<Vec<_>>().join(&b' ');
+                self.note_points(&text, before);
+                Ok(next)
+            }
             control => self.control(control),
         }
     }
@@ -165,8 +183,15 @@ impl Runner<'_> {
 
     /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
-        if let Some(next) = self.called(text)? {
-            return Ok(next);
+        if let Some(mut block) = CallBlock::of(text) {
+            block.does_more |= polar.is_there();
+            self.check_beside_call(&block)?;
+            if block.does_more
+                && let Next::End = self.emit(&block.rest, polar)?
+            {
+                return Ok(Next::End);
+            }
+            return self.called(&block);
         }
         if self.macro_call(text)? {
             return Ok(Next::Line);
@@ -185,8 +210,12 @@ impl Runner<'_> {
             }
             return self.after_block();
         }
+        if let (Dialect::Fanuc, Some(rest)) = (self.options.dialect, without_cancel(text)) {
+            self.cycle = None;
+            self.add(b"G80")?;
+            return self.emit(&rest, polar);
+        }
         let block = MotionBlock::of(text, polar);
-        let goes_on = block.motion.is_none() && block.has_place() && !block.wants_axes;
         if let Some(code) = self.code_of_spline(&block) {
             self.cycle = None;
             self.spline(code, &block)?;
@@ -200,8 +229,16 @@ impl Runner<'_> {
         }
         let code = match (block.motion, self.cycle) {
             (Some(code), _) => Some(code).filter(|code| is_cycle(*code)),
-            (None, Some(cycle)) if goes_on => Some(cycle.code),
-            (None, _) => None,
+            (None, Some(cycle)) => match self.in_cycle(&block)? {
+                InCycle::Hole => Some(cycle.code),
+                InCycle::Words => {
+                    self.add_rest(&block.before)?;
+                    self.add_rest(&block.after)?;
+                    return self.after_block();
+                }
+                InCycle::Nothing => None,
+            },
+            (None, None) => None,
         };
         if block.motion.is_some() {
             self.leave_spline()?;
@@ -219,51 +256,6 @@ impl Runner<'_> {
             }
         }
         self.after_block()
-    }
-
-    fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
-        let refused = self.radius.refuses_cycles();
-        let refused = refused.or_else(|| self.coordinates.refuses_cycles());
-        if let Some((reason, remedy)) = refused {
-            return Err(self.refuse(&reason, remedy));
-        }
-        self.add_rest(&block.before)?;
-        let state = (self.state(), self.options.dialect);
-        let made = cycle(code, block, self.cycle, state);
-        let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
-        for text in texts {
-            self.add(text.as_bytes())?;
-        }
-        self.cycle = Some(cycle);
-        self.add_rest(&block.after)
-    }
-
-    /// A straight move or an arc whose end is given by a radius and an angle.
-    fn polar(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
-        let remedy = "write the place with X and Y";
-        if block.value(b'X').or(block.value(b'Y')).is_some() {
-            return Err(self.refuse("X or Y beside polar words", remedy));
-        }
-        self.add_rest(&block.before)?;
-        let state = self.state();
-        let (x, y) = match (state.coordinate(0), state.coordinate(1)) {
-            (Ok(x), Ok(y)) => (x, y),
-            (Err(reason), _) | (_, Err(reason)) => {
-                return Err(self.refuse(&reason, "state X and Y before polar words"));
-            }
-        };
-        let incremental = state.is_incremental();
-        let end = block.polar.place([x, y], incremental);
-        let end = end.map_err(|reason| self.refuse(reason, remedy))?;
-        let words = match incremental {
-            true => [end[0] - x, end[1] - y],
-            false => end,
-        };
-        let mut text = block.motion_words();
-        text.push_str(&format!("X{} Y{}", number(words[0]), number(words[1])));
-        text.push_str(&block.other_words());
-        self.add(text.as_bytes())?;
-        self.add_rest(&block.after)
     }
 
     fn after_block(&self) -> Result<Next, ProgramError> {

@@ -6,6 +6,14 @@ use crate::text::lex::{Spanned, Token, tokens_of};
 /// Letters that belong to a motion.
 const OF_MOTION: &[u8; 15] = b"XYZABCUVWIJKRPQ";
 
+/// Modes that take no words.
+const G_WITHOUT_WORDS: &[f64] = &[
+    17.0, 18.0, 19.0, 20.0, 21.0, 90.0, 91.0, 94.0, 95.0, 98.0, 99.0,
+];
+
+/// Spindle and coolant.
+const M_WITHOUT_WORDS: &[f64] = &[3.0, 4.0, 5.0, 7.0, 8.0, 9.0];
+
 /// Polar words: `@` and `^` (degrees).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Polar {
@@ -72,7 +80,7 @@ impl MotionBlock {
             }
             (b'G', code) => {
                 self.wants_axes |=
-                    matches!(code, 40 | 100 | 280..=301 | 431 | 432 | 520 | 530 | 920);
+                    matches!(code, 40 | 100 | 280..=301 | 431 | 432 | 500..=520 | 530 | 680 | 920);
                 self.before.extend_from_slice(piece);
             }
             (b'L', _) => self.values[usize::from(b'L' - b'A')] = Some(value),
@@ -107,10 +115,66 @@ impl MotionBlock {
         words.collect()
     }
 
+    /// A word of an axis beside X, Y and Z.
+    pub fn has_other_axis(&self) -> bool {
+        b"ABCUVW".iter().any(|letter| self.value(*letter).is_some())
+    }
+
+    /// Words that a cycle keeps (R, P, Q, I, J, K, L), in a block that wants them for nothing else.
+    pub fn has_cycle_words(&self) -> bool {
+        let words = b"RPQIJKL"
+            .iter()
+            .any(|letter| self.value(*letter).is_some());
+        words && !self.wants_axes && self.before_wants_nothing()
+    }
+
+    /// Whether the codes before the motion are modes, spindle and coolant, which have no words of their own but S and F.
+    fn before_wants_nothing(&self) -> bool {
+        let mut tokens: Vec<Spanned> = Vec::new();
+        tokens_of(&self.before, &mut tokens);
+        tokens.iter().all(|one| match one.token {
+            Token::Word {
+                letter: b'G',
+                value,
+                ..
+            } => G_WITHOUT_WORDS.contains(&value),
+            Token::Word {
+                letter: b'M',
+                value,
+                ..
+            } => M_WITHOUT_WORDS.contains(&value),
+            _ => true,
+        })
+    }
+
     /// X, Y, Z or a polar word.
     pub fn has_place(&self) -> bool {
         self.polar.is_there() || b"XYZ".iter().any(|letter| self.value(*letter).is_some())
     }
+}
+
+/// A block with G80 and with G0, G1, G2 or G3, the G80 taken out; none where the block is another.
+pub(crate) fn without_cancel(text: &[u8]) -> Option<Vec<u8>> {
+    let mut tokens: Vec<Spanned> = Vec::new();
+    tokens_of(text, &mut tokens);
+    let code = |one: &Spanned| match one.token {
+        Token::Word {
+            letter: b'G',
+            value,
+            ..
+        } => Some((10.0 * value).round() as u32),
+        _ => None,
+    };
+    let has = |wanted: &[u32]| tokens.iter().filter_map(code).any(|c| wanted.contains(&c));
+    if !has(&[800]) || !has(&[0, 10, 20, 30]) {
+        return None;
+    }
+    let rest = tokens.iter().filter(|one| code(one) != Some(800));
+    let rest: Vec<u8> = rest.fold(Vec::new(), |mut rest, one| {
+        rest.extend_from_slice(&text[one.span.clone()]);
+        rest
+    });
+    Some(rest.trim_ascii_end().to_vec())
 }
 
 fn is_motion(tenths: u32) -> bool {

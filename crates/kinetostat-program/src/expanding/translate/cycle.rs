@@ -56,10 +56,7 @@ pub(crate) fn cycle(
     if block.polar.is_there() && normal != 2 {
         return wrong("polar words outside the plane XY (G17)", "write X, Y and Z");
     }
-    if b"ABCUVW"
-        .iter()
-        .any(|letter| block.value(*letter).is_some())
-    {
+    if block.has_other_axis() {
         return wrong(
             "a canned cycle moves no axis but X, Y, Z",
             "move it before the cycle",
@@ -151,15 +148,27 @@ pub(crate) fn cycle(
         to
     };
     let (mut initial, mut now) = (cycle.initial, height);
-    if initial < level && repeats > 0.0 {
-        texts.extend(place.go("G0", at([a, b], level)));
-        (initial, now) = (level, level);
+    // Fanuc goes over the first hole where it is, and then to the level.
+    let from_below = dialect == Dialect::Fanuc && height < level;
+    let starts_below = initial < level && repeats > 0.0;
+    if starts_below {
+        initial = level;
+        if !from_below {
+            texts.extend(place.go("G0", at([a, b], level)));
+            now = level;
+        }
     }
     let stated = state.retracts_to_level().or(match dialect {
         Dialect::LinuxCnc => Some(true),
         Dialect::Fanuc => Some(false),
         Dialect::Undecided => None,
     });
+    if dialect == Dialect::Fanuc && starts_below && stated == Some(false) {
+        return wrong(
+            "the cycle begins below its retract level (R), and with G98 it goes back down there behind each hole, and to the next one",
+            "move above R before the cycle, or write G99",
+        );
+    }
     let clear = match stated {
         Some(true) => level,
         Some(false) => initial,
@@ -180,7 +189,7 @@ pub(crate) fn cycle(
             repeat,
             [letters[0], letters[1]],
         )?;
-        if repeat == 0 && now > level {
+        if repeat == 0 && (now > level || from_below) {
             texts.extend(place.go("G0", at(hole_at, now)));
             texts.extend(place.go("G0", at(hole_at, level)));
         } else {

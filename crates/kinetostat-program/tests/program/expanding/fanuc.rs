@@ -6,9 +6,9 @@ use kinetostat_program::{
 
 use super::flat;
 
-const BEGIN: &str = "G21 G90 G17 F200\nG0 X0 Y0 Z15\n";
+pub(super) const BEGIN: &str = "G21 G90 G17 F200\nG0 X0 Y0 Z15\n";
 
-fn run(text: &str, dialect: Dialect) -> Result<String, ProgramError> {
+pub(super) fn run(text: &str, dialect: Dialect) -> Result<String, ProgramError> {
     let mut options = ExpandOptions::default();
     options.dialect = dialect;
     let flat = expand(format!("{BEGIN}{text}"), &options, &NoSubprograms)?;
@@ -16,7 +16,7 @@ fn run(text: &str, dialect: Dialect) -> Result<String, ProgramError> {
     Ok(bytes.strip_prefix(BEGIN).unwrap().to_owned())
 }
 
-fn fanuc(text: &str) -> String {
+pub(super) fn fanuc(text: &str) -> String {
     run(text, Dialect::Fanuc).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 

@@ -1,6 +1,7 @@
 //! Programs that are run once and written flat.
 
 mod all_faults;
+mod beside_calls;
 mod bounds;
 mod broken;
 mod control;
@@ -8,7 +9,10 @@ mod coordinates;
 mod cycles;
 mod expressions;
 mod fanuc;
+mod fanuc_cycles;
 mod fanuc_values;
+mod messages;
+mod mirrors;
 mod modes;
 mod offsets;
 mod polar;

@@ -1,0 +1,69 @@
+//! Blocks of canned cycles while a program runs.
+
+use crate::error::ProgramError;
+use crate::expanding::options::Dialect;
+use crate::expanding::run::runner::Runner;
+use crate::expanding::translate::block::MotionBlock;
+use crate::expanding::translate::cycle::cycle;
+
+/// What a block without a code is where a cycle is in force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum InCycle {
+    /// One more hole.
+    Hole,
+    /// Words of the cycle that make no hole, and are not kept (Fanuc, Operator's Manual B-63534EN, section 13.1).
+    Words,
+    /// Other words.
+    Nothing,
+}
+
+impl Runner<'_> {
+    /// What a block is that names no motion, where a cycle is in force.
+    pub fn in_cycle(&self, block: &MotionBlock) -> Result<InCycle, ProgramError> {
+        if block.wants_axes {
+            return Ok(InCycle::Nothing);
+        }
+        if block.has_place() || block.has_other_axis() {
+            return Ok(InCycle::Hole);
+        }
+        if !block.has_cycle_words() {
+            return Ok(InCycle::Nothing);
+        }
+        match (block.value(b'R'), self.options.dialect) {
+            (Some(_), Dialect::Fanuc) => Ok(InCycle::Hole),
+            (Some(_), Dialect::Undecided) => Err(self.refuse(
+                "R without a place while a cycle is in force: Fanuc drills once more where the tool is, LinuxCNC does nothing",
+                "write R into a block with a place, or name the dialect (--dialect)",
+            )),
+            _ => Ok(InCycle::Words),
+        }
+    }
+
+    /// A block that makes holes.
+    pub fn cycle(&mut self, code: u32, block: &MotionBlock) -> Result<(), ProgramError> {
+        let refused = self.radius.refuses_cycles();
+        let refused = refused.or_else(|| self.coordinates.refuses_cycles());
+        if let Some((reason, remedy)) = refused {
+            return Err(self.refuse(&reason, remedy));
+        }
+        self.add_rest(&block.before)?;
+        if self.taps_rigidly && matches!(code, 740 | 840) {
+            return Err(self.refuse(
+                "behind M29 the feed of the tap is tied to the turns of the spindle (rigid tapping): plain blocks have no words for it",
+                "take M29 out where the tap floats in its holder, or write the taps into a program of their own that is not expanded",
+            ));
+        }
+        let state = (self.state(), self.options.dialect);
+        let made = cycle(code, block, self.cycle, state);
+        let (texts, cycle) = made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))?;
+        for text in texts {
+            self.add(text.as_bytes())?;
+        }
+        self.cycle = Some(cycle);
+        let is_peck = matches!(code, 730 | 830) && self.options.dialect == Dialect::Fanuc;
+        if is_peck && !std::mem::replace(&mut self.pecks_warned, true) {
+            self.flat.warn("each peck of G73 and G83 begins 0.254 mm (0.010 inch) above the last depth here, as LinuxCNC has it; on Fanuc's controllers parameters 5114 and 5115 say how far above. The depths are the same");
+        }
+        self.add_rest(&block.after)
+    }
+}

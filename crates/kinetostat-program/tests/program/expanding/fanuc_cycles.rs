@@ -1,0 +1,125 @@
+//! Cycles as Fanuc runs them: rigid taps, words without a place, G80 beside a move, a start below R, points of numbers.
+
+use kinetostat_program::{Dialect, ExpandOptions, Expanded, NoSubprograms, expand};
+
+use super::fanuc::{BEGIN, fanuc, run};
+
+fn warned(text: &str, dialect: Dialect) -> Vec<(usize, String)> {
+    let mut options = ExpandOptions::default();
+    options.dialect = dialect;
+    let made: Expanded = expand(format!("{BEGIN}{text}"), &options, &NoSubprograms).unwrap();
+    let warnings = made.warnings.into_iter();
+    warnings.map(|one| (one.line, one.text)).collect()
+}
+
+#[test]
+fn a_rigid_tap_is_refused() {
+    for text in [
+        "G99 M3 S500\nM29 S500\nG84 X1. Z-3. R1. F500\n",
+        "G99 M3 S500\nG84 X1. Z-3. R1. F500 M29 S500\n",
+        "G99 M4 S500\nM29 S500\nG74 X1. Z-3. R1. F500\n",
+    ] {
+        for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+            let error = run(text, dialect).unwrap_err();
+            assert!(error.reason.contains("rigid tapping"), "{error}");
+        }
+    }
+    // G80 ends it.
+    let text = "G99 M3 S500\nM29 S500\nG80\nG84 X1. Z-3. R1. F500\n";
+    assert!(run(text, Dialect::Fanuc).is_ok());
+}
+
+#[test]
+fn r_without_a_place_drills_once_more_on_fanuc() {
+    let hole = "G1 Z-3\nG0 Z";
+    let begin = "G99 G81 X1. Z-3. R1. F100\n";
+    let made = fanuc(&format!("{begin}R3.\nX2.\n"));
+    // From R1 to R3, which stays for the next hole.
+    assert_eq!(
+        made,
+        format!("G99 F100\nG0 X1\nG0 Z1\n{hole}1\nG0 Z3\n{hole}3\nG0 X2\n{hole}3\n")
+    );
+    let error = run(&format!("{begin}R3.\n"), Dialect::Undecided).unwrap_err();
+    assert!(error.reason.contains("Fanuc drills once more"), "{error}");
+    let made = run(&format!("{begin}R3.\nX2.\n"), Dialect::LinuxCnc).unwrap();
+    assert_eq!(
+        made,
+        format!("G99 F100\nG0 X1\nG0 Z1\n{hole}1\nG0 X2\n{hole}1\n")
+    );
+    // Words that make no hole are not kept, and none stands bare in the flat program.
+    for dialect in [Dialect::Fanuc, Dialect::LinuxCnc, Dialect::Undecided] {
+        let made = run(&format!("{begin}Q2. P100\nI1. F50 M8\nX2.\n"), dialect).unwrap();
+        assert!(
+            made.ends_with(&format!("F50 M8\nG0 X2\n{hole}1\n")),
+            "{made}"
+        );
+        assert!(!made.contains(['Q', 'P', 'I']), "{made}");
+        let error = run(&format!("{begin}A90.\n"), dialect).unwrap_err();
+        assert!(
+            error.reason.contains("moves no axis but X, Y, Z"),
+            "{error}"
+        );
+    }
+    // P of a dwell, and places of other codes, are none of the cycle's.
+    let made = fanuc(&format!("{begin}G4 P100\nG68 X0 Y0 R90.\nG0 X5. Y0\n"));
+    assert_eq!(made.matches(hole).count(), 1, "{made}");
+    assert!(made.ends_with("G0 X0 Y5\n"), "{made}");
+    let made = fanuc(&format!("{begin}G50.1 X0\n"));
+    assert_eq!(made.matches(hole).count(), 1, "{made}");
+}
+
+#[test]
+fn g80_and_a_move_in_one_block() {
+    let begin = "G99 G81 X1. Z-3. R1. F100\n";
+    for block in ["G0 G80 Z50.", "G80 G0 Z50.", "N7 G0 G80 Z50. M9"] {
+        let made = fanuc(&format!("{begin}{block}\nX5.\n"));
+        assert_eq!(made.matches("G1 Z-3").count(), 1, "{made}");
+        assert!(made.contains("G0 Z1\nG80\n"), "{made}");
+        assert!(made.ends_with("\nX5.\n"), "{made}");
+        let last = made.lines().rev().nth(1).unwrap();
+        assert!(last.contains("G0") && last.contains("Z50."), "{made}");
+    }
+    assert!(run("G0 G80 Z50.\n", Dialect::LinuxCnc).is_err());
+}
+
+#[test]
+fn from_below_fanuc_goes_over_the_hole_first() {
+    let begin = "G0 Z0\nG99 G81 X4. Y5. Z-3. R2. F100\nX6.\n";
+    assert_eq!(
+        fanuc(begin),
+        "G0 Z0\nG99 F100\nG0 X4 Y5\nG0 Z2\nG1 Z-3\nG0 Z2\nG0 X6\nG1 Z-3\nG0 Z2\n"
+    );
+    let linuxcnc = run(begin, Dialect::LinuxCnc).unwrap();
+    assert!(linuxcnc.contains("F100\nG0 Z2\nG0 X4 Y5\n"), "{linuxcnc}");
+    let error = run(&begin.replace("G99", "G98"), Dialect::Fanuc).unwrap_err();
+    assert!(error.reason.contains("below its retract level"), "{error}");
+}
+
+#[test]
+fn what_rests_on_parameters_of_the_control_is_warned_of_once() {
+    let pecks = "G99 G83 X1. Z-9. R1. Q2. F100\nX2.\nG73 X3. Z-9. R1. Q2.\nG80\n";
+    let warnings = warned(pecks, Dialect::Fanuc);
+    let found = warnings.iter().filter(|one| one.1.contains("5114"));
+    assert_eq!(found.count(), 1);
+    assert!(
+        !warned(pecks, Dialect::LinuxCnc)
+            .iter()
+            .any(|one| one.1.contains("5114"))
+    );
+
+    let points = |text: &str, dialect| {
+        let all = warned(text, dialect).into_iter();
+        let mut own = all.filter(|one| one.1.contains("decimal point"));
+        let first = own.next();
+        assert!(own.next().is_none());
+        first
+    };
+    // The third line is the first, and three lines have such numbers.
+    let text = "G1 X5. Y0 F100\nX5000\nG4 P500\nG0 X1. Z2\nG4 X1000\n";
+    let (line, said) = points(text, Dialect::Fanuc).unwrap();
+    assert_eq!(line, 2);
+    assert!(said.contains("calculator type"), "{said}");
+    assert!(said.ends_with("so on lines 2, 4, 6 and 7"), "{said}");
+    assert_eq!(points(text, Dialect::LinuxCnc), None);
+    assert_eq!(points(text, Dialect::Undecided), None);
+}
