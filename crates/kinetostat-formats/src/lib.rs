@@ -72,6 +72,7 @@ pub use krl::table::KRL_STATEMENTS;
 pub use language::{endings_of, language_of, odd_program};
 pub use ls::reader::read_ls;
 pub use ls::table::LS_STATEMENTS;
+pub use making::action::{Coolant, EventAction};
 pub use making::compare::Kept;
 pub use making::events::{EventKind, SourceEvent, events_of_gcode};
 pub use making::fault::{MakeError, MakeFinding};

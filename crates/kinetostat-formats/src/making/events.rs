@@ -1,6 +1,8 @@
 //! What a source says beside its moves: spindle, coolant, tools, pauses, comments.
 
-use kinetostat_program::{Path, PauseKind};
+use kinetostat_program::{Path, PauseKind, SpeedMode, Spindle, SpindleRotation};
+
+use crate::making::action::{Coolant, EventAction};
 
 /// What an event is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,8 +66,45 @@ pub struct SourceEvent {
     pub text: String,
     /// Where that stands, for the note: `line 12`, or another file's line.
     pub place: String,
-    /// Seconds of a dwell, where they are known.
-    pub seconds: Option<f64>,
+    /// What it does that other languages have, too, in order.
+    pub actions: Vec<EventAction>,
+    /// What its other words are about; none where the actions are all of it.
+    pub rest: Option<EventKind>,
+    /// It acts behind the motion of its line, not before.
+    pub(crate) is_behind: bool,
+}
+
+impl SourceEvent {
+    /// The words of a line, which do nothing elsewhere.
+    pub(crate) fn words_alone(line: usize, kind: EventKind, text: impl Into<String>) -> Self {
+        Self {
+            line,
+            kind,
+            text: text.into(),
+            place: format!("line {line}"),
+            actions: Vec::new(),
+            rest: Some(kind),
+            is_behind: false,
+        }
+    }
+
+    /// It does nothing: whether and how often it runs is not known.
+    pub(crate) fn only_words(&mut self) {
+        if !self.actions.is_empty() {
+            self.actions.clear();
+            self.rest = Some(self.kind);
+        }
+    }
+
+    /// The words of a line that are one action.
+    pub(crate) fn acting(line: usize, action: EventAction, text: impl Into<String>) -> Self {
+        let kind = action.kind();
+        Self {
+            actions: vec![action],
+            rest: None,
+            ..Self::words_alone(line, kind, text)
+        }
+    }
 }
 
 /// The events of a program in G-code.
@@ -76,7 +115,7 @@ pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Ve
         let Some(bytes) = program.line_bytes(line) else {
             continue;
         };
-        let Some((kind, text)) = rest_of(bytes) else {
+        let Some(words) = rest_of(bytes) else {
             continue;
         };
         let first = path.pauses.partition_point(|pause| pause.line < line);
@@ -86,15 +125,66 @@ pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Ve
                 PauseKind::DwellSeconds(seconds) if pause.line == line => Some(seconds),
                 _ => None,
             });
-        events.push(SourceEvent {
-            line,
-            kind,
-            text,
-            place: format!("line {line}"),
-            seconds: dwell,
-        });
+        events.push(words.event(line, dwell, path.spindle_on(line)));
     }
     events
+}
+
+/// The words of a block that are no motion.
+struct Words {
+    text: String,
+    /// What the block as a whole is about.
+    kind: EventKind,
+    /// Each with its kind, and the action that it is by itself.
+    kinds: Vec<(EventKind, Word)>,
+    /// The machine's switch says whether it runs.
+    is_optional: bool,
+    stops_spindle: bool,
+}
+
+/// What a word does that is known.
+#[derive(Clone, Copy, PartialEq)]
+enum Word {
+    Action(EventAction),
+    /// It turns the spindle, or says how fast.
+    Spindle,
+    Other,
+}
+
+impl Words {
+    fn event(self, line: usize, dwell: Option<f64>, spindle: Spindle) -> SourceEvent {
+        let mut event = SourceEvent::words_alone(line, self.kind, self.text);
+        event.rest = None;
+        event.is_behind = matches!(event.kind, EventKind::Stop | EventKind::End);
+        for (kind, word) in self.kinds {
+            let action = match (word, dwell) {
+                _ if self.is_optional => None,
+                (Word::Action(action), _) => Some(action),
+                (Word::Spindle, _) if spindle.mode == SpeedMode::Constant => {
+                    Some(EventAction::Spindle {
+                        rotation: spindle.rotation,
+                        rpm: spindle.speed,
+                    })
+                }
+                (_, Some(seconds)) if kind == EventKind::Dwell => {
+                    Some(EventAction::Wait { seconds })
+                }
+                _ => None,
+            };
+            match action {
+                Some(action) if event.actions.last() != Some(&action) => event.actions.push(action),
+                Some(_) => {}
+                None if matches!(kind, EventKind::Comment | EventKind::End) => {}
+                None => event.rest = Some(event.rest.map_or(kind, |rest| rest.min(kind))),
+            }
+        }
+        // A speed of a spindle that stands still is that of its start.
+        let stands = spindle.rotation == SpindleRotation::Stopped;
+        if stands && !self.stops_spindle {
+            (event.actions).retain(|action| !matches!(action, EventAction::Spindle { .. }));
+        }
+        event
+    }
 }
 
 /// G codes that are all in the places and feeds of the moves, times ten.
@@ -104,25 +194,25 @@ const FOLLOWED: [u32; 35] = [
 ];
 
 /// What of a block is no motion, and what it is about; none where nothing is left.
-fn rest_of(bytes: &[u8]) -> Option<(EventKind, String)> {
+fn rest_of(bytes: &[u8]) -> Option<Words> {
     let text = String::from_utf8_lossy(bytes);
     let mut words = Vec::new();
     let mut kinds = Vec::new();
     let mut rest = text.trim();
-    let mut dwells = false;
+    let (mut dwells, mut stops_spindle) = (false, false);
     while let Some(first) = rest.chars().next() {
         match first {
             '(' => {
                 let end = rest.find(')').map_or(rest.len(), |at| at + 1);
                 words.push(rest[..end].to_owned());
-                kinds.push(EventKind::Comment);
+                kinds.push((EventKind::Comment, Word::Other));
                 rest = &rest[end..];
             }
             ';' => {
                 let comment = rest[1..].trim();
                 if !comment.is_empty() {
                     words.push(comment.to_owned());
-                    kinds.push(EventKind::Comment);
+                    kinds.push((EventKind::Comment, Word::Other));
                 }
                 rest = "";
             }
@@ -139,9 +229,10 @@ fn rest_of(bytes: &[u8]) -> Option<(EventKind, String)> {
                 };
                 let letter = letter.to_ascii_uppercase();
                 dwells |= letter == 'G' && value == 4.0;
+                stops_spindle |= letter == 'M' && value == 5.0;
                 if let Some(kind) = kind_of(letter, value, dwells) {
                     words.push(format!("{letter}{number}"));
-                    kinds.push(kind);
+                    kinds.push((kind, word_of(letter, value)));
                 }
                 rest = &tail[end..];
             }
@@ -149,12 +240,34 @@ fn rest_of(bytes: &[u8]) -> Option<(EventKind, String)> {
         }
         rest = rest.trim_start();
     }
-    let kind = match kinds.iter().min()? {
+    let is_optional = text.trim_start().starts_with('/');
+    let kind = match kinds.iter().map(|(kind, _)| *kind).min()? {
         // The machine's switch says whether such a block runs: it is a note.
-        EventKind::Stop if text.trim_start().starts_with('/') => EventKind::Other,
-        kind => *kind,
+        EventKind::Stop if is_optional => EventKind::Other,
+        kind => kind,
     };
-    Some((kind, words.join(" ")))
+    Some(Words {
+        text: words.join(" "),
+        kind,
+        kinds,
+        is_optional,
+        stops_spindle,
+    })
+}
+
+/// What a word does that other languages have, too.
+fn word_of(letter: char, value: f64) -> Word {
+    let action = match (letter, value) {
+        ('M', 0.0 | 60.0) => EventAction::Stop,
+        ('M', 1.0) => EventAction::OptionalStop,
+        ('M', 7.0) => EventAction::Coolant(Coolant::Mist),
+        ('M', 8.0) => EventAction::Coolant(Coolant::Flood),
+        ('M', 9.0) => EventAction::Coolant(Coolant::Off),
+        ('S', _) | ('M', 3.0..=5.0) => return Word::Spindle,
+        ('G', 97.0) => return Word::Spindle,
+        _ => return Word::Other,
+    };
+    Word::Action(action)
 }
 
 /// What a word is about; none where it is part of a motion.

@@ -4,9 +4,11 @@
 //! the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
 
+pub(crate) mod action;
 pub(crate) mod again;
 pub(crate) mod apt;
 pub(crate) mod compare;
+pub(crate) mod course;
 pub(crate) mod crowded;
 pub(crate) mod csv;
 pub(crate) mod events;
@@ -17,15 +19,19 @@ pub(crate) mod krl;
 pub(crate) mod limits;
 pub(crate) mod ls;
 pub(crate) mod make;
+pub(crate) mod motion_events;
 pub(crate) mod names;
 pub(crate) mod numbers;
 pub(crate) mod of_robot;
+pub(crate) mod of_tools;
 pub(crate) mod otherwise;
 pub(crate) mod parts;
 pub(crate) mod pieces;
 pub(crate) mod plan;
 pub(crate) mod rapid;
+pub(crate) mod robot_actions;
 pub(crate) mod robot_events;
+pub(crate) mod routines;
 pub(crate) mod stated;
 pub(crate) mod step;
 pub(crate) mod stops;
