@@ -213,8 +213,11 @@ impl Blocks {
 
     /// Jumps make the order of lines no order of time.
     fn jump(&mut self, words: &[String]) {
-        const JUMPS: [&str; 6] = ["GOTO", "JMP", "LBL", "SELECT", "INTERRUPT", "JUMPTO"];
-        self.is_lost |= words.iter().any(|word| JUMPS.contains(&word.as_str()));
+        let jumps: &[&str] = match self.language {
+            Language::Apt => &["JUMPTO", "LOOPST"],
+            _ => &["GOTO", "JMP", "LBL", "SELECT", "INTERRUPT"],
+        };
+        self.is_lost |= words.iter().any(|word| jumps.contains(&word.as_str()));
     }
 
     fn enter(&mut self, words: &[String]) {
