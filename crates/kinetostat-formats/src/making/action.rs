@@ -2,7 +2,7 @@
 
 use kinetostat_program::SpindleRotation;
 
-use crate::making::events::EventKind;
+use crate::making::event_kind::EventKind;
 use crate::making::limits::MakeLanguage;
 
 /// Which coolant flows.

@@ -2,8 +2,10 @@
 
 use kinetostat_program::Path;
 
-use crate::making::events::{EventKind, SourceEvent};
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
+use crate::making::numbers::plain;
 
 /// Numbers of a line: what acts before its motion, the motion, and what acts behind it.
 const OF_A_LINE: usize = 3;
@@ -89,13 +91,9 @@ impl Course {
             self.left_out.iter().filter(matter)
         };
         let first = lost().next()?;
-        let shown = lost().take(MOST_SHOWN).map(|event| {
-            format!(
-                "{}: {}",
-                event.place,
-                crate::making::numbers::plain(&event.text)
-            )
-        });
+        let shown = lost()
+            .take(MOST_SHOWN)
+            .map(|event| format!("{}: {}", event.place, plain(&event.text)));
         let more = lost().skip(MOST_SHOWN).map(|event| event.place.clone());
         let all: Vec<String> = shown.chain(more).collect();
         Some(MakeFinding::of(

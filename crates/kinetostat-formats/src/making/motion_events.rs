@@ -1,7 +1,8 @@
 //! What a robot's program does in the statements of its motions and on their lines: outputs, procedures, triggers.
 
 use crate::ls::motion::event_of;
-use crate::making::events::{EventKind, SourceEvent};
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;

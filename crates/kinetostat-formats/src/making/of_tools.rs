@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::making::course::before;
-use crate::making::events::{EventKind, SourceEvent};
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::template::{StatedFrame, StatedTool};

@@ -6,7 +6,8 @@ use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::course::Course;
-use crate::making::events::{EventKind, SourceEvent};
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::{Limits, MakeLanguage};
 use crate::making::numbers::plain;

@@ -1,7 +1,7 @@
 //! Statements of robots and of APT that other languages have, too: pauses, stops, coolant.
 
 use crate::making::action::{Coolant, EventAction};
-use crate::making::events::EventKind;
+use crate::making::event_kind::EventKind;
 use crate::model::program::Language;
 
 /// What the only statement of a line does; none where no other language has it.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::making::blocks::Blocks;
 use crate::making::robot_events::{body, instructions};
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
@@ -187,84 +188,5 @@ impl Walk<'_> {
             _ => behind.starts_with('('),
         };
         calls.then_some(index)
-    }
-}
-
-/// Blocks that run on a condition or again and again.
-struct Blocks {
-    language: Language,
-    open: usize,
-    /// Behind a jump, or in a routine with one.
-    is_lost: bool,
-}
-
-impl Blocks {
-    fn of(language: Language) -> Self {
-        Self {
-            language,
-            open: 0,
-            is_lost: false,
-        }
-    }
-
-    fn is_certain(&self) -> bool {
-        self.open == 0 && !self.is_lost
-    }
-
-    /// Jumps make the order of lines no order of time.
-    fn jump(&mut self, words: &[String]) {
-        let jumps: &[&str] = match self.language {
-            Language::Apt => &["JUMPTO", "LOOPST"],
-            _ => &["GOTO", "JMP", "LBL", "SELECT", "INTERRUPT"],
-        };
-        self.is_lost |= words.iter().any(|word| jumps.contains(&word.as_str()));
-    }
-
-    fn enter(&mut self, words: &[String]) {
-        let Some(first) = words.first().map(String::as_str) else {
-            return;
-        };
-        let has = |word: &str| words.iter().any(|own| own == word);
-        let opens = match (self.language, first) {
-            // One instruction on a condition is one of its own.
-            (Language::Rapid | Language::FanucLs, "IF") => has("THEN"),
-            (Language::Rapid, "FOR" | "WHILE" | "TEST") => true,
-            (Language::Krl, "IF" | "FOR" | "WHILE" | "LOOP" | "REPEAT" | "SWITCH") => true,
-            (Language::FanucLs, "FOR") => true,
-            _ => false,
-        };
-        let ends = [
-            "ENDIF",
-            "ENDFOR",
-            "ENDWHILE",
-            "ENDTEST",
-            "ENDLOOP",
-            "UNTIL",
-            "ENDSWITCH",
-        ];
-        let closes = words
-            .iter()
-            .filter(|word| ends.contains(&word.as_str()))
-            .count();
-        self.open += usize::from(opens);
-        match self.open.checked_sub(closes) {
-            Some(open) => self.open = open,
-            None => self.is_lost = true,
-        }
-        // What stands behind them runs where nobody left the routine before.
-        let leaves = [
-            "RETURN",
-            "EXIT",
-            "EXITCYCLE",
-            "RETRY",
-            "TRYNEXT",
-            "RAISE",
-            "ERROR",
-            "UNDO",
-            "BACKWARD",
-        ];
-        let is_statement = leaves.contains(&first) && words.len() == 1 || has("RETURN");
-        self.is_lost |= is_statement && self.language != Language::Apt;
-        self.is_lost |= self.language == Language::FanucLs && matches!(first, "END" | "ABORT");
     }
 }

@@ -1,6 +1,6 @@
 //! Where the tool stops exactly.
 
-use crate::making::events::EventKind;
+use crate::making::event_kind::EventKind;
 use crate::making::step::Step;
 
 /// Motions that stop: before a pause and another tool, where rapids and feeds meet, and at the end.

@@ -304,3 +304,13 @@ fn a_speed_that_is_a_time_is_refused_in_words_of_robots() {
         "{said}"
     );
 }
+
+/// Coolant flows before the motion of its block, a stop is behind it.
+#[test]
+fn a_stop_beside_coolant_is_behind_the_motion() {
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG1 X10 F300 M8 M0\nG1 X20\n";
+    let krl = text_of(&made(text, &super::cell(), MakeLanguage::Krl), 0);
+    in_order(&krl, &["; line 3: M8 M0\n", "LIN {X 10.0", "HALT\n", "LIN {X 20.0"]);
+    let apt = text_of(&made(text, &super::cell(), MakeLanguage::Apt), 0);
+    in_order(&apt, &["COOLNT/FLOOD\n", "GOTO/10.0", "STOP\n", "GOTO/20.0"]);
+}
