@@ -6,6 +6,9 @@ use std::fmt::Display;
 /// Faults of one reason that are listed; further ones are counted.
 const FAULTS_OF_A_REASON: usize = 3;
 
+/// Places that are named for each reason beside those.
+const PLACES_NAMED: usize = 500;
+
 /// Faults listed in all.
 const FAULTS_SHOWN: usize = 40;
 
@@ -22,19 +25,38 @@ pub(crate) fn fault_list_text<'f, F: Display>(
     let mut text = format!("{} {places} are refused:", all.len());
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut shown = 0;
+    // Reasons in the order in which they come, each with the places that are not shown in full.
+    let mut further: Vec<(&str, Vec<String>)> = Vec::new();
+    let mut of_reason: BTreeMap<&str, usize> = BTreeMap::new();
     for fault in all {
-        let count = counts.entry(reason(fault)).or_default();
+        let reason = reason(fault);
+        let count = counts.entry(reason).or_default();
         *count += 1;
         if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {
             shown += 1;
             text.push_str(&format!("\n  {fault}"));
+            continue;
         }
+        let index = *of_reason.entry(reason).or_insert_with(|| {
+            further.push((reason, Vec::new()));
+            further.len() - 1
+        });
+        further[index].1.push(place_of(&fault.to_string(), reason));
     }
-    if shown < all.len() {
-        text.push_str(&format!(
-            "\n  and {} more, most for the same reasons as above",
-            all.len() - shown
-        ));
+    for (reason, mut places) in further {
+        let more = places.len().saturating_sub(PLACES_NAMED);
+        places.truncate(PLACES_NAMED);
+        let more = match more {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        text.push_str(&format!("\n  {}{more}: {reason}", places.join(", ")));
     }
     text
+}
+
+/// Where a fault is: what stands before its reason.
+fn place_of(fault: &str, reason: &str) -> String {
+    let before = fault.split_once(reason).map_or(fault, |(before, _)| before);
+    before.trim_end().trim_end_matches(':').to_owned()
 }

@@ -423,3 +423,41 @@ fn another_tool_at_the_same_place_is_a_motion_and_exact_stops_are_named() {
     let said = run(here, &words(line)).answered();
     assert!(said.out.contains("a second work"), "{said:?}");
 }
+
+/// Lines of one reason are named together where there are many.
+#[test]
+fn every_line_that_is_refused_is_named() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG1 X1\nG1 X2\nG1 X3\nG1 X4\nG1 X5\n";
+    std::fs::write(here.join("part.ngc"), text).unwrap();
+    let said = run(here, &words("convert part.ngc --to csv --out part.csv"));
+    assert_eq!(said.code, 1, "{said:?}");
+    let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("5 lines are refused"), "{flat}");
+    assert!(
+        flat.contains("line 6, line 7: the speed of this motion at feed is not known"),
+        "{flat}"
+    );
+}
+
+#[test]
+fn tools_of_machines_keep_their_numbers_and_need_no_tips_in_tables() {
+    let here = tempfile::tempdir().unwrap();
+    let here = here.path();
+    let text = "G21 G90\nT3 M6\nG0 X0 Y0 Z5\nG1 X1 F60\nG0 Z9\nT4 M6\nG1 X2\n";
+    std::fs::write(here.join("part.ngc"), text).unwrap();
+    run(here, &words("convert part.ngc --to apt --out part.apt")).answered();
+    let made = read(here, "part.apt");
+    assert!(
+        made.contains("LOADTL/3\n") && made.contains("LOADTL/4\n"),
+        "{made}"
+    );
+    run(here, &words("convert part.apt --to gcode --out again.ngc")).answered();
+    let made = read(here, "again.ngc");
+    assert!(
+        made.contains("T3 M6\n") && made.contains("T4 M6\n"),
+        "{made}"
+    );
+    run(here, &words("convert part.ngc --to csv --out part.csv")).answered();
+}

@@ -36,6 +36,8 @@ pub(crate) struct Datum {
     pub stated: BTreeMap<u32, Stated>,
     /// Where it, or any of its elements, is assigned.
     pub assigned: Option<(usize, usize)>,
+    /// Where elements without a stated value are assigned.
+    pub elements_assigned: BTreeMap<u32, (usize, usize)>,
 }
 
 /// What a name means in a routine.
@@ -122,6 +124,7 @@ impl<'p> Symbols<'p> {
                             is_global: true,
                             stated: BTreeMap::new(),
                             assigned: None,
+                            elements_assigned: BTreeMap::new(),
                         });
                         all.everywhere.insert(preset.name, all.data.len() - 1);
                         all.data.len() - 1
@@ -201,6 +204,7 @@ impl<'p> Symbols<'p> {
             is_global: node.is_global,
             stated: stated.map(|stated| (0, stated)).into_iter().collect(),
             assigned: None,
+            elements_assigned: BTreeMap::new(),
         });
         self.data.len() - 1
     }

@@ -158,9 +158,10 @@ impl Notes<'_, '_, '_, '_> {
         let datum = &mut self.symbols.data[index];
         match element {
             Some(element) if place.len() > 1 => {
-                if let Some(stated) = datum.stated.get_mut(&element) {
-                    stated.assigned.get_or_insert(here);
-                }
+                match datum.stated.get_mut(&element) {
+                    Some(stated) => stated.assigned.get_or_insert(here),
+                    None => datum.elements_assigned.entry(element).or_insert(here),
+                };
             }
             _ => {
                 datum.assigned.get_or_insert(here);

@@ -104,19 +104,28 @@ impl<'p> Values<'p> {
         };
         let datum = &self.symbols.data[index];
         let stated = datum.stated.get(&element);
+        let place = |at: usize| match at == file.index {
+            true => String::new(),
+            false => format!("{}, ", self.files[at].source.name()),
+        };
         if let Some((at, line)) = datum.assigned.or(stated.and_then(|stated| stated.assigned)) {
-            let place = match at == file.index {
-                true => String::new(),
-                false => format!("{}, ", self.files[at].source.name()),
-            };
+            let place = place(at);
             return Err((
                 format!("`{shown}` is changed while the program runs ({place}line {line})"),
                 WRITE_IT,
             ));
         }
-        match stated {
-            Some(stated) => Ok((datum, stated)),
-            None => Err((
+        match (stated, datum.elements_assigned.get(&element)) {
+            (Some(stated), _) => Ok((datum, stated)),
+            (None, Some((at, line))) => Err((
+                format!(
+                    "`{}` gets its value while the program runs ({}line {line}), and values that a program assigns are not followed",
+                    file.text(tokens),
+                    place(*at)
+                ),
+                WRITE_IT,
+            )),
+            (None, None) => Err((
                 format!("`{}` has no value in these files", file.text(tokens)),
                 "give the .dat file that states it as well",
             )),

@@ -105,10 +105,26 @@ impl<'o> Ends<'o> {
         };
         let position = place.positions.all.get(number).ok_or_else(missing)?;
         let mut displaced = displaced.map(|reason| (reason.to_owned(), unknown));
-        for (letters, word, own, now) in [
-            ("UF", "UFRAME_NUM", position.frame, in_force),
-            ("UT", "UTOOL_NUM", position.tool, tool_in_force),
+        let is_computed = place.before.map_or([false; 2], |b| b.is_computed);
+        for (letters, word, own, now, is_computed) in [
+            ("UF", "UFRAME_NUM", position.frame, in_force, is_computed[0]),
+            (
+                "UT",
+                "UTOOL_NUM",
+                position.tool,
+                tool_in_force,
+                is_computed[1],
+            ),
         ] {
+            if let (Some(own), None, true) = (own, now, is_computed) {
+                let reason = format!(
+                    "P[{number}] is taught with {letters} {own}, but which {word} is in force here, the run computes"
+                );
+                displaced.get_or_insert((
+                    reason,
+                    "assign a number, or leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file)",
+                ));
+            }
             if let (Some(own), Some(now)) = (own, now)
                 && own != now
             {

@@ -22,6 +22,8 @@ pub(crate) enum Last {
 pub(crate) struct State {
     pub frame: Option<u32>,
     pub tool: Option<u32>,
+    /// Frame and tool have numbers that the run computes, on one way at least.
+    pub is_computed: [bool; 2],
     pub last: Last,
 }
 
@@ -29,6 +31,7 @@ impl State {
     const OPEN: Self = Self {
         frame: None,
         tool: None,
+        is_computed: [false; 2],
         last: Last::Unknown,
     };
 
@@ -37,6 +40,7 @@ impl State {
         Self {
             frame: same(self.frame, other.frame),
             tool: same(self.tool, other.tool),
+            is_computed: [0, 1].map(|which| self.is_computed[which] || other.is_computed[which]),
             last: match self.last == other.last {
                 true => self.last,
                 false => Last::Unknown,
@@ -196,10 +200,12 @@ impl<'p> Flow<'p> {
             }),
             Step::Frame(to) => Some(State {
                 frame: number(to),
+                is_computed: [*to == Number::Computed, state.is_computed[1]],
                 ..state
             }),
             Step::Tool(to) => Some(State {
                 tool: number(to),
+                is_computed: [state.is_computed[0], *to == Number::Computed],
                 ..state
             }),
             Step::Call(_) => match self.programs[program].called.get(&at) {

@@ -94,6 +94,17 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
     Ok(motion)
 }
 
+/// What an option of a motion starts (`TB .10sec,DO[1]=ON`), up to its end.
+pub(crate) fn event_of(bytes: &[u8], text: &Range<usize>) -> Option<Range<usize>> {
+    let starts = |word: &Word| {
+        let name = &bytes[word.span.clone()];
+        (MOTION_OPTIONS.iter())
+            .any(|row| row.follows == Follows::Event && row.name.as_bytes() == name)
+    };
+    let first = words_of(bytes, text).into_iter().find(starts)?;
+    Some(first.span.start..text.end)
+}
+
 impl Reader<'_> {
     fn kind(&self) -> Option<Kind> {
         self.words.get(self.at).map(|word| word.kind)

@@ -1,7 +1,9 @@
 //! Programs in APT: places with the tool's axis, where that is not z everywhere.
 
+use kinetostat_program::SpindleRotation;
 use nalgebra::Vector3;
 
+use crate::making::action::{Coolant, EventAction};
 use crate::making::numbers::{coordinates, fixed, short};
 use crate::making::step::Step;
 use crate::making::template::Template;
@@ -30,7 +32,7 @@ pub(crate) fn files(
         match step {
             Step::Note(note) => text += &format!("$$ {note}\n"),
             Step::Tool(number) => text += &format!("LOADTL/{number}\n"),
-            Step::Wait(_) | Step::Stop => {}
+            Step::Action(action) => text += &action_text(*action),
             Step::Motion(motion) => {
                 let per_minute = short(
                     60.0 * motion.speed_mm_per_s,
@@ -54,4 +56,26 @@ pub(crate) fn files(
         }
     }
     vec![(format!("{name}.apt"), (text + "FINI\n").into_bytes())]
+}
+
+fn action_text(action: EventAction) -> String {
+    match action {
+        EventAction::Wait { seconds } => format!("DELAY/{}\n", short(seconds, 6)),
+        EventAction::Stop => "STOP\n".to_owned(),
+        EventAction::OptionalStop => "OPSTOP\n".to_owned(),
+        EventAction::Spindle { rotation, rpm } => {
+            let sense = match rotation {
+                SpindleRotation::Clockwise => "CLW",
+                SpindleRotation::CounterClockwise => "CCLW",
+                SpindleRotation::Stopped => return "SPINDL/OFF\n".to_owned(),
+            };
+            match rpm {
+                Some(rpm) => format!("SPINDL/{},RPM,{sense}\n", short(rpm, 3)),
+                None => format!("SPINDL/{sense}\n"),
+            }
+        }
+        EventAction::Coolant(Coolant::Mist) => "COOLNT/MIST\n".to_owned(),
+        EventAction::Coolant(Coolant::Flood) => "COOLNT/FLOOD\n".to_owned(),
+        EventAction::Coolant(Coolant::Off) => "COOLNT/OFF\n".to_owned(),
+    }
 }

@@ -25,7 +25,7 @@ pub(crate) fn files(
         match step {
             Step::Note(note) => text += &format!("# {note}\n"),
             Step::Tool(number) => text += &format!("# tool {number}\n"),
-            Step::Wait(_) | Step::Stop => {}
+            Step::Action(_) => {}
             Step::Motion(motion) => {
                 text += &coordinates(&motion.end, template).join(",");
                 if let (true, Some(turn)) = (oriented, &motion.orientation) {

@@ -1,44 +1,7 @@
 //! What a source says beside its moves: spindle, coolant, tools, pauses, comments.
 
-use kinetostat_program::{Path, PauseKind};
-
-/// What an event is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum EventKind {
-    /// Its speed, its start and stop.
-    Spindle,
-    /// Coolant on and off.
-    Coolant,
-    /// Another tool, its length.
-    Tool,
-    /// The tool stands still for some time.
-    Dwell,
-    /// Until somebody starts again.
-    Stop,
-    /// Text for people.
-    Comment,
-    /// The end of the program.
-    End,
-    /// Anything else.
-    Other,
-}
-
-impl EventKind {
-    /// In words, for what is lost.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Self::Spindle => "spindle",
-            Self::Coolant => "coolant",
-            Self::Tool => "tools",
-            Self::Dwell => "dwells",
-            Self::Stop => "stops",
-            Self::Comment => "comments",
-            Self::End => "end of the program",
-            Self::Other => "other statements",
-        }
-    }
-}
+use crate::making::action::EventAction;
+use crate::making::event_kind::EventKind;
 
 /// Something that a source says on a line beside its moves.
 ///
@@ -64,122 +27,43 @@ pub struct SourceEvent {
     pub text: String,
     /// Where that stands, for the note: `line 12`, or another file's line.
     pub place: String,
-    /// Seconds of a dwell, where they are known.
-    pub seconds: Option<f64>,
+    /// What it does that other languages have, too, in order.
+    pub actions: Vec<EventAction>,
+    /// What its other words are about; none where the actions are all of it.
+    pub rest: Option<EventKind>,
+    /// It acts behind the motion of its line, not before.
+    pub(crate) is_behind: bool,
 }
 
-/// The events of a program in G-code.
-#[must_use]
-pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Vec<SourceEvent> {
-    let mut events = Vec::new();
-    for line in 1..=program.line_count() {
-        let Some(bytes) = program.line_bytes(line) else {
-            continue;
-        };
-        let Some((kind, text)) = rest_of(bytes) else {
-            continue;
-        };
-        let first = path.pauses.partition_point(|pause| pause.line < line);
-        let dwell = path.pauses[first..]
-            .iter()
-            .find_map(|pause| match pause.kind {
-                PauseKind::DwellSeconds(seconds) if pause.line == line => Some(seconds),
-                _ => None,
-            });
-        events.push(SourceEvent {
+impl SourceEvent {
+    /// The words of a line, which do nothing elsewhere.
+    pub(crate) fn words_alone(line: usize, kind: EventKind, text: impl Into<String>) -> Self {
+        Self {
             line,
             kind,
-            text,
+            text: text.into(),
             place: format!("line {line}"),
-            seconds: dwell,
-        });
-    }
-    events
-}
-
-/// G codes that are all in the places and feeds of the moves, times ten.
-const FOLLOWED: [u32; 35] = [
-    0, 10, 20, 30, 170, 180, 190, 200, 210, 280, 300, 400, 530, 540, 550, 560, 570, 580, 590, 591,
-    592, 593, 610, 611, 640, 800, 900, 910, 901, 911, 920, 930, 940, 950, 970,
-];
-
-/// What of a block is no motion, and what it is about; none where nothing is left.
-fn rest_of(bytes: &[u8]) -> Option<(EventKind, String)> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut words = Vec::new();
-    let mut kinds = Vec::new();
-    let mut rest = text.trim();
-    let mut dwells = false;
-    while let Some(first) = rest.chars().next() {
-        match first {
-            '(' => {
-                let end = rest.find(')').map_or(rest.len(), |at| at + 1);
-                words.push(rest[..end].to_owned());
-                kinds.push(EventKind::Comment);
-                rest = &rest[end..];
-            }
-            ';' => {
-                let comment = rest[1..].trim();
-                if !comment.is_empty() {
-                    words.push(comment.to_owned());
-                    kinds.push(EventKind::Comment);
-                }
-                rest = "";
-            }
-            letter if letter.is_ascii_alphabetic() => {
-                let tail = &rest[1..];
-                let inside =
-                    |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | ' ' | '\t');
-                let end = tail.find(|c| !inside(c)).unwrap_or(tail.len());
-                let number: String = tail[..end].chars().filter(|c| !c.is_whitespace()).collect();
-                let Ok(value) = number.parse::<f64>() else {
-                    // Text behind a code, as in M117 hello.
-                    words.push(rest.to_owned());
-                    break;
-                };
-                let letter = letter.to_ascii_uppercase();
-                dwells |= letter == 'G' && value == 4.0;
-                if let Some(kind) = kind_of(letter, value, dwells) {
-                    words.push(format!("{letter}{number}"));
-                    kinds.push(kind);
-                }
-                rest = &tail[end..];
-            }
-            other => rest = &rest[other.len_utf8()..],
+            actions: Vec::new(),
+            rest: Some(kind),
+            is_behind: false,
         }
-        rest = rest.trim_start();
     }
-    let kind = match kinds.iter().min()? {
-        // The machine's switch says whether such a block runs: it is a note.
-        EventKind::Stop if text.trim_start().starts_with('/') => EventKind::Other,
-        kind => *kind,
-    };
-    Some((kind, words.join(" ")))
-}
 
-/// What a word is about; none where it is part of a motion.
-fn kind_of(letter: char, value: f64, dwells: bool) -> Option<EventKind> {
-    let tenths = (10.0 * value).round();
-    match letter {
-        'G' if tenths == 40.0 => Some(EventKind::Dwell),
-        'G' if (430.0..=432.0).contains(&tenths) || tenths == 490.0 => Some(EventKind::Tool),
-        'G' if (960.0..=970.0).contains(&tenths) => Some(EventKind::Spindle),
-        'G' if tenths >= 0.0 && FOLLOWED.contains(&(tenths as u32)) => None,
-        'P' | 'X' | 'U' if dwells => Some(EventKind::Dwell),
-        'X' | 'Y' | 'Z' | 'I' | 'J' | 'K' | 'R' | 'F' | 'N' | 'A' | 'B' | 'C' | 'E' | 'U' | 'V'
-        | 'W' => None,
-        // The number of a program.
-        'O' => Some(EventKind::Comment),
-        'S' => Some(EventKind::Spindle),
-        'T' | 'H' | 'D' => Some(EventKind::Tool),
-        'M' => Some(match tenths as i64 / 10 {
-            0 | 1 | 60 => EventKind::Stop,
-            2 | 30 => EventKind::End,
-            3 | 4 | 5 | 19 => EventKind::Spindle,
-            6 => EventKind::Tool,
-            7..=9 => EventKind::Coolant,
-            _ => EventKind::Other,
-        }),
-        _ => Some(EventKind::Other),
+    /// It does nothing: whether and how often it runs is not known.
+    pub(crate) fn only_words(&mut self) {
+        if !self.actions.is_empty() {
+            self.actions.clear();
+            self.rest = Some(self.kind);
+        }
+    }
+
+    /// The words of a line that are one action.
+    pub(crate) fn acting(line: usize, action: EventAction, text: impl Into<String>) -> Self {
+        let kind = action.kind();
+        Self {
+            actions: vec![action],
+            rest: None,
+            ..Self::words_alone(line, kind, text)
+        }
     }
 }

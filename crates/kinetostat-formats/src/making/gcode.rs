@@ -1,7 +1,9 @@
 //! G-code of three axes, for programs whose tool stands along z of the part.
 
+use kinetostat_program::SpindleRotation;
 use nalgebra::Vector3;
 
+use crate::making::action::{Coolant, EventAction};
 use crate::making::fault::MakeError;
 use crate::making::numbers::{coordinates, fixed, short};
 use crate::making::step::{Step, Way};
@@ -39,7 +41,8 @@ pub(crate) fn files(
     for step in steps {
         match step {
             Step::Note(note) => text += &format!("({note})\n"),
-            Step::Tool(_) | Step::Wait(_) | Step::Stop => {}
+            Step::Tool(number) => text += &format!("T{number} M6\n"),
+            Step::Action(action) => text += &action_text(*action),
             Step::Motion(motion) => {
                 let [x, y, z] = coordinates(&motion.end, template);
                 let word = match motion.way {
@@ -72,4 +75,35 @@ pub(crate) fn files(
         }
     }
     vec![(format!("{name}.ngc"), (text + "M2\n").into_bytes())]
+}
+
+fn action_text(action: EventAction) -> String {
+    match action {
+        // Seconds with X are seconds, or unknown to the controller; with P they would be milliseconds on some.
+        EventAction::Wait { seconds } => format!("G4 X{}\n", with_point(&short(seconds, 6))),
+        EventAction::Stop => "M0\n".to_owned(),
+        EventAction::OptionalStop => "M1\n".to_owned(),
+        EventAction::Spindle { rotation, rpm } => {
+            let word = match rotation {
+                SpindleRotation::Clockwise => "M3",
+                SpindleRotation::CounterClockwise => "M4",
+                SpindleRotation::Stopped => return "M5\n".to_owned(),
+            };
+            match rpm {
+                Some(rpm) => format!("S{} {word}\n", short(rpm, 3)),
+                None => format!("{word}\n"),
+            }
+        }
+        EventAction::Coolant(Coolant::Mist) => "M7\n".to_owned(),
+        EventAction::Coolant(Coolant::Flood) => "M8\n".to_owned(),
+        EventAction::Coolant(Coolant::Off) => "M9\n".to_owned(),
+    }
+}
+
+/// Without a point some controllers count in their least unit.
+fn with_point(number: &str) -> String {
+    match number.contains('.') {
+        true => number.to_owned(),
+        false => format!("{number}.0"),
+    }
 }

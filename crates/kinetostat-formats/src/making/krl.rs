@@ -4,6 +4,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
 use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, short};
 use crate::making::parts::parts;
@@ -123,8 +124,11 @@ impl Writer<'_> {
     fn step(&mut self, step: &Step) {
         match step {
             Step::Note(text) => self.line(&format!("; {text}")),
-            Step::Wait(seconds) => self.line(&format!("WAIT SEC {}", short(*seconds, 6))),
-            Step::Stop => self.line("HALT"),
+            Step::Action(EventAction::Wait { seconds }) => {
+                self.line(&format!("WAIT SEC {}", short(*seconds, 6)));
+            }
+            Step::Action(EventAction::Stop | EventAction::OptionalStop) => self.line("HALT"),
+            Step::Action(_) => {}
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 self.tool_line();

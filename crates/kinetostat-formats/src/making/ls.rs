@@ -4,6 +4,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
 use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, fixed, short};
 use crate::making::parts::parts;
@@ -161,10 +162,13 @@ impl<'t> Writer<'t> {
     fn step(&mut self, step: &Step) {
         match step {
             Step::Note(text) => self.remark(text),
-            Step::Wait(seconds) => {
+            Step::Action(EventAction::Wait { seconds }) => {
                 self.instruction(&format!("  WAIT {:>6}(sec)", fixed(*seconds, 2)))
             }
-            Step::Stop => self.instruction("  PAUSE"),
+            Step::Action(EventAction::Stop | EventAction::OptionalStop) => {
+                self.instruction("  PAUSE");
+            }
+            Step::Action(_) => {}
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 let tool = self.tool_number();

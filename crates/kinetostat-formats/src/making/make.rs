@@ -2,8 +2,10 @@
 
 use kinetostat_program::Path;
 
+use crate::making::action::EventAction;
 use crate::making::again::read_again;
 use crate::making::compare::{Kept, compare};
+use crate::making::course::Course;
 use crate::making::crowded::crowded;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
@@ -67,9 +69,19 @@ pub fn make(
     template: &Template,
     language: MakeLanguage,
 ) -> Result<Made, Vec<MakeError>> {
+    make_along(path, &Course::of_lines(path, events), template, language)
+}
+
+/// The same with events, moves and changes of tools in the order of a course.
+pub(crate) fn make_along(
+    path: &Path,
+    course: &Course,
+    template: &Template,
+    language: MakeLanguage,
+) -> Result<Made, Vec<MakeError>> {
     let mut faults = stated::faults(template, language);
     let name = checked(&template.program_name, language).map_err(|fault| faults.push(fault));
-    let planned = match plan(path, events, template, language) {
+    let planned = match plan(path, course, template, language) {
         Ok(planned) => Some(planned),
         Err(further) => {
             faults.extend(further);
@@ -187,6 +199,10 @@ fn taken_for_granted(
             "G-code of three axes says nothing of the turn of the tool about its own axis"
                 .to_owned(),
         );
+        let waits = |step: &Step| matches!(step, Step::Action(EventAction::Wait { .. }));
+        if steps.iter().any(waits) {
+            say("pauses are G4 X, in seconds: where the controller takes P, write G4 P with the number in its unit".to_owned());
+        }
     }
 }
 

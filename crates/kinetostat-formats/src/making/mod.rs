@@ -1,31 +1,41 @@
 //! A path written as a new program, in the language of a robot, in APT, in G-code or as a table of poses.
 //!
-//! The way: [`events`] finds what a source says beside its moves, [`plan`] makes steps of moves and events ([`pieces`] divides what
-//! the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
+//! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements),
+//! [`course`] says in which order all of it runs ([`routines`]: of robots' programs, [`of_tools`]: their tools), [`plan`] makes steps
+//! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
 
+pub(crate) mod action;
 pub(crate) mod again;
 pub(crate) mod apt;
+pub(crate) mod blocks;
 pub(crate) mod compare;
+pub(crate) mod course;
 pub(crate) mod crowded;
 pub(crate) mod csv;
+pub(crate) mod event_kind;
 pub(crate) mod events;
 pub(crate) mod fault;
 pub(crate) mod gcode;
+pub(crate) mod gcode_events;
 pub(crate) mod joint_table;
 pub(crate) mod krl;
 pub(crate) mod limits;
 pub(crate) mod ls;
 pub(crate) mod make;
+pub(crate) mod motion_events;
 pub(crate) mod names;
 pub(crate) mod numbers;
 pub(crate) mod of_robot;
+pub(crate) mod of_tools;
 pub(crate) mod otherwise;
 pub(crate) mod parts;
 pub(crate) mod pieces;
 pub(crate) mod plan;
 pub(crate) mod rapid;
+pub(crate) mod robot_actions;
 pub(crate) mod robot_events;
+pub(crate) mod routines;
 pub(crate) mod stated;
 pub(crate) mod step;
 pub(crate) mod stops;

@@ -2,18 +2,20 @@
 
 use std::collections::BTreeMap;
 
+use crate::making::course::{Course, at, place_of};
+use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
-use crate::making::make::{Made, make};
+use crate::making::make::{Made, make_along};
+use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
 use crate::making::robot_events::events_of_robot;
-use crate::making::stated::{has_own_zero, is_identity};
+use crate::making::routines::running_lines;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs, Zone};
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
-use crate::path::tools::tool_number;
 
 /// A robot's program in another language, with its work object and its tools where the template states none.
 ///
@@ -32,7 +34,7 @@ use crate::path::tools::tool_number;
 /// ```
 ///
 /// # Errors
-/// Those of [`make`]; and motions in loops and branches, which run not once.
+/// Those of [`crate::make`]; and motions in loops and branches, which run not once.
 pub fn make_of_robot(
     program: &RobotProgram,
     robot: &RobotPath,
@@ -50,13 +52,27 @@ pub fn make_of_robot(
     } else if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         template.base = stated(frame, None, language);
     }
+    let mut named = Vec::new();
     if template.tools.is_empty() && template.tool == StatedTool::default() {
-        match robot.tools.as_slice() {
-            [only] => template.tool.frame = stated(only, None, language),
-            all => template.tools = tools(all, language),
-        }
+        let made = tools_of_source(program, robot, language);
+        (template.tool, template.tools) = (made.tool, made.tools);
+        named = made.findings;
     }
-    let mut made = make(&robot.path, &events_of_robot(program), &template, language)?;
+    if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
+        named.extend(base_by_number(program, frame, &template.base, language));
+    }
+    let course = course_of(program, robot);
+    let mut made = make_along(&robot.path, &course, &template, language)?;
+    // What is named stands before what is taken for granted.
+    made.findings.splice(0..0, named);
+    made.findings
+        .sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
+    if robot.work_object.is_none() && given == StatedFrame::default() {
+        made.findings.push(MakeFinding::of(
+            None,
+            "the program has several work objects: the places are those in the robot's base, and are written so",
+        ));
+    }
     if given != StatedFrame::default() && given.pose != template.base.pose {
         made.findings.push(MakeFinding::of(
             None,
@@ -134,53 +150,73 @@ fn not_once(program: &RobotProgram) -> Vec<MakeError> {
         .collect()
 }
 
-/// Several tools by their numbers in the source.
-fn tools(all: &[FrameUse], language: MakeLanguage) -> BTreeMap<u32, StatedTool> {
-    let numbers: Vec<u32> = (0..all.len())
-        .map(|index| tool_number(all, index))
-        .collect();
-    let free = numbers
-        .iter()
-        .max()
-        .map_or(1, |number| number.saturating_add(1));
-    let tool = |(frame, number): (&FrameUse, u32)| {
-        let mut tool = StatedTool {
-            frame: stated(frame, Some(number), language),
-            ..StatedTool::default()
-        };
-        // Another tool than the flange cannot have its number.
-        tool.frame.number = tool.frame.number.or((number == 0).then_some(free));
-        (number, tool)
+/// A work object of the source without a number that has one here.
+fn base_by_number(
+    program: &RobotProgram,
+    frame: &FrameUse,
+    base: &StatedFrame,
+    language: MakeLanguage,
+) -> Option<MakeFinding> {
+    let written = match language {
+        MakeLanguage::FanucLs => "UFRAME_NUM=",
+        MakeLanguage::Krl if base.pose.is_none() => "BASE_DATA ",
+        _ => return None,
     };
-    all.iter().zip(numbers).map(tool).collect()
+    // The part of APT and of tables is that of the template.
+    let has_name = matches!(
+        program.language,
+        Language::Rapid | Language::Krl | Language::FanucLs
+    );
+    (has_name && base.number.is_none()).then(|| {
+        MakeFinding::of(
+            program.motions.first().map(|motion| motion.line),
+            format!(
+                "the work object `{}` of the source has no number: it is {written}1 here",
+                frame.name
+            ),
+        )
+    })
 }
 
-/// A frame of the source by its pose, its number, and its name where the language has names.
-fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLanguage) -> StatedFrame {
-    let own = frame.name.as_str();
-    let is_name = own.starts_with(|c: char| c.is_ascii_alphabetic())
-        && own.len() <= 32
-        && own.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    // The names of what a controller holds by itself are declared by none.
-    let is_system = own.eq_ignore_ascii_case("tool0") || own.eq_ignore_ascii_case("wobj0");
-    // What the controller has under 0 nobody sets, and it needs no other number: $NULLFRAME, wobj0.
-    let is_zero = has_own_zero(language) && frame.known().is_some_and(is_identity);
-    let is_named = language == MakeLanguage::Rapid && is_name && !is_system;
-    StatedFrame {
-        number: number
-            .or(number_in(own))
-            .filter(|number| *number <= 255 && (*number > 0 || !has_own_zero(language) || is_zero))
-            .or(is_zero.then_some(0)),
-        name: is_named.then(|| own.to_owned()),
-        pose: frame.known().copied(),
+/// In which order motions, events and changes of tools run.
+fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
+    let events = events_of_robot(program);
+    let Some(running) = running_lines(program, robot.file) else {
+        let mut course = Course::of_lines(&robot.path, &events);
+        let mut events = std::mem::take(&mut course.events);
+        events.iter_mut().for_each(|(_, event)| event.only_words());
+        let moves: Vec<usize> = robot.path.moves.iter().map(|m| at(m.line)).collect();
+        course.tools = changes_of_source(program, robot, (&moves, &events));
+        course.events = events;
+        course.is_of_robot = true;
+        return course;
+    };
+    let mut by_line: BTreeMap<usize, Vec<SourceEvent>> = BTreeMap::new();
+    for event in events {
+        by_line.entry(event.line).or_default().push(event);
     }
-}
-
-/// The number in a name: `UF:3`, `BASE_DATA[3]`, `wobj3`.
-fn number_in(name: &str) -> Option<u32> {
-    let digits = name.trim_end_matches(']');
-    let start = digits
-        .rfind(|c: char| !c.is_ascii_digit())
-        .map_or(0, |at| at + 1);
-    digits[start..].parse().ok()
+    let mut placed = Vec::new();
+    let mut order: BTreeMap<usize, usize> = BTreeMap::new();
+    for (index, running) in running.iter().enumerate() {
+        order.entry(running.line).or_insert(index);
+        for mut event in by_line.remove(&running.line).into_iter().flatten() {
+            if running.is_followed {
+                continue;
+            }
+            if !running.is_certain {
+                event.only_words();
+            }
+            placed.push((place_of(&event, index), event));
+        }
+    }
+    placed.sort_by_key(|(order, _)| *order);
+    let number = |line: usize| at(order.get(&line).copied().unwrap_or(line));
+    let moves: Vec<usize> = robot.path.moves.iter().map(|m| number(m.line)).collect();
+    Course {
+        tools: changes_of_source(program, robot, (&moves, &placed)),
+        of_moves: Some(moves),
+        events: placed,
+        left_out: by_line.into_values().flatten().collect(),
+        is_of_robot: true,
+    }
 }

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::making::events::{EventKind, SourceEvent};
+use crate::making::course::Course;
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::{Limits, MakeLanguage};
 use crate::making::numbers::plain;
@@ -27,16 +29,17 @@ const MOST_MOTIONS: usize = 20_000_000;
 /// The steps of a path.
 pub(crate) fn plan(
     path: &Path,
-    events: &[SourceEvent],
+    course: &Course,
     template: &Template,
     language: MakeLanguage,
 ) -> Result<Planned, Vec<MakeError>> {
     let mut planner = Planner {
         path,
+        course,
         template,
         language,
         limits: language.limits(),
-        steps: Vec::with_capacity(path.moves.len() + events.len()),
+        steps: Vec::with_capacity(path.moves.len() + course.events.len()),
         faults: Vec::new(),
         findings: Vec::new(),
         otherwise: Otherwise::default(),
@@ -45,12 +48,13 @@ pub(crate) fn plan(
         begun: false,
     };
     planner.tools();
-    planner.walk(events);
+    planner.walk();
     planner.end()
 }
 
 struct Planner<'p> {
     path: &'p Path,
+    course: &'p Course,
     template: &'p Template,
     language: MakeLanguage,
     limits: Limits,
@@ -69,10 +73,16 @@ impl Planner<'_> {
         self.faults.push(MakeError::at(line, reason, remedy));
     }
 
-    /// Several tools need to be stated.
+    /// Several tools need to be stated where a controller needs to know their tips.
     fn tools(&mut self) {
-        let used: BTreeSet<u32> = (self.path.moves.iter())
-            .filter_map(|motion| self.path.tool_on(motion.line))
+        if !self.language.is_of_an_arm() {
+            return;
+        }
+        let of_moves = self.path.moves.iter().enumerate();
+        let used: BTreeSet<u32> = of_moves
+            .filter_map(|(index, motion)| {
+                self.course.tool_at(self.course.of_move(index, motion.line))
+            })
             .collect();
         if used.len() < 2 {
             return;
@@ -95,29 +105,20 @@ impl Planner<'_> {
         }
     }
 
-    fn walk(&mut self, events: &[SourceEvent]) {
+    fn walk(&mut self) {
         let moves = &self.path.moves;
-        let in_order = moves.windows(2).all(|pair| pair[0].line <= pair[1].line);
-        let mut events = match in_order {
-            true => events.iter().peekable(),
-            false => {
-                if let Some(first) = events.first() {
-                    self.findings.push(MakeFinding::of(
-                        first.line,
-                        "the routines do not run in the order of their lines: comments and other statements of the source are left out",
-                    ));
-                }
-                [].iter().peekable()
-            }
-        };
+        let course = self.course;
+        self.findings.extend(course.finding());
+        let mut events = course.events.iter().peekable();
         let last_known = moves
             .iter()
             .rposition(|motion| motion.known != Knowledge::Nothing);
         for (index, motion) in moves.iter().enumerate() {
-            while let Some(event) = events.next_if(|event| is_before(event, motion.line)) {
-                self.event(event);
+            let order = course.of_move(index, motion.line);
+            while let Some((at, event)) = events.next_if(|(at, _)| *at < order) {
+                self.event(*at, event);
             }
-            self.change_tool(motion.line);
+            self.change_tool(order);
             match motion.known {
                 Knowledge::Nothing => self.without_place(index, last_known),
                 _ => self.made(index),
@@ -131,8 +132,8 @@ impl Planner<'_> {
                 return;
             }
         }
-        for event in events {
-            self.event(event);
+        for (at, event) in events {
+            self.event(*at, event);
         }
         if !self.begun && self.faults.is_empty() {
             self.faults.push(MakeError::of(
@@ -142,41 +143,54 @@ impl Planner<'_> {
         }
     }
 
-    fn change_tool(&mut self, line: usize) {
-        let number = self.path.tool_on(line);
+    fn change_tool(&mut self, order: usize) {
+        let number = self.course.tool_at(order);
         if number == self.tool {
             return;
         }
         self.tool = number;
-        if let (Some(number), false) = (number, self.template.tools.is_empty()) {
+        let is_written = !self.language.is_of_an_arm() || !self.template.tools.is_empty();
+        if let (Some(number), true) = (number, is_written) {
             self.steps.push(Step::Tool(number));
         }
     }
 
-    fn event(&mut self, event: &SourceEvent) {
+    fn event(&mut self, order: usize, event: &SourceEvent) {
         let note = match event.text.contains(COMPENSATED_MARK) {
             // It is looked for in this very form, and fills the remark of a TP program.
             true => COMPENSATED_MARK.to_owned(),
             false => format!("{}: {}", event.place, plain(&event.text)),
         };
         self.steps.push(Step::Note(note.clone()));
-        let robot = matches!(
-            self.language,
-            MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs
-        );
-        match (event.kind, event.seconds) {
-            (EventKind::Comment | EventKind::End, _) => return,
-            (EventKind::Dwell, Some(seconds)) if robot && (0.0..1e6).contains(&seconds) => {
-                self.steps.push(Step::Wait(seconds));
-                return;
-            }
-            (EventKind::Stop, _) if robot => {
-                self.steps.push(Step::Stop);
-                return;
-            }
-            _ => {}
+        let of_a_machine = matches!(self.language, MakeLanguage::Apt | MakeLanguage::Gcode);
+        let before = self.tool;
+        if of_a_machine {
+            // Before the spindle turns, say.
+            self.change_tool(order);
         }
-        self.otherwise.lose(event.kind, note);
+        let mut lost: BTreeSet<EventKind> = BTreeSet::new();
+        for action in &event.actions {
+            match action.is_in(self.language) {
+                true => self.steps.push(Step::Action(*action)),
+                false => {
+                    lost.insert(action.kind());
+                }
+            }
+        }
+        let is_taken = |kind: EventKind| {
+            let length = event.text.contains("G43") || event.text.contains("G49");
+            kind == EventKind::Tool && of_a_machine && self.tool != before && !length
+        };
+        let speaks_alone = event.actions.is_empty() && event.rest.is_none();
+        // The speed of a spindle that stands still is written where it starts.
+        let later = of_a_machine && event.kind == EventKind::Spindle;
+        lost.extend(event.rest.filter(|kind| !is_taken(*kind)));
+        lost.extend((speaks_alone && !later).then_some(event.kind));
+        for kind in lost {
+            if !matches!(kind, EventKind::Comment | EventKind::End) {
+                self.otherwise.lose(kind, note.clone());
+            }
+        }
     }
 
     /// A move whose end is not known in the part.
@@ -224,7 +238,10 @@ impl Planner<'_> {
         self.fault(
             motion.line,
             "the speed of this motion at feed is not known",
-            "write an F above zero (with G95 the speed of the spindle, too), or state unstated_feed_mm_per_s in the template",
+            match self.course.is_of_robot {
+                true => "write it as a number of mm/s (here it is a time, a register, or a name without a value), or state unstated_feed_mm_per_s in the template",
+                false => "write an F above zero (with G95 the speed of the spindle, too), or state unstated_feed_mm_per_s in the template",
+            },
         );
         None
     }
@@ -335,14 +352,6 @@ impl Planner<'_> {
             steps: self.steps,
             findings: self.findings,
         })
-    }
-}
-
-fn is_before(event: &SourceEvent, line: usize) -> bool {
-    match event.kind {
-        // What stands beside a motion acts before it, but for stops and the end.
-        EventKind::Stop | EventKind::End => event.line < line,
-        _ => event.line <= line,
     }
 }
 

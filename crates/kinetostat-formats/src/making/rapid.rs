@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
 use crate::making::names::of_part;
 use crate::making::numbers::{angles, coordinates, fixed, short};
 use crate::making::parts::parts;
@@ -199,8 +200,11 @@ impl<'t> Writer<'t> {
     fn step(&mut self, step: &Step, text: &mut String) {
         let line = match step {
             Step::Note(note) => format!("! {note}"),
-            Step::Wait(seconds) => format!("WaitTime {};", short(*seconds, 6)),
-            Step::Stop => "Stop;".to_owned(),
+            Step::Action(EventAction::Wait { seconds }) => {
+                format!("WaitTime {};", short(*seconds, 6))
+            }
+            Step::Action(EventAction::Stop | EventAction::OptionalStop) => "Stop;".to_owned(),
+            Step::Action(_) => return,
             Step::Tool(number) => {
                 self.tool = Some(*number);
                 return;

@@ -2,8 +2,15 @@
 
 use std::ops::Range;
 
-use crate::making::events::{EventKind, SourceEvent};
+use crate::apt::spindle::spindle_changes;
+use crate::making::action::EventAction;
+use crate::making::course::place_of;
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+use crate::making::motion_events::events_of_motions;
+use crate::making::robot_actions::{action_of, kind_of};
 use crate::model::program::{Language, RobotProgram};
+use crate::text::source::SourceFile;
 
 /// Words with which lines begin that only order a program: nothing of it is lost.
 fn of_form(language: Language) -> &'static [&'static str] {
@@ -81,7 +88,11 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         return Vec::new();
     };
     let moving = program.lines_of_targets(file);
-    let mut events = Vec::new();
+    let spindle = match program.language {
+        Language::Apt => spindle_changes(source),
+        _ => Vec::new(),
+    };
+    let mut events = events_of_motions(program, file);
     for line in instructions(program.language, source) {
         if moving.contains(&line) {
             continue;
@@ -93,19 +104,27 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         if text.is_empty() || words.iter().any(|word| upper.starts_with(word)) {
             continue;
         }
-        events.push(SourceEvent {
-            line,
-            kind: kind_of(program.language, &upper),
-            text: text.to_owned(),
-            place: format!("line {line}"),
-            seconds: None,
+        let kind = kind_of(program.language, &upper);
+        let from = spindle.partition_point(|change| change.line < line);
+        let turned = spindle.get(from).filter(|change| change.line == line);
+        let action = match turned.map(|change| change.spindle) {
+            Some(spindle) if kind == EventKind::Spindle => Some(EventAction::Spindle {
+                rotation: spindle.rotation,
+                rpm: spindle.speed,
+            }),
+            _ => action_of(program.language, text),
+        };
+        events.push(match action {
+            Some(action) => SourceEvent::acting(line, action, text),
+            None => SourceEvent::words_alone(line, kind, text),
         });
     }
+    events.sort_by_key(|event| place_of(event, event.line));
     events
 }
 
 /// Lines that hold instructions.
-fn instructions(language: Language, source: &crate::text::source::SourceFile) -> Range<usize> {
+pub(crate) fn instructions(language: Language, source: &SourceFile) -> Range<usize> {
     let count = source.line_count() + 1;
     let begins = |word: &[u8]| {
         (1..count).find(|line| {
@@ -120,7 +139,7 @@ fn instructions(language: Language, source: &crate::text::source::SourceFile) ->
 }
 
 /// The statement of a line: without the number and the end of a line of a TP program.
-fn body(language: Language, text: &str) -> &str {
+pub(crate) fn body(language: Language, text: &str) -> &str {
     let text = text.trim();
     match language {
         Language::FanucLs => {
@@ -142,26 +161,5 @@ fn body(language: Language, text: &str) -> &str {
                 .trim()
         }
         _ => text,
-    }
-}
-
-fn kind_of(language: Language, upper: &str) -> EventKind {
-    let has = |words: &[&str]| words.iter().any(|word| upper.starts_with(word));
-    let comment = match language {
-        Language::Rapid | Language::FanucLs => "!",
-        Language::Krl | Language::Siemens | Language::Heidenhain => ";",
-        Language::Poses => "#",
-        Language::Apt => "$$",
-    };
-    match () {
-        () if upper.starts_with(comment) || has(&["PPRINT", "REMARK"]) => EventKind::Comment,
-        () if language == Language::Heidenhain && upper.starts_with('*') => EventKind::Comment,
-        () if has(&["TOOL CALL", "TOOL DEF"]) => EventKind::Tool,
-        () if has(&["SPINDL"]) => EventKind::Spindle,
-        () if has(&["COOLNT"]) => EventKind::Coolant,
-        () if has(&["LOAD", "TOOLNO", "TOOL PATH", "TLDATA"]) => EventKind::Tool,
-        () if has(&["WAIT", "DELAY"]) => EventKind::Dwell,
-        () if has(&["STOP", "HALT", "PAUSE", "OPSTOP"]) => EventKind::Stop,
-        () => EventKind::Other,
     }
 }

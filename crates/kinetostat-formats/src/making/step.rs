@@ -2,6 +2,8 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
+
 /// On which way a made motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Way {
@@ -54,10 +56,8 @@ impl MadeMotion {
 pub(crate) enum Step {
     /// Text of the source.
     Note(String),
-    /// The tool stands still for so many seconds.
-    Wait(f64),
-    /// Until somebody starts again.
-    Stop,
+    /// What the language has.
+    Action(EventAction),
     /// Another tool, by its number.
     Tool(u32),
     Motion(MadeMotion),

@@ -1,5 +1,6 @@
 //! Where the tool stops exactly.
 
+use crate::making::event_kind::EventKind;
 use crate::making::step::Step;
 
 /// Motions that stop: before a pause and another tool, where rapids and feeds meet, and at the end.
@@ -11,7 +12,12 @@ pub(crate) fn stops(steps: &mut [Step]) {
                 motion.exact |= next != Some(motion.rapid);
                 next = Some(motion.rapid);
             }
-            Step::Wait(_) | Step::Stop | Step::Tool(_) => next = None,
+            Step::Action(action) => {
+                if matches!(action.kind(), EventKind::Dwell | EventKind::Stop) {
+                    next = None;
+                }
+            }
+            Step::Tool(_) => next = None,
             Step::Note(_) => {}
         }
     }

@@ -294,3 +294,26 @@ fn unknown_ends_stay_as_written_where_that_is_asked() {
     );
     assert_eq!(super::written(&program, &[]), text);
 }
+
+/// A position that the program assigns has a value, but none that is followed.
+#[test]
+fn an_element_that_is_assigned_is_said_to_be() {
+    let text = "DEF b( )\nDECL POS pp[3]\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$VEL.CP=0.02\n\
+        PTP {X 0,Y 0,Z 20,A 0,B 180,C 0}\npp[1]={X 100,Y 0,Z 20,A 0,B 180,C 0}\nLIN pp[1]\nLIN pp[2]\nEND\n";
+    let found = read_krl(
+        vec![SourceFile::new("b.src", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap_err();
+    let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(
+        found[0].contains("line 8")
+            && found[0].contains("`pp[1]` gets its value while the program runs (line 7)"),
+        "{found:?}"
+    );
+    assert!(
+        found[1].contains("`pp[2]` has no value in these files"),
+        "{found:?}"
+    );
+}

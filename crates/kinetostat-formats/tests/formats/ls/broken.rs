@@ -125,7 +125,7 @@ fn frames_and_tools_must_be_those_in_force() {
             .contains("P[1] is taught with UT 1, but UTOOL_NUM is 5 here"),
         "{found:?}"
     );
-    // Known again behind both branches, unknown where they differ or a register says it.
+    // Known again behind both branches, unknown where they differ; which of them a register says, is refused.
     let read = |lines: &[&str]| read_with(with_lines(lines).as_bytes(), &ReadOptions::default());
     let branch = |one: &'static str, other: &'static str| {
         [
@@ -145,7 +145,7 @@ fn frames_and_tools_must_be_those_in_force() {
             "  UFRAME_NUM=R[1] ;",
             "L P[1] 20mm/sec FINE ;"
         ])
-        .is_ok()
+        .is_err()
     );
     // A jump back brings the frame of the end to the beginning.
     let loops = [

@@ -8,6 +8,8 @@ mod parts;
 mod properties;
 mod refused;
 mod round_trips;
+mod running;
+mod tools;
 
 use kinetostat_formats::*;
 use kinetostat_program::{Path, Program, ReadOptions as Reading, interpret};
@@ -40,6 +42,19 @@ pub fn cell() -> Template {
 pub fn made(text: &str, template: &Template, language: MakeLanguage) -> Made {
     let (program, path) = gcode(text);
     make(&path, &events_of_gcode(&program, &path), template, language).unwrap()
+}
+
+/// A robot's program in another language, without a template.
+pub fn of_robot(from: Language, text: &str, into: MakeLanguage) -> Made {
+    let files = vec![SourceFile::new("source", text)];
+    let program = read(from, files, &ReadOptions::default()).unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    make_of_robot(&program, &robot, &cell(), into).unwrap()
+}
+
+pub fn found(made: &Made, words: &str) -> bool {
+    let mut findings = made.findings.iter();
+    findings.any(|finding| finding.message.contains(words))
 }
 
 pub fn text_of(made: &Made, file: usize) -> String {

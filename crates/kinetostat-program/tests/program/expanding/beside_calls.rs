@@ -49,7 +49,7 @@ fn elsewhere_words_beside_a_call_are_refused() {
         "M8 M98 P100",
         "M98 P100 X5.",
         "@5 M98 P100",
-        "M98 P100 X#100",
+        "M98 P100 X[2+3]",
         "G0 X5. M99",
     ] {
         for dialect in [Dialect::Undecided, Dialect::LinuxCnc] {

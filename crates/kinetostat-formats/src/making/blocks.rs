@@ -1,0 +1,87 @@
+//! Branches, loops and jumps of robots' programs, line by line: what stands in none of them runs once.
+
+use crate::model::program::Language;
+
+/// Blocks that run on a condition or again and again.
+pub(crate) struct Blocks {
+    language: Language,
+    open: usize,
+    /// Behind a jump, or in a routine with one.
+    is_lost: bool,
+}
+
+impl Blocks {
+    /// At the beginning of a routine.
+    pub(crate) fn of(language: Language) -> Self {
+        Self {
+            language,
+            open: 0,
+            is_lost: false,
+        }
+    }
+
+    /// What stands here runs once, on no condition.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.open == 0 && !self.is_lost
+    }
+
+    /// Jumps make the order of lines no order of time.
+    pub(crate) fn jump(&mut self, words: &[String]) {
+        let jumps: &[&str] = match self.language {
+            Language::Apt => &["JUMPTO", "LOOPST"],
+            _ => &["GOTO", "JMP", "LBL", "SELECT", "INTERRUPT"],
+        };
+        self.is_lost |= words.iter().any(|word| jumps.contains(&word.as_str()));
+    }
+
+    /// The words of the next line.
+    pub(crate) fn enter(&mut self, words: &[String]) {
+        let Some(first) = words.first().map(String::as_str) else {
+            return;
+        };
+        let has = |word: &str| words.iter().any(|own| own == word);
+        let opens = match (self.language, first) {
+            // One instruction on a condition is one of its own.
+            (Language::Rapid, _) => {
+                has("IF") && has("THEN") || has("FOR") || has("WHILE") || has("TEST")
+            }
+            (Language::FanucLs, "IF") => has("THEN"),
+            (Language::Krl, "IF" | "FOR" | "WHILE" | "LOOP" | "REPEAT" | "SWITCH") => true,
+            (Language::FanucLs, "FOR") => true,
+            _ => false,
+        };
+        let ends = [
+            "ENDIF",
+            "ENDFOR",
+            "ENDWHILE",
+            "ENDTEST",
+            "ENDLOOP",
+            "UNTIL",
+            "ENDSWITCH",
+        ];
+        let closes = words
+            .iter()
+            .filter(|word| ends.contains(&word.as_str()))
+            .count();
+        self.open += usize::from(opens);
+        match self.open.checked_sub(closes) {
+            Some(open) => self.open = open,
+            None => self.is_lost = true,
+        }
+        // What stands behind them runs where nobody left the routine before.
+        let leaves = [
+            "RETURN",
+            "EXIT",
+            "EXITCYCLE",
+            "RETRY",
+            "TRYNEXT",
+            "RAISE",
+            "ERROR",
+            "UNDO",
+            "BACKWARD",
+        ];
+        let is_statement = leaves.contains(&first) && words.len() == 1 || has("RETURN");
+        self.is_lost |= is_statement && self.language != Language::Apt;
+        self.is_lost |= self.language == Language::FanucLs && matches!(first, "END" | "ABORT");
+    }
+}

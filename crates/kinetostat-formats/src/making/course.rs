@@ -1,0 +1,115 @@
+//! In which order moves, events and changes of tools run.
+
+use kinetostat_program::Path;
+
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+use crate::making::fault::MakeFinding;
+use crate::making::numbers::plain;
+
+/// Numbers of a line: what acts before its motion, the motion, and what acts behind it.
+const OF_A_LINE: usize = 3;
+
+/// Statements that are left out are shown up to this many; of further ones the lines.
+const MOST_SHOWN: usize = 20;
+
+/// The number of what acts before the motion of a line.
+pub(crate) fn before(line: usize) -> usize {
+    OF_A_LINE * line
+}
+
+/// That of the motion.
+pub(crate) fn at(line: usize) -> usize {
+    OF_A_LINE * line + 1
+}
+
+/// That of what acts behind it.
+pub(crate) fn behind(line: usize) -> usize {
+    OF_A_LINE * line + 2
+}
+
+/// Events and changes of tools by numbers that ascend in the order in which they run.
+pub(crate) struct Course {
+    /// Of every move; none where the lines are the order.
+    pub of_moves: Option<Vec<usize>>,
+    pub events: Vec<(usize, SourceEvent)>,
+    pub tools: Vec<(usize, u32)>,
+    /// What has no place among the moves.
+    pub left_out: Vec<SourceEvent>,
+    /// Its speeds are those of a robot's program.
+    pub is_of_robot: bool,
+}
+
+impl Course {
+    /// In the order of the lines.
+    pub(crate) fn of_lines(path: &Path, events: &[SourceEvent]) -> Self {
+        let in_order = path
+            .moves
+            .windows(2)
+            .all(|pair| pair[0].line <= pair[1].line);
+        let (mut placed, mut left_out) = (Vec::new(), Vec::new());
+        match in_order {
+            true => {
+                placed = events
+                    .iter()
+                    .map(|event| (place_of(event, event.line), event.clone()))
+                    .collect()
+            }
+            false => left_out = events.to_vec(),
+        }
+        // What acts behind a motion stands behind what acts before it.
+        placed.sort_by_key(|(order, _)| *order);
+        let changes = path.tool_changes.iter();
+        Self {
+            of_moves: None,
+            events: placed,
+            tools: changes
+                .map(|change| (before(change.line), change.number))
+                .collect(),
+            left_out,
+            is_of_robot: false,
+        }
+    }
+
+    /// The number of a move.
+    pub(crate) fn of_move(&self, index: usize, line: usize) -> usize {
+        let own = self.of_moves.as_ref().and_then(|all| all.get(index));
+        own.copied().unwrap_or_else(|| at(line))
+    }
+
+    /// The tool that is taken last up to a number.
+    pub(crate) fn tool_at(&self, order: usize) -> Option<u32> {
+        let after = self.tools.partition_point(|(from, _)| *from <= order);
+        Some(self.tools.get(after.checked_sub(1)?)?.1)
+    }
+
+    /// What is left out, in words.
+    pub(crate) fn finding(&self) -> Option<MakeFinding> {
+        let lost = || {
+            let matter =
+                |event: &&SourceEvent| !matches!(event.kind, EventKind::Comment | EventKind::End);
+            self.left_out.iter().filter(matter)
+        };
+        let first = lost().next()?;
+        let shown = lost()
+            .take(MOST_SHOWN)
+            .map(|event| format!("{}: {}", event.place, plain(&event.text)));
+        let more = lost().skip(MOST_SHOWN).map(|event| event.place.clone());
+        let all: Vec<String> = shown.chain(more).collect();
+        Some(MakeFinding::of(
+            first.line,
+            format!(
+                "these statements have no place among the motions (their routine is not called by a statement of its own, or its lines run in another order), and are left out: {}",
+                all.join("; ")
+            ),
+        ))
+    }
+}
+
+/// The number of an event on a line.
+pub(crate) fn place_of(event: &SourceEvent, line: usize) -> usize {
+    match event.is_behind {
+        true => behind(line),
+        false => before(line),
+    }
+}

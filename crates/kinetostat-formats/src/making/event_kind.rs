@@ -1,0 +1,39 @@
+//! What the statements beside the moves are about.
+
+/// What an event is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum EventKind {
+    /// Its speed, its start and stop.
+    Spindle,
+    /// Coolant on and off.
+    Coolant,
+    /// Another tool, its length.
+    Tool,
+    /// The tool stands still for some time.
+    Dwell,
+    /// Until somebody starts again.
+    Stop,
+    /// Text for people.
+    Comment,
+    /// The end of the program.
+    End,
+    /// Anything else.
+    Other,
+}
+
+impl EventKind {
+    /// In words, for what is lost.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Spindle => "spindle",
+            Self::Coolant => "coolant",
+            Self::Tool => "tools",
+            Self::Dwell => "dwells",
+            Self::Stop => "stops",
+            Self::Comment => "comments",
+            Self::End => "end of the program",
+            Self::Other => "other statements",
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The tools of a robot's program as those of a made one: their numbers stay, and what gets a number is named.
+
+use std::collections::BTreeMap;
+
+use crate::making::course::before;
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+use crate::making::fault::MakeFinding;
+use crate::making::limits::MakeLanguage;
+use crate::making::stated::{has_own_zero, is_identity};
+use crate::making::template::{StatedFrame, StatedTool};
+use crate::model::frame::FrameUse;
+use crate::model::program::{Language, RobotProgram};
+use crate::path::of_program::RobotPath;
+use crate::path::tools::{number_in, same_frame, tool_numbers};
+
+/// The tools of a made program.
+pub(crate) struct MadeTools {
+    /// That of a program with one, and before the first change.
+    pub tool: StatedTool,
+    /// By the numbers of the source, of a program with several.
+    pub tools: BTreeMap<u32, StatedTool>,
+    /// What got a number, or another name.
+    pub findings: Vec<MakeFinding>,
+}
+
+/// The tool of APT before the first change is none.
+fn is_none(program: &RobotProgram, tool: &FrameUse) -> bool {
+    program.language == Language::Apt && tool.name == "TOOL"
+}
+
+/// The tools as the source has them.
+pub(crate) fn tools_of_source(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    language: MakeLanguage,
+) -> MadeTools {
+    let mut made = MadeTools {
+        tool: StatedTool::default(),
+        tools: BTreeMap::new(),
+        findings: Vec::new(),
+    };
+    let all = &robot.tools;
+    let is_one = all.len() == 1;
+    for (tool, number) in all.iter().zip(tool_numbers(all)) {
+        let own = number_in(&tool.name);
+        let is_open = is_none(program, tool);
+        let number = match (is_one, is_open) {
+            (true, _) => own,
+            // A controller has some tool always: one that is no other's.
+            (false, true) if !language.is_of_an_arm() => None,
+            (false, _) => Some(number),
+        };
+        let mut frame = stated(tool, number, language);
+        frame.name = frame.name.filter(|_| !is_open);
+        // Another tool than the flange cannot have its number.
+        let free = tool_numbers(all).into_iter().max().unwrap_or_default();
+        let is_taken = !is_one && number == Some(0);
+        frame.number = frame.number.or(is_taken.then(|| free.saturating_add(1)));
+        let stated = StatedTool {
+            frame,
+            ..StatedTool::default()
+        };
+        made.findings.extend(renamed(
+            program,
+            (tool, own),
+            &stated.frame,
+            is_open,
+            (is_one, language),
+        ));
+        match (is_one || is_open, number) {
+            (false, Some(number)) => {
+                made.tools.insert(number, stated);
+            }
+            _ => made.tool = stated,
+        }
+    }
+    made
+}
+
+/// What is said of a tool whose number or name is not that of the source.
+fn renamed(
+    program: &RobotProgram,
+    (tool, own): (&FrameUse, Option<u32>),
+    frame: &StatedFrame,
+    is_open: bool,
+    (is_one, language): (bool, MakeLanguage),
+) -> Option<MakeFinding> {
+    let number = frame.number.unwrap_or(1);
+    let written = match language {
+        MakeLanguage::Krl if frame.pose.is_some() => return None,
+        MakeLanguage::Krl => format!("TOOL_DATA[{number}]"),
+        MakeLanguage::Rapid => frame
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("tool{number}")),
+        MakeLanguage::FanucLs => format!("UTOOL_NUM={number}"),
+        MakeLanguage::Apt if !is_one => format!("LOADTL/{number}"),
+        MakeLanguage::Gcode if !is_one => format!("T{number}"),
+        MakeLanguage::Csv if !is_one => format!("tool {number}"),
+        MakeLanguage::Apt | MakeLanguage::Gcode | MakeLanguage::Csv => return None,
+    };
+    let same = match language {
+        MakeLanguage::Rapid => frame.name.is_some() || own == Some(number),
+        _ => own == Some(number),
+    };
+    let first = program
+        .motions
+        .iter()
+        .find(|motion| same_frame(&motion.tool, tool));
+    let line = first.map(|motion| motion.line);
+    match (is_open, same) {
+        (true, _) if !language.is_of_an_arm() => None,
+        (true, _) if is_one => None,
+        (true, _) => Some(MakeFinding::of(
+            line,
+            format!("before the first change of tools the source names none: {written} here"),
+        )),
+        (false, true) => None,
+        (false, false) => {
+            let why = match own {
+                Some(0) => "has the number 0, which is that of the flange".to_owned(),
+                Some(own) => format!("has the number {own}, which another tool has"),
+                None => "has no number".to_owned(),
+            };
+            Some(MakeFinding::of(
+                line,
+                format!(
+                    "the tool `{}` of the source {why}: it is {written} here",
+                    tool.name
+                ),
+            ))
+        }
+    }
+}
+
+/// Where a made program takes another tool: by numbers of the course.
+pub(crate) fn changes_of_source(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    (of_moves, events): (&[usize], &[(usize, SourceEvent)]),
+) -> Vec<(usize, u32)> {
+    let all = &robot.tools;
+    // One tool is changed to where the source has changes of tools.
+    if all.len() < 2 && program.language != Language::Apt {
+        return Vec::new();
+    }
+    let numbers: Vec<Option<u32>> = match all.len() {
+        1 => all.iter().map(|tool| number_in(&tool.name)).collect(),
+        _ => tool_numbers(all).into_iter().map(Some).collect(),
+    };
+    let mut changes: Vec<(usize, u32)> = Vec::new();
+    let mut last_move = 0;
+    for (motion, order) in program.motions.iter().zip(of_moves) {
+        let from = std::mem::replace(&mut last_move, *order);
+        let index = all.iter().position(|tool| same_frame(tool, &motion.tool));
+        let Some(index) = index.filter(|index| !is_none(program, &all[*index])) else {
+            continue;
+        };
+        let Some(number) = numbers[index] else {
+            continue;
+        };
+        if changes.last().is_some_and(|(_, last)| *last == number) {
+            continue;
+        }
+        // The statement that says so, where there is one.
+        let end = events.partition_point(|(at, _)| at < order);
+        let said = events[..end].iter().rev().take_while(|(at, _)| *at >= from);
+        let mut said = said.filter(|(_, event)| event.kind == EventKind::Tool);
+        let at = said.next().map_or(order - order % before(1), |(at, _)| *at);
+        changes.push((at, number));
+    }
+    changes
+}
+
+/// A frame of the source by its pose, its number, and its name where the language has names.
+pub(crate) fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLanguage) -> StatedFrame {
+    let own = frame.name.as_str();
+    let is_name = own.starts_with(|c: char| c.is_ascii_alphabetic())
+        && own.len() <= 32
+        && own.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    // The names of what a controller holds by itself are declared by none.
+    let is_system = own.eq_ignore_ascii_case("tool0") || own.eq_ignore_ascii_case("wobj0");
+    // What the controller has under 0 nobody sets, and it needs no other number: $NULLFRAME, wobj0.
+    let is_zero = has_own_zero(language) && frame.known().is_some_and(is_identity);
+    let is_named = language == MakeLanguage::Rapid && is_name && !is_system;
+    StatedFrame {
+        number: number
+            .or(number_in(own))
+            .filter(|number| *number <= 255 && (*number > 0 || !has_own_zero(language) || is_zero))
+            .or(is_zero.then_some(0)),
+        name: is_named.then(|| own.to_owned()),
+        pose: frame.known().copied(),
+    }
+}

@@ -1,0 +1,192 @@
+//! In which order the lines of a robot's program run, and which of them run for certain, once.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use crate::making::blocks::Blocks;
+use crate::making::robot_events::{body, instructions};
+use crate::model::program::{Language, RobotProgram};
+use crate::text::source::SourceFile;
+
+/// Deepest nesting of calls that is followed.
+const DEEPEST: usize = 100;
+/// Most routines that are tried as the one that the program begins with.
+const MOST_TRIED: usize = 64;
+
+/// A line in the order of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Running {
+    pub line: usize,
+    /// It runs once, on no condition.
+    pub is_certain: bool,
+    /// What it calls stands behind it.
+    pub is_followed: bool,
+}
+
+/// A routine: its name in capitals and the lines between head and end.
+struct Routine {
+    name: String,
+    lines: Range<usize>,
+}
+
+/// The lines of the file with the motions in the order in which they run; none where that is not the order of the motions.
+pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<Running>> {
+    let source = program.files.get(file)?;
+    let all = instructions(program.language, source);
+    let routines = routines_of(program.language, source, all.clone());
+    let mut moving: Vec<usize> = program.motions.iter().map(|motion| motion.line).collect();
+    moving.dedup();
+    let set: BTreeSet<usize> = moving.iter().copied().collect();
+    let is_order = |lines: &[Running]| {
+        let own = lines
+            .iter()
+            .map(|running| running.line)
+            .filter(|line| set.contains(line));
+        own.eq(moving.iter().copied())
+    };
+    let mut outside = Vec::new();
+    let mut from = all.start;
+    for routine in &routines {
+        outside.extend(from..routine.lines.start);
+        from = routine.lines.end;
+    }
+    let is_one = routines.is_empty();
+    let whole = match is_one {
+        true => vec![Routine {
+            name: String::new(),
+            lines: all,
+        }],
+        false => {
+            outside.extend(from..all.end);
+            routines
+        }
+    };
+    let names = whole.iter().enumerate().rev();
+    let names = names.map(|(index, routine)| (routine.name.as_str(), index));
+    let names: BTreeMap<&str, usize> = names.collect();
+    (0..whole.len().min(MOST_TRIED)).find_map(|first| {
+        let mut walk = Walk {
+            language: program.language,
+            source,
+            routines: &whole,
+            names: &names,
+            seen: vec![false; whole.len()],
+            lines: (outside.iter())
+                .map(|line| Running {
+                    line: *line,
+                    is_certain: false,
+                    is_followed: false,
+                })
+                .collect(),
+        };
+        walk.routine(first, true, 0);
+        is_order(&walk.lines).then_some(walk.lines)
+    })
+}
+
+fn routines_of(language: Language, source: &SourceFile, lines: Range<usize>) -> Vec<Routine> {
+    let (heads, ends): (&[&str], &[&str]) = match language {
+        Language::Rapid => (
+            &["PROC", "FUNC", "TRAP"],
+            &["ENDPROC", "ENDFUNC", "ENDTRAP"],
+        ),
+        Language::Krl => (&["DEF", "DEFFCT"], &["END", "ENDFCT"]),
+        _ => return Vec::new(),
+    };
+    let mut routines = Vec::new();
+    let mut open: Option<(String, usize)> = None;
+    for line in lines {
+        let words = words_of(language, source, line);
+        let words: Vec<&str> = (words.iter().map(String::as_str))
+            .skip_while(|word| matches!(*word, "LOCAL" | "GLOBAL"))
+            .collect();
+        match (words.as_slice(), &open) {
+            ([head, rest @ ..], None) if heads.contains(head) => {
+                // A function has a type before its name.
+                let name = match *head {
+                    "FUNC" | "DEFFCT" => String::new(),
+                    _ => rest
+                        .first()
+                        .map_or_else(String::new, |name| (*name).to_owned()),
+                };
+                open = Some((name, line + 1));
+            }
+            ([end, ..], Some((name, from))) if ends.contains(end) => {
+                routines.push(Routine {
+                    name: name.clone(),
+                    lines: *from..line,
+                });
+                open = None;
+            }
+            _ => {}
+        }
+    }
+    routines
+}
+
+/// The words of a line in capitals, without its comment and texts.
+fn words_of(language: Language, source: &SourceFile, line: usize) -> Vec<String> {
+    let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).to_ascii_uppercase();
+    let text = body(language, &text);
+    let comment = match language {
+        Language::Rapid | Language::FanucLs => '!',
+        _ => ';',
+    };
+    let code = text.split('"').step_by(2).collect::<Vec<_>>().join(" ");
+    let code = match language {
+        Language::Apt => code.split("$$").next().unwrap_or_default(),
+        _ => code.split(comment).next().unwrap_or_default(),
+    };
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let words = code.split(|c| !is_word(c)).filter(|word| !word.is_empty());
+    words.map(str::to_owned).collect()
+}
+
+struct Walk<'w> {
+    language: Language,
+    source: &'w SourceFile,
+    routines: &'w [Routine],
+    names: &'w BTreeMap<&'w str, usize>,
+    seen: Vec<bool>,
+    lines: Vec<Running>,
+}
+
+impl Walk<'_> {
+    fn routine(&mut self, index: usize, is_certain: bool, depth: usize) {
+        self.seen[index] = true;
+        let lines = self.routines[index].lines.clone();
+        let mut blocks = Blocks::of(self.language);
+        for line in lines.clone() {
+            blocks.jump(&words_of(self.language, self.source, line));
+        }
+        for line in lines {
+            let words = words_of(self.language, self.source, line);
+            blocks.enter(&words);
+            let is_certain = is_certain && blocks.is_certain();
+            let called = self
+                .called(line, &words)
+                .filter(|called| !self.seen[*called] && depth < DEEPEST);
+            self.lines.push(Running {
+                line,
+                is_certain,
+                is_followed: called.is_some(),
+            });
+            if let Some(called) = called {
+                self.routine(called, is_certain, depth + 1);
+            }
+        }
+    }
+
+    /// The routine that a statement calls.
+    fn called(&self, line: usize, words: &[String]) -> Option<usize> {
+        let index = *self.names.get(words.first()?.as_str())?;
+        let text = String::from_utf8_lossy(self.source.line(line)?);
+        let text = text.trim_start();
+        let behind = text.get(words.first()?.len()..)?.trim_start();
+        let calls = match self.language {
+            Language::Rapid => !behind.starts_with(":=") && !behind.starts_with(':'),
+            _ => behind.starts_with('('),
+        };
+        calls.then_some(index)
+    }
+}
