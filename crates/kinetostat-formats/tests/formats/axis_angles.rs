@@ -421,7 +421,13 @@ fn without_a_correction_nothing_changes() {
 
 #[test]
 fn what_is_not_known_is_refused_by_line() {
-    let cases: [(Language, String, usize, &str); 12] = [
+    let cases: [(Language, String, usize, &str); 13] = [
+        (
+            Language::Siemens,
+            siemens("G0 C=DC(180)\nG1 X5 C=DC(0) F9\n"),
+            6,
+            "axis C turns by half a turn, and which way is the shorter one is open",
+        ),
         (
             Language::Siemens,
             siemens("").replace(" C0\n", "\nG1 X5 A3 F1\n"),
