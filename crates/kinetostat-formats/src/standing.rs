@@ -9,6 +9,9 @@ use crate::model::stated_axes::AxesStated;
 /// Angles below this are zero, deg.
 const ZERO_DEG: f64 = 1e-9;
 
+/// Angles nearer than this are one, deg.
+const SAME_DEG: f64 = 1e-6;
+
 /// How a word turns an axis, deg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum AxisTurn {
@@ -57,6 +60,8 @@ pub(crate) struct Standing {
     any: bool,
     /// A direction of the tool says since then how they stand.
     by_direction: bool,
+    /// An axis turns by half a turn in the block, the shorter way.
+    halved: Option<char>,
     /// The fault of these angles that was reported.
     reported: Option<String>,
 }
@@ -86,6 +91,7 @@ impl Standing {
     /// A block begins.
     pub(crate) fn begin_block(&mut self) {
         self.before = self.axes.iter().map(|axis| axis.at).collect();
+        self.halved = None;
     }
 
     /// A word turns an axis.
@@ -120,18 +126,17 @@ impl Standing {
                 ));
             }
             (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
-                let up = (within(to)? - at).rem_euclid(360.0);
+                let up = match (within(to)? - at).rem_euclid(360.0) {
+                    // It stands there: what the arithmetic leaves is no turn.
+                    up if up > 360.0 - SAME_DEG => up - 360.0,
+                    up => up,
+                };
                 if matches!(turn, AxisTurn::Shorter(_)) && (up - 180.0).abs() < ZERO_DEG {
-                    return Err((
-                        format!(
-                            "axis {letter} turns by half a turn, and which way is the shorter one is open"
-                        ),
-                        "let the CAM system write an angle between".to_owned(),
-                    ));
+                    self.halved = Some(letter);
                 }
                 let by = match turn {
                     AxisTurn::Upwards(_) => up,
-                    AxisTurn::Downwards(_) if up > 0.0 => up - 360.0,
+                    AxisTurn::Downwards(_) if up > SAME_DEG => up - 360.0,
                     AxisTurn::Shorter(_) if up > 180.0 => up - 360.0,
                     _ => up,
                 };
@@ -236,6 +241,14 @@ impl Standing {
                 format!(
                     "let the CAM system write places of the tool's tip in the part ({control})"
                 ),
+            ));
+        }
+        if let Some(letter) = self.halved {
+            return Some((
+                format!(
+                    "axis {letter} turns by half a turn, and which way is the shorter one is open"
+                ),
+                "let the CAM system write an angle between".to_owned(),
             ));
         }
         if !self.any || self.by_direction {
