@@ -111,7 +111,7 @@ pub fn angle_about(
 ///
 /// assert_eq!(last_digit_mm(&[20.0, 0.0], 1.0), 0.001);
 /// assert_eq!(last_digit_mm(&[19.9999, 0.0], 1.0), 0.0001);
-/// assert_eq!(last_digit_mm(&[1.0], 25.4), 0.0001 * 25.4);
+/// assert!((last_digit_mm(&[1.0], 25.4) - 0.00254).abs() < 1e-12);
 /// ```
 #[must_use]
 pub fn last_digit_mm(words: &[f64], mm_per_unit: f64) -> f64 {

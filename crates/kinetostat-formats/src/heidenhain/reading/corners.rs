@@ -15,7 +15,7 @@ use crate::heidenhain::words::Word;
 use crate::rounding::{Beside, rounding};
 
 /// An arc that turns by more has no corner of its own, rad.
-const MOST_OF_A_TURN: f64 = 6.28;
+const MOST_OF_A_TURN: f64 = 0.999 * std::f64::consts::TAU;
 
 /// Heights nearer than this are one, mm.
 const SAME_MM: f64 = 1e-9;
