@@ -12,6 +12,7 @@ use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::source::statement::{Piece, Statement};
 use crate::expanding::translate::block::{MotionBlock, Polar, without_cancel};
 use crate::expanding::translate::cycle::is_cycle;
+use crate::expanding::translate::turns::counts_turns;
 use crate::reading::options::BlockDelete;
 
 /// Lines that are run for each flat block that is allowed: loops that only count are not endless.
@@ -86,8 +87,12 @@ impl Runner<'_> {
         if line.block_delete && self.options.reading.block_delete == BlockDelete::Skip {
             return Ok(Next::Line);
         }
+        let statement = line.statement.clone();
+        if line.skip_number.is_some() {
+            self.note_skip_number()?;
+        }
         let before = self.flat.blocks();
-        match line.statement.clone() {
+        match statement {
             Statement::Plain => {
                 let next = self.plain(file, index)?;
                 let text = self.sources[file].text(index).to_vec();
@@ -110,7 +115,8 @@ impl Runner<'_> {
     }
 
     fn plain(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
-        let text = self.sources[file].text(index).to_vec();
+        let first = self.sources[file].lines[index].skip_number.unwrap_or(0);
+        let text = self.sources[file].text(index)[first..].to_vec();
         self.emit(&text, Polar::default())
     }
 
@@ -210,6 +216,12 @@ impl Runner<'_> {
             self.cycle = None;
             self.leave_spline()?;
             self.rigid_tap(&block)?;
+            return self.after_block();
+        }
+        if self.options.dialect == Dialect::LinuxCnc && counts_turns(&block, self.state()) {
+            self.cycle = None;
+            self.leave_spline()?;
+            self.turns(&block)?;
             return self.after_block();
         }
         let code = match (block.motion, self.cycle) {

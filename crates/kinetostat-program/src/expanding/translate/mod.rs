@@ -9,4 +9,5 @@ pub(crate) mod holes;
 pub(crate) mod moves;
 pub(crate) mod polar;
 pub(crate) mod spline;
+pub(crate) mod turns;
 pub(crate) mod wrong;
