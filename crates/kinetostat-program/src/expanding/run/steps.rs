@@ -10,6 +10,7 @@ use crate::expanding::run::frame::Rules;
 use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::source::statement::{Piece, Statement};
+use crate::expanding::translate::blanks::without_blanks_in_numbers;
 use crate::expanding::translate::block::{MotionBlock, Polar, without_cancel};
 use crate::expanding::translate::cycle::is_cycle;
 use crate::expanding::translate::turns::counts_turns;
@@ -174,6 +175,11 @@ impl Runner<'_> {
 
     /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
+        if let (Dialect::LinuxCnc, Some(joined)) =
+            (self.options.dialect, without_blanks_in_numbers(text))
+        {
+            return self.emit(&joined, polar);
+        }
         if let Some(mut block) = CallBlock::of(text) {
             block.does_more |= polar.is_there();
             self.check_beside_call(&block)?;

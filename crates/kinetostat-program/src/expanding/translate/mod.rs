@@ -3,6 +3,7 @@
 //! Takes a block of plain words and where the tool is; gives the plain blocks in its place. The motions are those of LinuxCNC
 //! (`docs/src/gcode/g-code.adoc`, "Canned Cycles", "Polar Coordinates").
 
+pub(crate) mod blanks;
 pub(crate) mod block;
 pub(crate) mod cycle;
 pub(crate) mod holes;
