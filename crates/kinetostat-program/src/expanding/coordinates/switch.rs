@@ -114,7 +114,7 @@ fn check_beside_ending(
                 .to_owned(),
             "write G50 in a block of its own",
         )),
-        Some(Ending::Mirrors(_)) if has(b"GABCUVWIJKPR") => Err((
+        Some(Ending::Mirrors(_)) if selected != [false; 3] && has(b"GABCUVWIJKPR") => Err((
             "G50.1 and other words are in one block: its axis words choose the mirrors that end"
                 .to_owned(),
             "write them in two blocks",

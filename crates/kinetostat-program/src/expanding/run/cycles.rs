@@ -1,10 +1,11 @@
-//! Blocks of canned cycles while a program runs.
+//! Blocks of canned cycles, and of arcs of many turns, while a program runs.
 
 use crate::error::ProgramError;
 use crate::expanding::options::Dialect;
 use crate::expanding::run::runner::Runner;
 use crate::expanding::translate::block::MotionBlock;
 use crate::expanding::translate::cycle::cycle;
+use crate::expanding::translate::turns::turns;
 
 /// What a block without a code is where a cycle is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,13 +31,27 @@ impl Runner<'_> {
             return Ok(InCycle::Nothing);
         }
         match (block.value(b'R'), self.options.dialect) {
+            (_, Dialect::LinuxCnc) => Err(self.refuse(
+                "words of a cycle without a place: LinuxCNC refuses them",
+                "write them into a block with a place",
+            )),
             (Some(_), Dialect::Fanuc) => Ok(InCycle::Hole),
             (Some(_), Dialect::Undecided) => Err(self.refuse(
-                "R without a place while a cycle is in force: Fanuc drills once more where the tool is, LinuxCNC does nothing",
+                "R without a place while a cycle is in force: Fanuc drills once more where the tool is, LinuxCNC refuses it",
                 "write R into a block with a place, or name the dialect (--dialect)",
             )),
             _ => Ok(InCycle::Words),
         }
+    }
+
+    /// An arc of more than one turn (LinuxCNC).
+    pub fn turns(&mut self, block: &MotionBlock) -> Result<(), ProgramError> {
+        self.add_rest(&block.before)?;
+        let made = turns(block, self.state());
+        for text in made.map_err(|(reason, remedy)| self.refuse(&reason, remedy))? {
+            self.add(text.as_bytes())?;
+        }
+        self.add_rest(&block.after)
     }
 
     /// A block that makes holes.

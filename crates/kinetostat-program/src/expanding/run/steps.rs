@@ -11,8 +11,10 @@ use crate::expanding::run::runner::{Next, Runner};
 use crate::expanding::run::saves::SavingBlock;
 use crate::expanding::run::system_variables::STOP;
 use crate::expanding::source::statement::{Piece, Statement};
+use crate::expanding::translate::blanks::without_blanks_in_numbers;
 use crate::expanding::translate::block::{MotionBlock, Polar, without_cancel};
 use crate::expanding::translate::cycle::is_cycle;
+use crate::expanding::translate::turns::counts_turns;
 use crate::reading::options::BlockDelete;
 
 /// Lines that are run for each flat block that is allowed: loops that only count are not endless.
@@ -87,8 +89,12 @@ impl Runner<'_> {
         if line.block_delete && self.options.reading.block_delete == BlockDelete::Skip {
             return Ok(Next::Line);
         }
+        let statement = line.statement.clone();
+        if line.skip_number.is_some() {
+            self.note_skip_number()?;
+        }
         let before = self.flat.blocks();
-        match line.statement.clone() {
+        match statement {
             Statement::Plain => {
                 let next = self.plain(file, index)?;
                 let text = self.sources[file].text(index).to_vec();
@@ -111,7 +117,8 @@ impl Runner<'_> {
     }
 
     fn plain(&mut self, file: usize, index: usize) -> Result<Next, ProgramError> {
-        let text = self.sources[file].text(index).to_vec();
+        let first = self.sources[file].lines[index].skip_number.unwrap_or(0);
+        let text = self.sources[file].text(index)[first..].to_vec();
         self.emit(&text, Polar::default())
     }
 
@@ -183,6 +190,11 @@ impl Runner<'_> {
 
     /// A block of plain words, behind all blocks so far; cycles and polar words as moves.
     fn emit(&mut self, text: &[u8], polar: Polar) -> Result<Next, ProgramError> {
+        if let (Dialect::LinuxCnc, Some(joined)) =
+            (self.options.dialect, without_blanks_in_numbers(text))
+        {
+            return self.emit(&joined, polar);
+        }
         if let Some(mut block) = CallBlock::of(text) {
             block.does_more |= polar.is_there();
             self.check_beside_call(&block)?;
@@ -225,6 +237,12 @@ impl Runner<'_> {
             self.cycle = None;
             self.leave_spline()?;
             self.rigid_tap(&block)?;
+            return self.after_block();
+        }
+        if self.options.dialect == Dialect::LinuxCnc && counts_turns(&block, self.state()) {
+            self.cycle = None;
+            self.leave_spline()?;
+            self.turns(&block)?;
             return self.after_block();
         }
         let code = match (block.motion, self.cycle) {

@@ -40,6 +40,7 @@ fn plain(span: Range<usize>, block_delete: bool, label: Option<u32>) -> SourceLi
     SourceLine {
         span,
         block_delete,
+        skip_number: None,
         label,
         statement: Statement::Plain,
     }
@@ -48,18 +49,36 @@ fn plain(span: Range<usize>, block_delete: bool, label: Option<u32>) -> SourceLi
 fn line(text: &[u8], span: Range<usize>) -> Result<SourceLine, Malformed> {
     let mut cursor = Cursor::new(text, 0);
     let block_delete = cursor.take("/");
+    let skip_number = skip_number(&mut cursor, text, block_delete);
     let label = label(&mut cursor);
     let statement = match cursor.peek() {
         Some(b'O') => o_word(&mut cursor)?,
         _ => match fanuc(&mut cursor)? {
             Some(statement) => Some(statement),
-            None => block(text)?,
+            None => block(text, skip_number.unwrap_or(0))?,
         },
     };
     Ok(SourceLine {
         statement: statement.unwrap_or(Statement::Plain),
+        skip_number,
         ..plain(span, block_delete, label)
     })
+}
+
+/// The number behind `/`, 1 to 9.
+fn skip_number(cursor: &mut Cursor<'_>, text: &[u8], block_delete: bool) -> Option<usize> {
+    let at = cursor.at();
+    let is_number = matches!(text.get(at), Some(b'1'..=b'9'))
+        && !matches!(text.get(at + 1), Some(b'0'..=b'9' | b'.'));
+    if !block_delete || !is_number {
+        return None;
+    }
+    let blanks = text[at + 1..]
+        .iter()
+        .take_while(|byte| matches!(byte, b' ' | b'\t'));
+    let first = at + 1 + blanks.count();
+    cursor.go_to(first);
+    Some(first)
 }
 
 /// The N word in front, where it is a whole number.
@@ -188,11 +207,12 @@ fn fanuc(cursor: &mut Cursor<'_>) -> Result<Option<Statement>, Malformed> {
     Ok(None)
 }
 
-/// Words with expressions and assignments; none where all words are plain.
-fn block(text: &[u8]) -> Result<Option<Statement>, Malformed> {
+/// Words with expressions and assignments, from a byte of the line on; none where all words are plain.
+fn block(text: &[u8], first: usize) -> Result<Option<Statement>, Malformed> {
     let mut pieces = Vec::new();
     let mut cursor = Cursor::new(text, 0);
-    let mut kept = 0;
+    cursor.go_to(first);
+    let mut kept = first;
     let keep = |pieces: &mut Vec<Piece>, from: usize, to: usize| {
         if from < to {
             pieces.push(Piece::Text(from..to));

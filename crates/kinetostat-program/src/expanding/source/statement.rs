@@ -10,6 +10,8 @@ pub(crate) struct SourceLine {
     /// Bytes of the file, without the line ending.
     pub span: Range<usize>,
     pub block_delete: bool,
+    /// Bytes before the words, where / has a number behind it (Fanuc).
+    pub skip_number: Option<usize>,
     /// The N word, where it is a whole number: a label of GOTO.
     pub label: Option<u32>,
     pub statement: Statement,

@@ -125,11 +125,11 @@ impl MotionBlock {
         let words = b"RPQIJKL"
             .iter()
             .any(|letter| self.value(*letter).is_some());
-        words && !self.wants_axes && self.before_wants_nothing()
+        words && !self.wants_axes && self.has_only_own_words()
     }
 
-    /// Whether the codes before the motion are modes, spindle and coolant, which have no words of their own but S and F.
-    fn before_wants_nothing(&self) -> bool {
+    /// Whether the codes beside the motion are modes, spindle and coolant, which have no words of their own but S and F.
+    pub fn has_only_own_words(&self) -> bool {
         let mut tokens: Vec<Spanned> = Vec::new();
         tokens_of(&self.before, &mut tokens);
         tokens.iter().all(|one| match one.token {

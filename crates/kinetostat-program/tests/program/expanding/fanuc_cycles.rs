@@ -41,13 +41,13 @@ fn r_without_a_place_drills_once_more_on_fanuc() {
     );
     let error = run(&format!("{begin}R3.\n"), Dialect::Undecided).unwrap_err();
     assert!(error.reason.contains("Fanuc drills once more"), "{error}");
-    let made = run(&format!("{begin}R3.\nX2.\n"), Dialect::LinuxCnc).unwrap();
-    assert_eq!(
-        made,
-        format!("G99 F100\nG0 X1\nG0 Z1\n{hole}1\nG0 X2\n{hole}1\n")
-    );
+    // "R word with no g code that uses it", says LinuxCNC.
+    for word in ["R3.", "Q1.", "P1"] {
+        let error = run(&format!("{begin}{word}\n"), Dialect::LinuxCnc).unwrap_err();
+        assert!(error.reason.contains("LinuxCNC refuses"), "{error}");
+    }
     // Words that make no hole are not kept, and none stands bare in the flat program.
-    for dialect in [Dialect::Fanuc, Dialect::LinuxCnc, Dialect::Undecided] {
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
         let made = run(&format!("{begin}Q2. P100\nI1. F50 M8\nX2.\n"), dialect).unwrap();
         assert!(
             made.ends_with(&format!("F50 M8\nG0 X2\n{hole}1\n")),
@@ -122,4 +122,31 @@ fn what_rests_on_parameters_of_the_control_is_warned_of_once() {
     assert!(said.ends_with("so on lines 2, 4, 6 and 7"), "{said}");
     assert_eq!(points(text, Dialect::LinuxCnc), None);
     assert_eq!(points(text, Dialect::Undecided), None);
+}
+
+#[test]
+fn a_slash_with_a_number_is_a_block_to_skip() {
+    let text = "/2 G1 X7. F100\n/3 #1=4.\n/9 N5 Y#1\n/1 GOTO 8\nX9.\nN8 Z1.\n";
+    assert_eq!(fanuc(text), "G1 X7. F100\nN5 Y4\nN8 Z1.\n");
+    let warnings = warned(text, Dialect::Fanuc);
+    let found = warnings
+        .iter()
+        .filter(|one| one.1.contains("marked with /"));
+    assert_eq!(found.count(), 1, "{warnings:?}");
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::Fanuc;
+    options.reading.block_delete = kinetostat_program::BlockDelete::Skip;
+    let made = expand(format!("{BEGIN}{text}"), &options, &NoSubprograms).unwrap();
+    let skipped = "X9.\nN8 Z1.\n";
+    assert!(made.program.bytes().ends_with(skipped.as_bytes()));
+    assert!(!String::from_utf8_lossy(made.program.bytes()).contains("X7"));
+    for dialect in [Dialect::Undecided, Dialect::LinuxCnc] {
+        for line in ["/2 G1 X7. F100", "/1 GOTO 8", "/1 #1=3"] {
+            let error = run(&format!("{line}\n"), dialect).unwrap_err();
+            assert!(error.reason.contains("number behind /"), "{error}");
+        }
+    }
+    for line in ["/0 G1 X7. F100", "/12 G1 X7. F100", "/2. G1 X7. F100"] {
+        assert!(run(&format!("{line}\n"), Dialect::Fanuc).is_err(), "{line}");
+    }
 }

@@ -67,3 +67,17 @@ fn a_return_of_the_program_itself_does_nothing() {
     assert!(expand(text, &options, &NoSubprograms).is_ok());
     assert!(expand("O1 endsub\n", &options, &NoSubprograms).is_err());
 }
+
+/// LinuxCNC reads a block without its blanks.
+#[test]
+fn blanks_within_numbers_are_passed_over_by_linuxcnc() {
+    let mut options = ExpandOptions::default();
+    options.dialect = Dialect::LinuxCnc;
+    let text = "G21 G90 F100\nG0 X0 Y0 Z0\nG 1 X 1 0 Y . 5 Z - 2 (a 1 2) ; 3 4\nM2\n";
+    let made = expand(text, &options, &NoSubprograms).unwrap();
+    let expected = "G21 G90 F100\nG0 X0 Y0 Z0\nG 1 X 10 Y .5 Z -2 (a 1 2) ; 3 4\nM2\n";
+    assert_eq!(String::from_utf8_lossy(made.program.bytes()), expected);
+    let end = made.path.moves.last().unwrap().end;
+    assert_eq!([end.x, end.y, end.z], [10.0, 0.5, -2.0]);
+    assert_eq!(refused(text).line, 3);
+}

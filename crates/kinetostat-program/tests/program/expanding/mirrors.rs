@@ -41,6 +41,9 @@ fn g50_1_takes_the_mirrors_of_its_axes_away() {
     }
     // Nothing is in force.
     assert_eq!(path("G50.1 X0\nG50\n").moves.len(), 1);
+    // The first line of many programs.
+    let begin = "G17 G40 G49 G50 G50.1 G69 G80 G90\nG1 X3\n";
+    assert_eq!(last(begin)[0], 3.0);
     // The place stays: X counts from it.
     assert_eq!(last("G51.1 X0\nG1 X10\nG50.1 X0\nG91 G1 X1\n")[0], -9.0);
 }
@@ -53,7 +56,7 @@ fn what_ends_another_thing_or_may_move_is_refused() {
         ("G51.1 X0\nG1 X1\nG50\n", "mirrors of G51.1 are in force"),
         ("G51 X0 P2.\nG1 X1 Y1\nG50.1\n", "scale of G51 is in force"),
         ("G51.1 X0\nG1 X1\nG50.1 G1 X5\n", "in one block"),
-        ("G50.1 A5\n", "in one block"),
+        ("G50.1 X0 A5\n", "in one block"),
         ("G51 I-1.\nG68 X0 Y0 R30\n", "negative factor"),
     ] {
         for dialect in [Dialect::Fanuc, Dialect::Undecided] {

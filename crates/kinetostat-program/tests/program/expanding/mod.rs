@@ -20,6 +20,7 @@ pub mod random;
 mod rotary;
 mod splines;
 mod tapes;
+mod turns;
 
 use kinetostat_program::{ExpandOptions, NoSubprograms, ProgramError, expand};
 
