@@ -1,7 +1,8 @@
 //! FANUC TP programs as text (LS): programs read together, and what the writer must know of them.
 //!
-//! From lines ([`lines`], [`words`]) to steps ([`step`], [`motion`]) and positions ([`positions`]), and to the order and
-//! the frames in which they run ([`program`], [`flow`], [`order`], [`ends`], [`configuration`]). What each statement is taken for stands in [`table`].
+//! From lines ([`lines`], [`words`]) to steps ([`step`], [`motion`], [`instructions`]) and positions ([`positions`],
+//! [`configuration`]), and to the order and the frames in which they run ([`program`], [`linking`], [`flow`], [`order`], [`ends`],
+//! [`made_motion`]); [`found`] keeps what comes of it. What each statement is taken for stands in [`table`].
 //!
 //! Source: FANUC, R-30iB controller, operator's manual (basic operation), chapter 4 "Program structure", and the ASCII
 //! listings of 22 public programs (docs/robot-programs.csv).
@@ -9,7 +10,11 @@
 pub(crate) mod configuration;
 pub(crate) mod ends;
 pub(crate) mod flow;
+mod found;
+mod instructions;
 pub(crate) mod lines;
+mod linking;
+mod made_motion;
 pub(crate) mod motion;
 pub(crate) mod order;
 pub(crate) mod positions;

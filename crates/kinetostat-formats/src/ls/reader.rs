@@ -1,28 +1,22 @@
 //! The reader of FANUC TP programs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
 use crate::ls::ends::{Ends, MotionPlace};
 use crate::ls::flow::{Flow, Last};
-use crate::ls::lines::Layout;
-use crate::ls::motion::{End, MotionText, Way};
+use crate::ls::found::Reader;
 use crate::ls::order::Order;
-use crate::ls::positions::{Held, Positions};
-use crate::ls::program::{Place, Program};
-use crate::ls::step::{Step, positions_read, step_of};
+use crate::ls::positions::Positions;
+use crate::ls::program::Place;
+use crate::ls::step::Step;
 use crate::model::external::moving_axis;
 use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::motion::{Motion, MotionKind, Runs};
 use crate::model::parsed::{Parsed, sort_faults};
-use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::site::{Declaration, MotionSite};
+use crate::model::program::{Language, RobotProgram};
 use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
-
-/// Most bytes of a file.
-const MOST_BYTES: usize = 1 << 28;
 
 /// Reads FANUC TP programs as text (`.ls`): one, or the first and those that it calls.
 ///
@@ -70,17 +64,17 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
     };
     let (mut layouts, mut positions, mut programs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, file) in files.iter().enumerate() {
-        let layout = reader.layout(file);
+        let layout = reader.layout_of(file);
         let section = layout.positions.clone().unwrap_or_default();
         let found = Positions::of(file.bytes(), section, index, &mut reader.declarations);
         for (span, reason, remedy) in layout.faults.iter().chain(&found.faults) {
             reader.fault(file, span.clone(), *reason, *remedy);
         }
-        programs.push(reader.program(file, index, &layout, &found));
+        programs.push(reader.program_of(file, index, &layout, &found));
         layouts.push(layout);
         positions.push(found);
     }
-    reader.link(&files, &layouts, &mut programs);
+    reader.link_calls(&files, &layouts, &mut programs);
     let flow = Flow::of(&programs);
     let order = Order::of(&programs);
     let mut indices: BTreeMap<Place, usize> = BTreeMap::new();
@@ -97,7 +91,7 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
             positions: &positions[*program],
             before: flow.before[*program][*at],
         };
-        let found = reader.motion(motion, &site);
+        let found = reader.motion_of(motion, &site);
         let before = site.before;
         reader.declarations = declarations;
         let Some(mut motion) = found else {
@@ -115,241 +109,30 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         indices.insert((*program, *at), reader.motions.len());
         reader.motions.push(motion);
     }
-    reader.finish(files)
+    finish(reader, files)
 }
 
-struct Reader<'o> {
-    options: &'o ReadOptions,
-    faults: Vec<ProgramError>,
-    findings: Vec<Finding>,
-    motions: Vec<Motion>,
-    declarations: Vec<Declaration>,
-    ends: Ends<'o>,
-}
-
-impl Reader<'_> {
-    fn fault(
-        &mut self,
-        file: &SourceFile,
-        span: std::ops::Range<usize>,
-        reason: impl Into<String>,
-        remedy: impl Into<String>,
-    ) {
-        self.faults
-            .push(ProgramError::at(file, span, reason, remedy));
+/// The program with what a person should know of it.
+fn finish(mut reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
+    if reader.options.external_axes == ExternalAxes::Refused {
+        let moving = moving_axis(&files, &reader.motions, Language::FanucLs);
+        reader.faults.extend(moving);
     }
-
-    fn layout(&mut self, file: &SourceFile) -> Layout {
-        if file.bytes().len() > MOST_BYTES {
-            self.fault(file, 0..0, "the file is larger than 256 MiB", "divide it");
-            return Layout::default();
-        }
-        let layout = Layout::of(file.bytes());
-        if !layout.has_instructions {
-            self.fault(
-                file,
-                0..0,
-                "there is no section /MN in the file",
-                "give a TP program as the controller prints it (.ls)",
-            );
-        } else if !layout.has_end {
-            let end = file.bytes().len();
-            self.fault(
-                file,
-                end..end,
-                "the file ends before its section /END: a part of it may be lost",
-                "give the whole file",
-            );
-        }
-        layout
-    }
-
-    fn finding(&mut self, file: usize, line: usize, message: impl Into<String>) {
-        self.findings.push(Finding {
-            file,
-            line,
-            message: message.into(),
-        });
-    }
-
-    /// The instructions of a file; positions that are read besides motions keep their values.
-    fn program(
-        &mut self,
-        file: &SourceFile,
-        index: usize,
-        layout: &Layout,
-        positions: &Positions,
-    ) -> Program {
-        if let Some(stated) = &layout.line_count
-            && stated.value != layout.lines.len() as f64
-        {
-            let (line, count) = (file.line_of(stated.span.start), layout.lines.len());
-            let message = format!("LINE_COUNT says {}, there are {count} lines", stated.value);
-            self.finding(index, line, message);
-        }
-        let mut steps = Vec::with_capacity(layout.lines.len());
-        let mut kept = BTreeSet::new();
-        let mut all_kept = false;
-        for line in &layout.lines {
-            let step = step_of(file.bytes(), &line.text);
-            match &step {
-                Step::Refused((reason, remedy)) => {
-                    self.fault(file, line.whole.clone(), *reason, *remedy);
-                }
-                Step::Motion(motion) => {
-                    let unknown = End::Register("which position it goes to, a register says");
-                    all_kept |= motion.target == unknown;
-                }
-                Step::Run => {
-                    let line = file.line_of(line.whole.start);
-                    self.finding(index, line, "another task starts: it is not followed");
-                }
-                _ => match positions_read(file.bytes(), &line.text) {
-                    Some(numbers) => kept.extend(numbers),
-                    None => all_kept = true,
-                },
-            }
-            steps.push(step);
-        }
-        for (number, position) in &positions.all {
-            if let (Held::Pose(declaration), true) =
-                (&position.held, all_kept || kept.contains(number))
-            {
-                self.declarations[*declaration].keeps_value = true;
-            }
-        }
-        let program = Program::of(steps);
-        for (at, reason, remedy) in &program.faults {
-            self.fault(file, layout.lines[*at].whole.clone(), *reason, *remedy);
-        }
-        program
-    }
-
-    /// Finds the programs that are called.
-    fn link(&mut self, files: &[SourceFile], layouts: &[Layout], programs: &mut [Program]) {
-        let mut names: BTreeMap<Vec<u8>, usize> = BTreeMap::new();
-        for (index, layout) in layouts.iter().enumerate() {
-            let name = files[index].part(&layout.name).to_ascii_uppercase();
-            let first = *names.entry(name).or_insert(index);
-            if first != index {
-                let reason = "another file holds a program of this name";
-                self.fault(
-                    &files[index],
-                    layout.name.clone(),
-                    reason,
-                    "give one of them",
-                );
-            }
-        }
-        for (index, program) in programs.iter_mut().enumerate() {
-            let file = &files[index];
-            for (at, step) in program.steps.iter().enumerate() {
-                let step = match step {
-                    Step::Perhaps(step) => step,
-                    step => step,
-                };
-                let Step::Call(name) = step else {
-                    continue;
-                };
-                let called = name.as_ref().map(|name| file.part(name));
-                match called.and_then(|name| names.get(&name.to_ascii_uppercase())) {
-                    Some(to) => {
-                        program.called.insert(at, *to);
-                    }
-                    None => {
-                        let line = file.line_of(layouts[index].lines[at].whole.start);
-                        let message = match called {
-                            Some(name) => format!(
-                                "`{}` is in none of these files: it is carried, and if it moves the tool, that is not seen",
-                                crate::error::excerpt(name)
-                            ),
-                            None => "what is called, a register says: it is carried, and if it moves the tool, that is not seen".to_owned(),
-                        };
-                        self.finding(index, line, message);
-                    }
-                }
-            }
-        }
-    }
-
-    fn motion(&mut self, text: &MotionText, place: &MotionPlace<'_>) -> Option<Motion> {
-        let file = place.file;
-        let end = self.ends.end(&text.target, place, text.displaced);
-        let via = text.via.as_ref().map(|(span, end)| {
-            let found = self.ends.end(end, place, text.displaced);
-            // With what stands between the two positions.
-            let span = span.start..text.target_span.start.max(span.end);
-            found.map(|found| (span, found))
-        });
-        let (end, via) = match (end, via.transpose()) {
-            (Ok(end), Ok(via)) => (end, via),
-            (Err((reason, remedy)), _) | (_, Err((reason, remedy))) => {
-                self.fault(file, place.line.whole.clone(), reason, remedy);
-                return None;
-            }
-        };
-        if let Some((_, via)) = &via
-            && (via.frame, via.tool) != (end.frame, end.tool)
-        {
-            let (reason, remedy) = (
-                "the two positions of the circle have different frames or tools",
-                "teach both in one frame and with one tool",
-            );
-            self.fault(file, place.line.whole.clone(), reason, remedy);
-            return None;
-        }
-        Some(Motion {
-            file: place.index,
-            line: file.line_of(place.line.whole.start),
-            span: place.line.whole.clone(),
-            kind: match (text.way, &via) {
-                (Way::Joint, _) => MotionKind::Joint,
-                (Way::Linear, _) | (Way::Circular, None) => MotionKind::Linear,
-                (Way::Circular, Some((_, via))) => MotionKind::Circular {
-                    via: via.target.clone(),
-                },
-            },
-            target: end.target,
-            speed: text.speed.clone(),
-            zone: text.zone,
-            tool: self.ends.frame_use("UT", end.tool),
-            work_object: self.ends.frame_use("UF", end.frame),
-            runs: Runs::Once,
-            follows: None,
-            site: MotionSite {
-                keyword: text.keyword.clone(),
-                target_span: text.target_span.clone(),
-                target: end.site,
-                via: via.map(|(span, via)| (span, via.site)),
-                speed: text.speed_site.clone(),
-                zone: text.zone_span.clone(),
-                external: end.external,
-                external_moved_behind: false,
-                indivisible: text.indivisible,
-            },
-        })
-    }
-
-    fn finish(mut self, files: Vec<SourceFile>) -> Parsed {
-        if self.options.external_axes == ExternalAxes::Refused {
-            let moving = moving_axis(&files, &self.motions, Language::FanucLs);
-            self.faults.extend(moving);
-        }
-        sort_faults(&mut self.faults, &files);
-        self.findings.extend(unknown_frames(&self.motions));
-        self.findings.extend(left_as_written(&self.motions));
-        self.findings
-            .sort_by_key(|finding| (finding.file, finding.line));
-        Parsed {
-            program: RobotProgram {
-                language: Language::FanucLs,
-                files,
-                motions: self.motions,
-                findings: self.findings,
-                declarations: self.declarations,
-                rotary: StatedAxes::default(),
-            },
-            faults: self.faults,
-        }
+    sort_faults(&mut reader.faults, &files);
+    reader.findings.extend(unknown_frames(&reader.motions));
+    reader.findings.extend(left_as_written(&reader.motions));
+    reader
+        .findings
+        .sort_by_key(|finding| (finding.file, finding.line));
+    Parsed {
+        program: RobotProgram {
+            language: Language::FanucLs,
+            files,
+            motions: reader.motions,
+            findings: reader.findings,
+            declarations: reader.declarations,
+            rotary: StatedAxes::default(),
+        },
+        faults: reader.faults,
     }
 }

@@ -1,7 +1,8 @@
 //! ABB RAPID: modules read together, and what the writer must know of the language.
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`calls`]).
+//! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`walker`],
+//! [`instructions`], [`calls`]).
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
@@ -9,6 +10,7 @@ pub(crate) mod arguments;
 pub(crate) mod calls;
 pub(crate) mod expression;
 pub(crate) mod frames;
+mod instructions;
 pub(crate) mod lex;
 pub(crate) mod literals;
 pub(crate) mod motion;
@@ -20,4 +22,5 @@ pub(crate) mod targets;
 pub(crate) mod tree;
 pub(crate) mod usage;
 pub(crate) mod walk;
+mod walker;
 pub(crate) mod write;

@@ -4,36 +4,22 @@
 //! called from stays open until all its calls are known.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::model::motion::{Motion, Runs};
 use crate::model::program::Finding;
-use crate::options::{ExternalAxes, ReadOptions, UnknownTargets};
+use crate::options::ReadOptions;
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
-use crate::rapid::motion::{Instruction, follow};
-use crate::rapid::table::{EXTERNAL, motion_row, row};
+use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
-use crate::rapid::tree::{Choice, RoutineKind, Statement, TokenFile};
-use crate::table::Treatment;
+use crate::rapid::tree::{Choice, RoutineKind, Statement};
+use crate::rapid::walker::{Now, Walker, stays};
 use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.
 const DEEPEST: usize = 200;
-
-/// Statements that leave the path as it is, and change what deflection depends on.
-const EFFECTS: [(&str, &str); 4] = [
-    ("VelSet", "changes the speeds behind it"),
-    ("SpeedRefresh", "changes the speeds behind it"),
-    (
-        "GripLoad",
-        "changes the load that the controller reckons with",
-    ),
-    (
-        "MechUnitLoad",
-        "changes the load that the controller reckons with",
-    ),
-];
 
 /// What the walk gives: motions in their order.
 pub(crate) struct Walked {
@@ -85,67 +71,7 @@ pub(crate) fn walk(
     walker.resolve(main)
 }
 
-/// The routine that is walked.
-#[derive(Debug, Clone, Copy)]
-struct Now {
-    routine: usize,
-    /// Of the statement in its routine.
-    runs: Runs,
-    /// Where a RETURN left it.
-    left: Option<Place>,
-    depth: usize,
-}
-
-struct Walker<'w, 'p> {
-    values: &'w mut Values<'p>,
-    targets: &'w mut Targets,
-    unknown: UnknownTargets,
-    external: ExternalAxes,
-    faults: &'w mut Vec<ProgramError>,
-    motions: Vec<Motion>,
-    /// Routine and place at the beginning of each motion.
-    places: Vec<(usize, Place)>,
-    /// External axes move alone at the beginning of a routine: behind which motions, its calls say.
-    moves_external_at_entry: bool,
-    findings: Vec<Finding>,
-    /// Files and names of what they call and none declares: each is said once.
-    unknown_calls: BTreeSet<(usize, Option<Name>)>,
-    /// By routine: a function that may move the tool.
-    moving_functions: Vec<bool>,
-    summaries: Vec<Summary>,
-    /// Callers behind what they call.
-    finished: Vec<usize>,
-    now: Now,
-}
-
-/// Whether nothing in a block can move the tool.
-fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) -> bool {
-    block.iter().all(|statement| match statement {
-        Statement::Call { tokens } => {
-            let symbols = &values.symbols;
-            let file = &values.files[symbols.routines[routine].file];
-            let carried = |name: &Name| {
-                symbols.routine(routine, name).is_none()
-                    && row(name).is_some_and(|row| row.treatment == Treatment::Carried)
-            };
-            Name::of(file.word(tokens.start)).is_some_and(|name| carried(&name))
-        }
-        Statement::Branches { blocks, .. } => {
-            blocks.iter().all(|block| stays(values, routine, block))
-        }
-        Statement::Loop { block, .. } => stays(values, routine, block),
-        Statement::Label => false,
-        Statement::Assignment { .. } | Statement::Leaves { .. } => true,
-    })
-}
-
-impl<'p> Walker<'_, 'p> {
-    /// The file of the routine that is walked.
-    fn file(&self) -> &'p TokenFile<'p> {
-        let files: &'p [TokenFile<'p>] = self.values.files;
-        &files[self.values.symbols.routines[self.now.routine].file]
-    }
-
+impl Walker<'_, '_> {
     fn routine(&mut self, index: usize, depth: usize) {
         let home = self.values.symbols.routines[index];
         let outer = std::mem::replace(
@@ -198,7 +124,7 @@ impl<'p> Walker<'_, 'p> {
     fn statement(&mut self, statement: &Statement, place: Place) -> Place {
         match statement {
             Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
-            Statement::Assignment { tokens, .. } => self.functions(tokens.clone(), place),
+            Statement::Assignment { tokens, .. } => self.behind_functions(tokens.clone(), place),
             Statement::Label => Place::Unknown,
             Statement::Leaves { .. } => {
                 let left = self.now.left.map_or(place, |left| merge(left, place));
@@ -210,7 +136,7 @@ impl<'p> Walker<'_, 'p> {
                 choice,
                 blocks,
             } => {
-                let place = self.functions(header.clone(), place);
+                let place = self.behind_functions(header.clone(), place);
                 self.now.depth += 1;
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::OnCondition);
@@ -229,7 +155,7 @@ impl<'p> Walker<'_, 'p> {
                 after.unwrap_or(place)
             }
             Statement::Loop { header, block } => {
-                let place = self.functions(header.clone(), place);
+                let place = self.behind_functions(header.clone(), place);
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::Repeatedly);
                 let inside = match stays(self.values, self.now.routine, block) {
@@ -245,105 +171,24 @@ impl<'p> Walker<'_, 'p> {
         }
     }
 
-    /// After an expression: a function of these files may move the tool.
-    fn functions(&mut self, tokens: std::ops::Range<usize>, place: Place) -> Place {
-        let (file, symbols) = (self.file(), &self.values.symbols);
-        let moves = |at: usize| {
-            let name = Name::of(file.word(at));
-            let called = name.and_then(|name| symbols.routine(self.now.routine, &name));
-            called.is_some_and(|index| self.moving_functions[index])
-        };
-        match symbols.has_functions && tokens.into_iter().any(moves) {
-            true => Place::Unknown,
-            false => place,
-        }
-    }
-
-    fn call(&mut self, tokens: &std::ops::Range<usize>, place: Place, choice: Choice) -> Place {
-        let routine = self.now.routine;
+    fn call(&mut self, tokens: &Range<usize>, place: Place, choice: Choice) -> Place {
         let file = self.file();
-        let span = file.span(tokens);
         let name = Name::of(file.word(tokens.start));
         if let Some(row) = name.as_ref().and_then(motion_row) {
-            let instruction = Instruction {
-                row,
-                routine,
-                tokens,
-            };
-            let followed = follow(&instruction, self.values, self.targets, self.unknown);
-            return match followed {
-                Ok(mut motion) => {
-                    if choice == Choice::Compact && motion.site.indivisible.is_none() {
-                        motion.site.indivisible =
-                            Some("it stands behind IF without THEN, where one statement can stand");
-                    }
-                    motion.runs = self.now.runs;
-                    self.motions.push(motion);
-                    self.places.push((routine, place));
-                    Place::Motion(self.motions.len() - 1)
-                }
-                Err((reason, remedy)) => {
-                    note(self.faults, || {
-                        ProgramError::at(file.source, span, reason, remedy)
-                    });
-                    Place::Unknown
-                }
-            };
+            return self.motion_by(row, tokens, (place, choice));
         }
+        let routine = self.now.routine;
         if let Some(called) = name
             .as_ref()
             .and_then(|name| self.values.symbols.routine(routine, name))
         {
-            return self.enter(called, span, place);
+            return self.enter(called, file.span(tokens), place);
         }
-        let place = self.functions(tokens.start + 1..tokens.end, place);
-        match name.as_ref().and_then(row).map(|row| row.treatment) {
-            // The arm stands still, and the user says that nothing else matters.
-            Some(EXTERNAL) if self.external == ExternalAxes::Carried => {
-                match place {
-                    Place::Motion(index) => self.motions[index].site.external_moved_behind = true,
-                    Place::Entry => self.moves_external_at_entry = true,
-                    Place::Unknown => {}
-                }
-                place
-            }
-            Some(Treatment::Refused { reason, remedy }) => {
-                note(self.faults, || {
-                    ProgramError::at(file.source, span, reason, remedy)
-                });
-                Place::Unknown
-            }
-            Some(_) => {
-                let name = String::from_utf8_lossy(file.word(tokens.start));
-                let effects = EFFECTS
-                    .iter()
-                    .find(|(word, _)| word.eq_ignore_ascii_case(&name));
-                if let Some((word, effect)) = effects {
-                    self.findings.push(Finding {
-                        file: file.index,
-                        line: file.source.line_of(span.start),
-                        message: format!("{word} {effect}: it is carried, and not followed"),
-                    });
-                }
-                place
-            }
-            None if !self.unknown_calls.insert((file.index, name)) => Place::Unknown,
-            None => {
-                let called = crate::error::excerpt(file.word(tokens.start));
-                self.findings.push(Finding {
-                    file: file.index,
-                    line: file.source.line_of(span.start),
-                    message: match called.as_str() {
-                        "%" => "what is called is computed: it is carried, and if it moves the tool, that is not seen".to_owned(),
-                        _ => format!("`{called}` is in none of these files: it is carried, and if it moves the tool, that is not seen"),
-                    },
-                });
-                Place::Unknown
-            }
-        }
+        let place = self.behind_functions(tokens.start + 1..tokens.end, place);
+        self.carried(name, tokens, place)
     }
 
-    fn enter(&mut self, called: usize, span: std::ops::Range<usize>, place: Place) -> Place {
+    fn enter(&mut self, called: usize, span: Range<usize>, place: Place) -> Place {
         let now = self.now;
         let (from, runs) = (now.routine, now.runs);
         self.summaries[called].calls.push(Call {

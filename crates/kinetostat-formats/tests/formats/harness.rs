@@ -5,7 +5,7 @@
 
 use kinetostat_formats::*;
 use kinetostat_testing::Worst;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 pub use crate::chance::Chance;
 
@@ -66,6 +66,11 @@ const NAMES: [&str; 2] = ["a.txt", "a.dat"];
 /// What was written, without the names.
 fn bytes_of(files: Vec<(String, Vec<u8>)>) -> Vec<Vec<u8>> {
     files.into_iter().map(|(_, bytes)| bytes).collect()
+}
+
+/// What a frame is; why one is not known may name a line, which is another once pieces stand before it.
+fn frame_of(frame: &FrameUse) -> (&str, Option<&Isometry3<f64>>) {
+    (&frame.name, frame.known())
 }
 
 /// Corrections by chance for the motions of a program.
@@ -152,14 +157,14 @@ pub fn write_and_read(program: &RobotProgram, pieces: &[Piece], kind: &Kind) -> 
         }
         if (
             before.zone,
-            &before.tool,
-            &before.work_object,
+            frame_of(&before.tool),
+            frame_of(&before.work_object),
             before.runs,
             before.follows,
         ) != (
             after.zone,
-            &after.tool,
-            &after.work_object,
+            frame_of(&after.tool),
+            frame_of(&after.work_object),
             after.runs,
             after.follows,
         ) {

@@ -53,94 +53,13 @@ pub(crate) fn cycle(
             "state X, Y and Z before it, or give the start position",
         );
     };
-    if block.polar.is_there() && normal != 2 {
-        return wrong("polar words outside the plane XY (G17)", "write X, Y and Z");
-    }
-    if block.has_other_axis() {
-        return wrong(
-            "a canned cycle moves no axis but X, Y, Z",
-            "move it before the cycle",
-        );
-    }
-    let same = before.filter(|cycle| cycle.code == code);
-    let kept = |letter: u8, of: fn(&Cycle) -> f64, what: &'static str| {
-        let own = block.value(letter).or(same.as_ref().map(of));
-        own.ok_or((
-            format!(
-                "the cycle G{} has no {what} ({})",
-                code / 10,
-                char::from(letter)
-            ),
-            "write the word into its first block",
-        ))
-    };
-    let retract = kept(b'R', |c| c.retract, "retract level")?;
-    let depth = kept(letters[2], |c| c.depth, "depth")?;
-    let optional = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
-        block.value(letter).or(same.as_ref().and_then(of))
-    };
-    let mut cycle = Cycle {
-        code,
-        retract,
-        depth,
-        dwell: optional(b'P', |c| c.dwell),
-        peck: optional(b'Q', |c| c.peck),
-        shift: [
-            optional(b'I', |c| c.shift[0]),
-            optional(b'J', |c| c.shift[1]),
-            optional(b'K', |c| c.shift[2]),
-        ],
-        initial: before.map_or(height, |cycle| cycle.initial),
-        incremental: place.incremental,
-        levels: [0.0; 2],
-    };
-    // Fanuc repeats by K (others of its kind by L), and K0 only keeps the words.
-    let of_fanuc = dialect == Dialect::Fanuc && !matches!(code, 760 | 870);
-    let k = block.value(b'K').filter(|_| of_fanuc);
-    let repeats = block.value(b'L').or(k).unwrap_or(1.0);
-    let least = match dialect {
-        Dialect::Fanuc => 0.0,
-        _ => 1.0,
-    };
-    if repeats.fract() != 0.0 || !(least..=MOST_REPEATS).contains(&repeats) {
-        return wrong(
-            format!("a cycle is repeated a whole number of times (L), at most {MOST_REPEATS}"),
-            "correct L",
-        );
-    }
+    refuse_other_words(block, normal)?;
     let incremental = place.incremental;
-    let (mut level, mut bottom) = match incremental {
-        false => (retract, depth),
-        true => (retract + cycle.initial, retract + cycle.initial + depth),
-    };
-    // R and depth of a block before the change between G90 and G91.
-    if let Some(same) = same.filter(|same| same.incremental != incremental) {
-        let kept = [b'R', letters[2]].map(|letter| block.value(letter).is_none());
-        match dialect {
-            Dialect::LinuxCnc => {}
-            Dialect::Undecided if kept != [false; 2] => {
-                return wrong(
-                    "the distance mode changes in a row of cycles: Fanuc keeps the levels of R and the depth, LinuxCNC reads their numbers anew as places or increments",
-                    "write R and the depth into the block, or name the dialect (--dialect)",
-                );
-            }
-            _ => {
-                level = if kept[0] { same.levels[0] } else { level };
-                bottom = match kept[1] {
-                    true => same.levels[1],
-                    false if incremental => level + depth,
-                    false => depth,
-                };
-            }
-        }
-    }
-    cycle.levels = [level, bottom];
-    if level < bottom {
-        return wrong(
-            format!("the cycle's retract level {level} is below its depth {bottom}"),
-            "correct R, or the depth",
-        );
-    }
+    let mut cycle = words_of(code, block, before, (letters[2], height, incremental))?;
+    let same = before.filter(|cycle| cycle.code == code);
+    let repeats = repeats_of(code, block, dialect)?;
+    cycle.levels = levels_of(&cycle, same, (block, letters[2]), dialect)?;
+    let [level, bottom] = cycle.levels;
     let mut texts = Vec::new();
     let at = |plane: [f64; 2], height: f64| {
         let mut to = [None; 3];
@@ -150,7 +69,7 @@ pub(crate) fn cycle(
     let (mut initial, mut now) = (cycle.initial, height);
     // Fanuc goes over the first hole where it is, and then to the level.
     let from_below = dialect == Dialect::Fanuc && height < level;
-    let starts_below = initial < level && repeats > 0.0;
+    let starts_below = initial < level && repeats > 0;
     if starts_below {
         initial = level;
         if !from_below {
@@ -158,30 +77,16 @@ pub(crate) fn cycle(
             now = level;
         }
     }
-    let stated = state.retracts_to_level().or(match dialect {
-        Dialect::LinuxCnc => Some(true),
-        Dialect::Fanuc => Some(false),
-        Dialect::Undecided => None,
-    });
-    if dialect == Dialect::Fanuc && starts_below && stated == Some(false) {
+    let to_level = goes_to_level(state.retracts_to_level(), dialect);
+    if dialect == Dialect::Fanuc && starts_below && to_level == Some(false) {
         return wrong(
             "the cycle begins below its retract level (R), and with G98 it goes back down there behind each hole, and to the next one",
             "move above R before the cycle, or write G99",
         );
     }
-    let clear = match stated {
-        Some(true) => level,
-        Some(false) => initial,
-        None if initial == level => level,
-        None => {
-            return wrong(
-                "whether the cycle goes back to its start (G98) or to R (G99) is not stated: LinuxCNC begins with G99, Fanuc with G98",
-                "write G98 or G99 before the cycle, or name the dialect (--dialect)",
-            );
-        }
-    };
+    let clear = height_between(to_level, [level, initial])?;
     let mut hole_at = [a, b];
-    for repeat in 0..repeats as usize {
+    for repeat in 0..repeats {
         hole_at = next_hole(
             block,
             hole_at,
@@ -213,8 +118,149 @@ pub(crate) fn cycle(
         let mut go = |code: &str, plane: [f64; 2], height: f64| place.go(code, at(plane, height));
         texts.extend(hole.blocks(code, Spindle::of(state), &mut go)?);
     }
-    cycle.initial = before.map_or(height, |cycle| cycle.initial);
     Ok((texts, cycle))
+}
+
+/// Words that no cycle takes.
+fn refuse_other_words(block: &MotionBlock, normal: usize) -> Result<(), Wrong> {
+    if block.polar.is_there() && normal != 2 {
+        return wrong("polar words outside the plane XY (G17)", "write X, Y and Z");
+    }
+    if block.has_other_axis() {
+        return wrong(
+            "a canned cycle moves no axis but X, Y, Z",
+            "move it before the cycle",
+        );
+    }
+    Ok(())
+}
+
+/// What the words of a block and those of the cycle before it say; its levels are not known yet.
+fn words_of(
+    code: u32,
+    block: &MotionBlock,
+    before: Option<Cycle>,
+    (depth_letter, height, incremental): (u8, f64, bool),
+) -> Result<Cycle, Wrong> {
+    let same = before.filter(|cycle| cycle.code == code);
+    let kept = |letter: u8, of: fn(&Cycle) -> f64, what: &'static str| {
+        let own = block.value(letter).or(same.as_ref().map(of));
+        own.ok_or((
+            format!(
+                "the cycle G{} has no {what} ({})",
+                code / 10,
+                char::from(letter)
+            ),
+            "write the word into its first block",
+        ))
+    };
+    let optional = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
+        block.value(letter).or(same.as_ref().and_then(of))
+    };
+    Ok(Cycle {
+        code,
+        retract: kept(b'R', |c| c.retract, "retract level")?,
+        depth: kept(depth_letter, |c| c.depth, "depth")?,
+        dwell: optional(b'P', |c| c.dwell),
+        peck: optional(b'Q', |c| c.peck),
+        shift: [
+            optional(b'I', |c| c.shift[0]),
+            optional(b'J', |c| c.shift[1]),
+            optional(b'K', |c| c.shift[2]),
+        ],
+        initial: before.map_or(height, |cycle| cycle.initial),
+        incremental,
+        levels: [0.0; 2],
+    })
+}
+
+/// How often a cycle is run.
+fn repeats_of(code: u32, block: &MotionBlock, dialect: Dialect) -> Result<usize, Wrong> {
+    // Fanuc repeats by K (others of its kind by L), and K0 only keeps the words.
+    let of_fanuc = dialect == Dialect::Fanuc && !matches!(code, 760 | 870);
+    let k = block.value(b'K').filter(|_| of_fanuc);
+    let repeats = block.value(b'L').or(k).unwrap_or(1.0);
+    let least = match dialect {
+        Dialect::Fanuc => 0.0,
+        _ => 1.0,
+    };
+    if repeats.fract() != 0.0 || !(least..=MOST_REPEATS).contains(&repeats) {
+        return wrong(
+            format!("a cycle is repeated a whole number of times (L), at most {MOST_REPEATS}"),
+            "correct L",
+        );
+    }
+    Ok(repeats as usize)
+}
+
+/// The level of R and that of the depth.
+fn levels_of(
+    cycle: &Cycle,
+    same: Option<Cycle>,
+    (block, depth_letter): (&MotionBlock, u8),
+    dialect: Dialect,
+) -> Result<[f64; 2], Wrong> {
+    let Cycle {
+        retract,
+        depth,
+        initial,
+        incremental,
+        ..
+    } = *cycle;
+    let (mut level, mut bottom) = match incremental {
+        false => (retract, depth),
+        true => (retract + initial, retract + initial + depth),
+    };
+    // R and depth of a block before the change between G90 and G91.
+    if let Some(same) = same.filter(|same| same.incremental != incremental) {
+        let kept = [b'R', depth_letter].map(|letter| block.value(letter).is_none());
+        match dialect {
+            Dialect::LinuxCnc => {}
+            Dialect::Undecided if kept != [false; 2] => {
+                return wrong(
+                    "the distance mode changes in a row of cycles: Fanuc keeps the levels of R and the depth, LinuxCNC reads their numbers anew as places or increments",
+                    "write R and the depth into the block, or name the dialect (--dialect)",
+                );
+            }
+            _ => {
+                level = if kept[0] { same.levels[0] } else { level };
+                bottom = match kept[1] {
+                    true => same.levels[1],
+                    false if incremental => level + depth,
+                    false => depth,
+                };
+            }
+        }
+    }
+    if level < bottom {
+        return wrong(
+            format!("the cycle's retract level {level} is below its depth {bottom}"),
+            "correct R, or the depth",
+        );
+    }
+    Ok([level, bottom])
+}
+
+/// Whether a cycle goes back to the level of R (G99), and not to its start (G98); none where it is not known.
+fn goes_to_level(stated: Option<bool>, dialect: Dialect) -> Option<bool> {
+    stated.or(match dialect {
+        Dialect::LinuxCnc => Some(true),
+        Dialect::Fanuc => Some(false),
+        Dialect::Undecided => None,
+    })
+}
+
+/// The height between the holes: the level of R (G99), or that of the start (G98).
+fn height_between(to_level: Option<bool>, [level, initial]: [f64; 2]) -> Result<f64, Wrong> {
+    match to_level {
+        Some(true) => Ok(level),
+        Some(false) => Ok(initial),
+        None if initial == level => Ok(level),
+        None => wrong(
+            "whether the cycle goes back to its start (G98) or to R (G99) is not stated: LinuxCNC begins with G99, Fanuc with G98",
+            "write G98 or G99 before the cycle, or name the dialect (--dialect)",
+        ),
+    }
 }
 
 /// The place of a hole: that of the words, or the one before and the increments.

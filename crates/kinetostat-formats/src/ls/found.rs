@@ -1,0 +1,40 @@
+//! What is found of programs so far, and what is wrong with them.
+
+use crate::error::ProgramError;
+use crate::ls::ends::Ends;
+use crate::model::motion::Motion;
+use crate::model::program::Finding;
+use crate::model::site::Declaration;
+use crate::options::ReadOptions;
+use crate::text::source::SourceFile;
+
+/// What is found of the programs so far.
+pub(super) struct Reader<'o> {
+    pub options: &'o ReadOptions,
+    pub faults: Vec<ProgramError>,
+    pub findings: Vec<Finding>,
+    pub motions: Vec<Motion>,
+    pub declarations: Vec<Declaration>,
+    pub ends: Ends<'o>,
+}
+
+impl Reader<'_> {
+    pub(super) fn fault(
+        &mut self,
+        file: &SourceFile,
+        span: std::ops::Range<usize>,
+        reason: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.faults
+            .push(ProgramError::at(file, span, reason, remedy));
+    }
+
+    pub(super) fn finding(&mut self, file: usize, line: usize, message: impl Into<String>) {
+        self.findings.push(Finding {
+            file,
+            line,
+            message: message.into(),
+        });
+    }
+}

@@ -1,0 +1,78 @@
+//! What a walk knows, and what it found so far.
+
+use std::collections::BTreeSet;
+
+use crate::error::ProgramError;
+use crate::model::motion::{Motion, Runs};
+use crate::model::program::Finding;
+use crate::options::{ExternalAxes, UnknownTargets};
+use crate::rapid::calls::{Place, Summary};
+use crate::rapid::frames::Values;
+use crate::rapid::table::row;
+use crate::rapid::targets::Targets;
+use crate::rapid::tree::{Statement, TokenFile};
+use crate::table::Treatment;
+use crate::text::name::Name;
+
+/// The routine that is walked.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Now {
+    pub routine: usize,
+    /// Of the statement in its routine.
+    pub runs: Runs,
+    /// Where a RETURN left it.
+    pub left: Option<Place>,
+    pub depth: usize,
+}
+
+/// Where the walk is, and what it found.
+pub(super) struct Walker<'w, 'p> {
+    pub values: &'w mut Values<'p>,
+    pub targets: &'w mut Targets,
+    pub unknown: UnknownTargets,
+    pub external: ExternalAxes,
+    pub faults: &'w mut Vec<ProgramError>,
+    pub motions: Vec<Motion>,
+    /// Routine and place at the beginning of each motion.
+    pub places: Vec<(usize, Place)>,
+    /// External axes move alone at the beginning of a routine: behind which motions, its calls say.
+    pub moves_external_at_entry: bool,
+    pub findings: Vec<Finding>,
+    /// Files and names of what they call and none declares: each is said once.
+    pub unknown_calls: BTreeSet<(usize, Option<Name>)>,
+    /// By routine: a function that may move the tool.
+    pub moving_functions: Vec<bool>,
+    pub summaries: Vec<Summary>,
+    /// Callers behind what they call.
+    pub finished: Vec<usize>,
+    pub now: Now,
+}
+
+/// Whether nothing in a block can move the tool.
+pub(super) fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) -> bool {
+    block.iter().all(|statement| match statement {
+        Statement::Call { tokens } => {
+            let symbols = &values.symbols;
+            let file = &values.files[symbols.routines[routine].file];
+            let carried = |name: &Name| {
+                symbols.routine(routine, name).is_none()
+                    && row(name).is_some_and(|row| row.treatment == Treatment::Carried)
+            };
+            Name::of(file.word(tokens.start)).is_some_and(|name| carried(&name))
+        }
+        Statement::Branches { blocks, .. } => {
+            blocks.iter().all(|block| stays(values, routine, block))
+        }
+        Statement::Loop { block, .. } => stays(values, routine, block),
+        Statement::Label => false,
+        Statement::Assignment { .. } | Statement::Leaves { .. } => true,
+    })
+}
+
+impl<'p> Walker<'_, 'p> {
+    /// The file of the routine that is walked.
+    pub(super) fn file(&self) -> &'p TokenFile<'p> {
+        let files: &'p [TokenFile<'p>] = self.values.files;
+        &files[self.values.symbols.routines[self.now.routine].file]
+    }
+}
