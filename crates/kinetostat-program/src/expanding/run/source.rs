@@ -67,7 +67,8 @@ impl Source {
     pub fn closing_mark(&self) -> Option<usize> {
         let texts = (0..self.lines.len()).map(|index| self.text(index).trim_ascii());
         let written = texts.enumerate().filter(|(_, text)| !text.is_empty());
-        let mut without_comments = written.filter(|(_, text)| !text.starts_with(b"("));
+        let mut without_comments =
+            written.filter(|(_, text)| !text.starts_with(b"(") && !text.starts_with(b";"));
         // The first line with words, or the opening mark.
         without_comments.next()?;
         let (index, _) = without_comments.find(|(_, text)| *text == b"%")?;

@@ -44,6 +44,8 @@ fn a_tape_stays_one_with_its_number() {
             "(a)\n%\nG21 G90\nG0 X[1] Y0 Z5\nM2\n%",
             "(a)\n%\nG21 G90\nG0 X1 Y0 Z5\nM2\n%\n",
         ),
+        // A comment is no block before the opening mark.
+        ("; [ #\nM99\nM2\n%\n", "; [ #\n%\n"),
     ] {
         let found = flat(text);
         assert_eq!(found, expected);
