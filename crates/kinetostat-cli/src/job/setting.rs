@@ -109,7 +109,7 @@ impl Setting {
             });
         }
         let (program, widened) = match &self.robot {
-            Some(source) => source.as_file(&written.bytes)?,
+            Some(source) => source.in_form_of_file(&written.bytes)?,
             None => (Cow::Borrowed(written.bytes.as_slice()), Vec::new()),
         };
         let beside = written.beside.iter();
@@ -197,7 +197,7 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let expand = wanted(job, flags, &reading)?;
+    let expand = wanted(job, (&flags.expansion, flags.robot.converted), &reading)?;
     let form = match expand {
         Some(_) => Form::Flat,
         None => Form::AsItStands,

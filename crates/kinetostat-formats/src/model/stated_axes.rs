@@ -27,7 +27,7 @@ pub(crate) struct StatedAxes {
 impl StatedAxes {
     /// Whether angles say anywhere how the tool stands.
     pub(crate) fn has_angles(&self) -> bool {
-        let mut all = self.motions.values();
-        all.any(|stated| matches!(stated, AxesStated::Angles { .. }))
+        let mut all = self.motions.iter();
+        all.any(|(_, stated)| matches!(stated, AxesStated::Angles { .. }))
     }
 }

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_program::{Dialect, ExpandOptions, OriginComments, OtherAxes, ReadOptions};
 
-use crate::job::arguments::ProgramArgs;
 use crate::job::dialect_word::DialectWord;
-use crate::job::expansion::arguments::ExpansionArgs;
+use crate::job::expansion::arguments::{ExpandFlags, ExpansionArgs};
 use crate::job::expansion::values::{any, diameter, of_options, of_table};
 use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
@@ -21,30 +20,29 @@ pub(crate) struct ExpandSettings {
     pub(crate) words: Vec<String>,
 }
 
-/// The settings where the program of a run is to be expanded; none where it is not.
+/// The settings where the program of a run is to be expanded; none where it is not. A program that is converted has a flat one, too.
 pub(crate) fn wanted(
     job: Option<&JobFile>,
-    args: &ProgramArgs,
+    (flags, is_converted): (&ExpandFlags, bool),
     reading: &ReadOptions,
 ) -> Answer<Option<ExpandSettings>> {
-    let flags = &args.expansion;
     if flags.expand || job.is_some_and(|j| j.job.expand.is_some()) {
         return settings(job, &flags.with, reading).map(Some);
     }
     // A program that is converted is written before it is compensated, too.
-    let flat = flags.flat_program.is_some() && !args.robot.converted;
+    let flat = flags.flat_program.is_some() && !is_converted;
     let flat = flat.then_some("--flat-program");
     if let Some(option) = flags.with.given().or(flat) {
         return Err(Failure::input(format!(
             "{option} says something about an expanded program, and this one is read as it stands; add --expand (in a job file: a table [expand]), or leave {option} out"
         )));
     }
-    let is_converted = |j: &JobFile| match &j.job.robot {
+    let by_job = |j: &JobFile| match &j.job.robot {
         Some(table) => table.get_ref().to.is_some(),
         None => false,
     };
     let unused = job
-        .filter(|j| !args.robot.converted && !is_converted(j))
+        .filter(|j| !is_converted && !by_job(j))
         .and_then(|j| Some((j, j.job.output.flat_program.as_ref()?)));
     match unused {
         Some((j, written)) => Err(j.error(

@@ -36,7 +36,10 @@ pub(crate) struct RobotSource {
 impl RobotSource {
     /// A program that was written, in the form of its file: bytes as they are, or a table in Parquet; and columns of that which have
     /// another type now.
-    pub(crate) fn as_file<'b>(&self, written: &'b [u8]) -> Answer<(Cow<'b, [u8]>, Vec<String>)> {
+    pub(crate) fn in_form_of_file<'b>(
+        &self,
+        written: &'b [u8],
+    ) -> Answer<(Cow<'b, [u8]>, Vec<String>)> {
         let Some(original) = &self.parquet else {
             return Ok((Cow::Borrowed(written), Vec::new()));
         };
