@@ -26,6 +26,7 @@ pub(crate) mod make;
 pub(crate) mod motion_events;
 pub(crate) mod names;
 pub(crate) mod numbers;
+pub(crate) mod of_external_axes;
 pub(crate) mod of_robot;
 pub(crate) mod of_tools;
 pub(crate) mod otherwise;

@@ -7,6 +7,7 @@ use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
+use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
@@ -85,6 +86,7 @@ pub fn make_of_robot(
     ) {
         made.findings.extend(zones(program));
     }
+    made.findings.extend(external_axes(program));
     Ok(made)
 }
 

@@ -220,3 +220,42 @@ fn a_tool_named_0_gets_a_free_number() {
         "{text}"
     );
 }
+
+/// An arm on a track stands elsewhere: what the made program leaves out is named.
+#[test]
+fn external_axes_that_are_left_out_are_named() {
+    let at = |first: &str, then: &str| {
+        let text = RAPID.replace("[0.02,0.8,-0.59,0.1]", "[0,0.8,-0.6,0]");
+        let text = text.replacen("[9E9,", &format!("[{first},"), 1);
+        text.replace(
+            "[[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,",
+            &format!("[[0,0,0],[0,1,0,0],[0,0,0,0],[{then},"),
+        )
+    };
+    let mut options = ReadOptions::default();
+    options.external_axes = ExternalAxes::Carried;
+    for (text, words) in [
+        (
+            at("500", "500"),
+            Some("line 4: external axis eax_a stands at 500"),
+        ),
+        (
+            at("0", "500"),
+            Some("line 7: external axis eax_a moves along"),
+        ),
+        (at("0", "0"), None),
+        (at("9E9", "9E9"), None),
+    ] {
+        let program = read_rapid(vec![SourceFile::new("m.mod", text)], &options).unwrap();
+        let robot = path_of(&program, &PathOptions::default()).unwrap();
+        let made =
+            make_of_robot(&program, &robot, &Template::default(), MakeLanguage::Krl).unwrap();
+        let said = made.findings.iter();
+        let said = said.map(|found| format!("line {}: {}", found.line.unwrap_or(0), found.message));
+        let said: Vec<String> = said.filter(|text| text.contains("external axis")).collect();
+        match words {
+            Some(words) => assert!(said.len() == 1 && said[0].contains(words), "{said:?}"),
+            None => assert!(said.is_empty(), "{said:?}"),
+        }
+    }
+}

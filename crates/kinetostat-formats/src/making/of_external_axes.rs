@@ -1,0 +1,33 @@
+//! External axes of a source, which no made program states: where they stand is named.
+
+use crate::making::fault::MakeFinding;
+use crate::model::external::name_of_axis;
+use crate::model::program::RobotProgram;
+
+/// Of each axis that does not stand at 0 all along, where it stands first, and whether it moves.
+pub(crate) fn external_axes(program: &RobotProgram) -> Vec<MakeFinding> {
+    let all = || program.motions.iter().map(|motion| &motion.site.external);
+    let count = all().map(Vec::len).max().unwrap_or_default();
+    let mut found = Vec::new();
+    for axis in 0..count {
+        let at = |values: &Vec<Option<f64>>| values.get(axis).copied().flatten();
+        let Some(first) = program
+            .motions
+            .iter()
+            .find(|motion| at(&motion.site.external).is_some_and(|value| value != 0.0))
+        else {
+            continue;
+        };
+        let value = at(&first.site.external).unwrap_or_default();
+        let moves = all().filter_map(at).any(|other| other != value);
+        let name = name_of_axis(program.language, axis);
+        found.push(MakeFinding::of(
+            Some(first.line),
+            match moves {
+                true => format!("{name} moves along the source: the made program does not state it, and leaves it where it is"),
+                false => format!("{name} stands at {value} in the source: the made program does not state it; bring it there before it runs"),
+            },
+        ));
+    }
+    found
+}
