@@ -41,6 +41,14 @@ impl Expression {
         }
     }
 
+    /// Without the signs before it: `X-#1` is left out as `X#1` is, where #1 has no value.
+    pub fn unsigned(&self) -> &Self {
+        match self {
+            Self::Negative(of) => of.unsigned(),
+            _ => self,
+        }
+    }
+
     /// The value, or why there is none.
     pub fn value(&self, parameters: &dyn Parameters) -> Result<f64, String> {
         let value = match self {

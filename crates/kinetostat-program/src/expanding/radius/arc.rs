@@ -29,6 +29,7 @@ impl Contour {
             return Err(Trouble::Line(too_tight(radius, self.tool)));
         }
         let next = within.normal(self.at, arc.centre);
+        self.check_lead_in(normal, next, flat)?;
         let reversal = match within {
             Within::Inside => Reversal::Outside,
             Within::Outside => Reversal::Inside,

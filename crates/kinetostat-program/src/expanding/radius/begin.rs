@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::expanding::options::Dialect;
 use crate::expanding::radius::contour::Contour;
 use crate::expanding::radius::cutter::{InSpindle, side_and_radius};
 use crate::expanding::radius::geometry::Point;
@@ -15,7 +16,7 @@ pub(crate) fn begin(
     switch: Switch,
     spindle: InSpindle,
     diameters_mm: &BTreeMap<u32, f64>,
-    state: &Interpreter<'_>,
+    (state, dialect): (&Interpreter<'_>, Dialect),
 ) -> Result<Option<Contour>, Wrong> {
     let [first, second, across] = state.plane_axes();
     if across == 0 {
@@ -38,5 +39,5 @@ pub(crate) fn begin(
     };
     let found = side_and_radius(switch, spindle, diameters_mm, unit)?;
     let found = found.filter(|(_, radius)| *radius > 0.0);
-    Ok(found.map(|(side, radius)| Contour::new(side, radius, Point::new(x, y))))
+    Ok(found.map(|(side, radius)| Contour::new(side, radius, Point::new(x, y), dialect)))
 }

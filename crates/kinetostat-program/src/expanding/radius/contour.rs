@@ -2,6 +2,7 @@
 
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
+use crate::expanding::options::Dialect;
 use crate::expanding::radius::geometry::{Axes, Point, Sense, Side, in_plane};
 use crate::expanding::radius::pending::Pending;
 use crate::expanding::radius::piece::{Piece, Shape};
@@ -130,16 +131,19 @@ pub(crate) struct Contour {
     /// From there to the tool, a unit vector; none before the first move.
     pub normal: Option<Point>,
     pub pending: Pending,
+    /// The controller that the program is written for.
+    pub dialect: Dialect,
 }
 
 impl Contour {
-    pub fn new(side: Side, tool: f64, at: Point) -> Self {
+    pub fn new(side: Side, tool: f64, at: Point, dialect: Dialect) -> Self {
         Self {
             side,
             tool,
             at,
             normal: None,
             pending: Pending::default(),
+            dialect,
         }
     }
 

@@ -1,5 +1,7 @@
 //! The first motion of a contour: from where the tool is to beside its end.
 
+use crate::expanding::flat::Flat;
+use crate::expanding::options::Dialect;
 use crate::expanding::radius::contour::{
     Contour, Dress, Programmed, ProgrammedArc, ProgrammedShape,
 };
@@ -10,6 +12,9 @@ use crate::expanding::translate::wrong::Wrong;
 
 /// An entry must be longer than the tool's radius by this, in mm: equal lengths differ by rounding.
 const LONGER_MM: f64 = 1e-9;
+
+/// Unit vectors nearer than this are one.
+const SAME_DIRECTION: f64 = 1e-6;
 
 /// Cosine between the chord of an entry arc and its radius at the end, below which there is no arc (LinuxCNC,
 /// `TOLERANCE_EQUAL`).
@@ -31,11 +36,42 @@ impl Contour {
             ));
         }
         match programmed.shape {
+            ProgrammedShape::Arc(_) if self.dialect == Dialect::Fanuc => Err((
+                "compensation begins with an arc, which is an alarm on Fanuc's controllers"
+                    .to_owned(),
+                "begin with a straight move",
+            )),
             ProgrammedShape::Straight(code) => {
                 self.enter_straight(programmed.to, code, dress);
                 Ok(())
             }
             ProgrammedShape::Arc(arc) => self.enter_by_arc(programmed.to, arc, dress),
+        }
+    }
+
+    /// Where the move to the contour and the contour begin in one direction, controllers agree. Else LinuxCNC leads the tool beside
+    /// the end of that move, and Fanuc's controllers beside the start of the next one (B-63944EN, 14.4, start-up).
+    pub fn check_lead_in(
+        &self,
+        normal: Point,
+        next: Point,
+        flat: &mut Flat<'_>,
+    ) -> Result<(), Wrong> {
+        let is_entry = self.pending.along() == Some(Waiting::Entry);
+        if !is_entry || (normal - next).norm() < SAME_DIRECTION {
+            return Ok(());
+        }
+        match self.dialect {
+            Dialect::LinuxCnc => Ok(()),
+            Dialect::Undecided => {
+                let line = flat.blocks().max(1);
+                flat.warn_of_lines(line, "the way to a contour with G41 or G42 is LinuxCNC's: another controller may lead the tool in otherwise where the contour begins in another direction than that way (--dialect)");
+                Ok(())
+            }
+            Dialect::Fanuc => Err((
+                "the contour begins in another direction than the move that leads to it: Fanuc's controllers lead the tool in otherwise than is known here".to_owned(),
+                "let that move end in the direction in which the contour begins, or let the CAM system write the centre line of the tool",
+            )),
         }
     }
 

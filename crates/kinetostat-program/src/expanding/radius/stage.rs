@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::expanding::expanded::Origin;
 use crate::expanding::flat::Flat;
-use crate::expanding::options::ExpandOptions;
+use crate::expanding::options::{Dialect, ExpandOptions};
 use crate::expanding::radius::begin::begin;
 use crate::expanding::radius::blocks::{Block, First, Next, behind, within};
 use crate::expanding::radius::contour::Contour;
@@ -37,6 +37,7 @@ enum State {
 /// Stands between the blocks that a program runs and the flat program.
 pub(crate) struct Radius<'o> {
     spindle: InSpindle,
+    dialect: Dialect,
     /// Diameters of tools, mm, by number: those of the options, and those that the program states.
     diameters_mm: BTreeMap<u32, f64>,
     state: State,
@@ -49,6 +50,7 @@ impl<'o> Radius<'o> {
         Self {
             diameters_mm: options.tool_diameters_mm.clone(),
             spindle: InSpindle::default(),
+            dialect: options.dialect,
             state: State::Off,
             programmed: None,
         }
@@ -142,7 +144,8 @@ impl<'o> Radius<'o> {
         }
         let begins_beside = matches!(self.state, State::Beside);
         let diameters = &self.diameters_mm;
-        let begun = begin(switch, self.spindle, diameters, self.interpreter(flat))?;
+        let state = (self.interpreter(flat), self.dialect);
+        let begun = begin(switch, self.spindle, diameters, state)?;
         self.state = match begun {
             Some(contour) => {
                 self.programmed.get_or_insert_with(|| flat.following());

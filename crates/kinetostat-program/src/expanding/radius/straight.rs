@@ -21,6 +21,7 @@ impl Contour {
     ) -> Result<(), Trouble> {
         let direction = (to - self.at).normalize();
         let next = self.side.normal(direction);
+        self.check_lead_in(normal, next, flat)?;
         let reversal = match self.pending.along() {
             Some(Waiting::Arc { sense, .. }) if sense.of_tool(self.side) == Within::Outside => {
                 Reversal::Inside

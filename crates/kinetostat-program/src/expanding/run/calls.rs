@@ -130,6 +130,10 @@ impl Runner<'_> {
                     "write GOTO, or M30 at the end",
                 ));
             }
+            if self.frames.len() == 1 && self.options.dialect == Dialect::Fanuc {
+                let line = self.flat.blocks().max(1);
+                self.flat.warn_of_lines(line, "M99 in the program itself begins it again on Fanuc's controllers, without end: it is written once, and ends here");
+            }
             let next = self.return_from_m98()?;
             if let Some(number) = block.number {
                 self.go_on_at(number)?;

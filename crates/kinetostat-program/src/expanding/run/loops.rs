@@ -213,14 +213,16 @@ impl Runner<'_> {
         let frame = self.frame();
         let lines = &self.sources[frame.file].lines;
         let is = |i: &usize| lines[*i].label == Some(number);
-        let mut from_here = (line + 1..lines.len()).chain(frame.first..=line);
+        // Blocks of another program of the file are none of this one.
+        let end = self.sources[frame.file].end_of_program(frame.first);
+        let mut from_here = (line + 1..end).chain(frame.first..(line + 1).min(end));
         match from_here.find(is) {
             Some(found) => {
                 self.frame_mut().next = found;
                 Ok(())
             }
             None => Err(self.refuse(
-                &format!("GOTO {number}: there is no block N{number}"),
+                &format!("GOTO {number}: there is no block N{number} in this program"),
                 "give the block that is meant this number",
             )),
         }

@@ -75,6 +75,19 @@ impl Source {
         Some(index)
     }
 
+    /// Where the program that begins at a line ends: at the number of the next one.
+    pub fn end_of_program(&self, first: usize) -> usize {
+        let says_nothing = |index: usize| {
+            let text = self.text(index).trim_ascii();
+            text.is_empty() || matches!(text[0], b'%' | b'(' | b';')
+        };
+        let starts = self.programs.values().copied();
+        let mut others =
+            starts.filter(|start| *start > first && !(first..*start).all(says_nothing));
+        let end = others.next().unwrap_or(self.lines.len());
+        others.fold(end, usize::min)
+    }
+
     /// The text of a line.
     pub fn text(&self, index: usize) -> &[u8] {
         &self.bytes[self.lines[index].span.clone()]

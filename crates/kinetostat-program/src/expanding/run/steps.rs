@@ -136,7 +136,7 @@ impl Runner<'_> {
                     text.extend_from_slice(&self.sources[file].text(index)[range.clone()]);
                 }
                 // A word without a value is as if it were not there (Fanuc).
-                Piece::Word(_, of, _) if fanuc && self.is_vacant(of)? => {}
+                Piece::Word(_, of, _) if fanuc && self.is_vacant(of.unsigned())? => {}
                 Piece::Word(letter, of, _) => {
                     self.has_a_value(of)?;
                     let value = self.value(of)?;
@@ -179,7 +179,7 @@ impl Runner<'_> {
 
     /// A parameter without a value is refused where it is not known whose rules hold.
     fn has_a_value(&self, of: &Expression) -> Result<(), ProgramError> {
-        match self.frame().numbered.rules == Dialect::Undecided && self.is_vacant(of)? {
+        match self.frame().numbered.rules == Dialect::Undecided && self.is_vacant(of.unsigned())? {
             true => Err(self.refuse(
                 "a parameter without a value: for LinuxCNC it is 0, Fanuc leaves the word out",
                 "give it a value before, or name the dialect (--dialect)",

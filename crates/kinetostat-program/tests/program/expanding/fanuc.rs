@@ -164,3 +164,77 @@ fn number_and_tape_marks_of_the_program_stay() {
         "O5 (NAME)\nG21 G90 (line 2)\nM30 (line 3)\n"
     );
 }
+
+/// Numbers of blocks are sought in the program that jumps, not in another one of its file.
+#[test]
+fn jumps_stay_in_their_program() {
+    let other = "M30\nO400\nG0 X1\nN10 G0 X99\nM99\n";
+    for dialect in [Dialect::Fanuc, Dialect::Undecided] {
+        for (text, line) in [
+            (format!("GOTO 10\nG0 X5\n{other}"), 3),
+            (format!("M98 P400\n{}", other.replace("M99", "M99 P10")), 8),
+        ] {
+            let error = run(&text, dialect).unwrap_err();
+            assert!(
+                error.reason.contains("no block N10 in this program"),
+                "{error}"
+            );
+            assert!(line == 8 || error.line == line, "{error}");
+        }
+        // Each in its own; the number of the program itself begins it.
+        let own = format!("G0 X5\nGOTO 10\nG0 X6\nN10 G0 X7\n{other}");
+        assert_eq!(run(&own, dialect).unwrap(), "G0 X5\nN10 G0 X7\nM30\n");
+        let back = format!(
+            "M98 P400\nG0 X6\nN10 G0 X7\n{}",
+            other.replace("M99", "M99 P10")
+        );
+        assert!(
+            run(&back, dialect)
+                .unwrap()
+                .ends_with("N10 G0 X99\nN10 G0 X7\nM30\n")
+        );
+        let numbered = "O1\nG21 G90\nG0 X0 Y0 Z0\nGOTO 10\nG0 X5\nN10 G0 X7\nM30\nO2\nN10 M99\n";
+        let mut options = ExpandOptions::default();
+        options.dialect = dialect;
+        let flat = expand(numbered, &options, &NoSubprograms).unwrap();
+        assert!(flat.program.bytes().ends_with(b"Z0\nN10 G0 X7\nM30\n"));
+    }
+}
+
+/// Where a contour begins in another direction than the way to it, Fanuc leads the tool in otherwise.
+#[test]
+fn the_way_to_a_contour_is_that_of_the_controller_or_refused() {
+    let cut = |contour: &str, dialect| {
+        let mut options = ExpandOptions::default();
+        options.dialect = dialect;
+        options.tool_diameters_mm.insert(1, 6.0);
+        let text = format!("{BEGIN}G41 D1 G1 X10. Y0. F100.\n{contour}G40 X40. Y0.\nM30\n");
+        expand(text, &options, &NoSubprograms)
+    };
+    let square = "Y20.\nX30.\n";
+    assert!(cut(square, Dialect::LinuxCnc).unwrap().warnings.is_empty());
+    let warned = cut(square, Dialect::Undecided).unwrap().warnings;
+    assert!(
+        warned
+            .iter()
+            .any(|warning| warning.text.contains("way to a contour")),
+        "{warned:?}"
+    );
+    let error = cut(square, Dialect::Fanuc).unwrap_err();
+    assert!(error.reason.contains("another direction"), "{error}");
+    // Straight on, or along an arc that begins so: both are beside the same place.
+    for contour in [
+        "X20.\nY20.\nX30.\n",
+        "G3 X20. Y10. I0. J10.\nG1 Y20.\nX30.\n",
+    ] {
+        let fanuc = cut(contour, Dialect::Fanuc).unwrap();
+        assert!(
+            fanuc
+                .warnings
+                .iter()
+                .all(|warning| !warning.text.contains("way to a contour"))
+        );
+        let linuxcnc = cut(contour, Dialect::LinuxCnc).unwrap();
+        assert_eq!(fanuc.program.bytes(), linuxcnc.program.bytes());
+    }
+}

@@ -57,6 +57,8 @@ fn vacant_equals_vacant_and_no_number() {
         fanuc("#3=1\nIF [1 EQ 1] THEN #3=#1\nG0 Y#3 X4\n"),
         "G0 X4\n"
     );
+    // Whatever sign stands before it.
+    assert_eq!(fanuc("G0 X-#1 Y5\nG0 X+#1 Y-[#1]\n"), "G0 Y5\nG0\n");
     // Below G65 without a dialect, too.
     let below = "G65 P9\nM30\nO9\n#3=#1\nG0 Y#3 X4\nM99\n";
     assert_eq!(

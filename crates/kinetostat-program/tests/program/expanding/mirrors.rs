@@ -97,7 +97,7 @@ fn near(made: &[[f64; 6]], expected: &[[f64; 6]]) {
 
 #[test]
 fn a_mirrored_program_is_the_mirror_image() {
-    let contour = "G0 X-20 Y-10\nG1 Z0\nG41.1 D6 G1 X0 Y0\nY30\nG2 X10 Y40 R10\nG1 X25\nG3 X35 Y50 I0 J10\nG1 Y70\nG40 G1 X60\nG0 Z9\n";
+    let contour = "G0 X0 Y-20\nG1 Z0\nG41.1 D6 G1 X0 Y0\nY30\nG2 X10 Y40 R10\nG1 X25\nG3 X35 Y50 I0 J10\nG1 Y70\nG40 G1 X60\nG0 Z9\n";
     let other = contour.replace("G41.1", "G42.1");
     let turned = "G68 X5 Y2 R30\nG0 X20 Y8\nG1 X17 Y3\nG3 X20 Y18 R12\nG69\n";
     let both = format!("G68 X5 Y2 R-20\n{contour}G69\n");
