@@ -20,6 +20,9 @@ const UNKNOWN: f64 = 0.1;
 /// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
 const SURPRISE: f64 = 0.25;
 
+/// The same where arcs are fitted to the polynomial: they use the tolerance up to a part that this must stay well within.
+const SURPRISE_FITTED: f64 = 0.08;
+
 /// How many times the tolerance a correction may leave a straight line on a stretch that is no piece: a polynomial follows it.
 const BENT: f64 = 20.0;
 
@@ -113,8 +116,12 @@ impl Stretch {
                 )
             }
         };
+        let surprise = match self.fitted {
+            true => SURPRISE_FITTED,
+            false => SURPRISE,
+        };
         let surprised = self.irregular.is_some_and(|(part, value)| {
-            (value - polynomial(&values, part)).norm() > SURPRISE * tolerance
+            (value - polynomial(&values, part)).norm() > surprise * tolerance
         });
         let bent = match self.fitted && length > options.smallest_piece_mm {
             true => BENT * tolerance,
