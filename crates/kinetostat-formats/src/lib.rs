@@ -38,6 +38,7 @@
 //! ```
 
 mod apt;
+mod axis_count;
 mod corner;
 mod document;
 mod error;
