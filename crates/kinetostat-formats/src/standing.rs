@@ -142,7 +142,7 @@ impl StandingAxis {
                 "axis {letter} is sent to {to} deg, and how far it turns is open: it came to {from} deg by a step or the shorter way. If it counts on it turns by {on} deg, and if it counts from 0 to 360, it stands at {shown} and turns by {within} deg"
             ),
             format!(
-                "write the turn that is meant as a step: {} or {}; or, on an axis that counts from 0 to 360, {}",
+                "write the turn that is meant as a step: {} or {}; or, on an axis that counts from 0 to 360, {}; or, on one that counts on, state {letter}{from} where it stands",
                 step(letter, on),
                 step(letter, within),
                 (turning.words.shorter)(letter, to)
