@@ -31,7 +31,7 @@ pub(crate) struct CountShown {
 
 impl CountShown {
     /// How the axis counts by these words.
-    pub(crate) fn count(self) -> AxisCount {
+    pub(crate) fn way_of_counting(self) -> AxisCount {
         match (self.one_turn, self.beyond) {
             (true, _) => AxisCount::OneTurn,
             (false, true) => AxisCount::On,
@@ -41,7 +41,7 @@ impl CountShown {
 
     /// Whether a reading that took the axis as open was another one.
     pub(crate) fn asks_again(self) -> bool {
-        match self.count() {
+        match self.way_of_counting() {
             AxisCount::OneTurn => true,
             AxisCount::On => self.differs,
             AxisCount::Open => false,
@@ -49,7 +49,7 @@ impl CountShown {
     }
 
     /// With what another part of the program shows.
-    pub(crate) fn with(self, other: Self) -> Self {
+    pub(crate) fn joined_with(self, other: Self) -> Self {
         Self {
             one_turn: self.one_turn || other.one_turn,
             beyond: self.beyond || other.beyond,
@@ -62,7 +62,7 @@ impl CountShown {
 pub(crate) fn shown_by_both(one: &[CountShown], other: &[CountShown]) -> Vec<CountShown> {
     let all = 0..one.len().max(other.len());
     let at = |shown: &[CountShown], place: usize| shown.get(place).copied().unwrap_or_default();
-    all.map(|place| at(one, place).with(at(other, place)))
+    all.map(|place| at(one, place).joined_with(at(other, place)))
         .collect()
 }
 
@@ -89,7 +89,7 @@ pub(crate) enum EndWord {
 
 impl AxisCount {
     /// How a piece from an angle to another one is stated, with so many digits behind the point, so that it is right on the axis.
-    pub(crate) fn end_word(self, from: f64, to: f64, decimals: usize) -> EndWord {
+    pub(crate) fn word_of_end(self, from: f64, to: f64, decimals: usize) -> EndWord {
         let digit = 0.1_f64.powi(i32::try_from(decimals).unwrap_or(9));
         let [from, to] = [from, to].map(|angle| (angle / digit).round() * digit);
         let stays = match self {

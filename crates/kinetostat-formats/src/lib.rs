@@ -60,6 +60,7 @@ mod siemens;
 mod standing;
 mod table;
 mod text;
+mod turned_axis;
 mod writing;
 
 pub use apt::reader::read_apt;

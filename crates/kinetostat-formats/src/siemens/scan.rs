@@ -79,7 +79,7 @@ fn scan_once(
                 Err(broken) => reader.broken(broken),
             }
         }
-        let shown = reader.state.standing.shown();
+        let shown = reader.state.standing.shown_counts();
         out.shown = shown_by_both(&out.shown, &shown);
     }
     out

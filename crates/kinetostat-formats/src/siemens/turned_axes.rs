@@ -8,7 +8,7 @@ use crate::siemens::expression::Expression;
 use crate::siemens::state::{Code, Coordinate};
 use crate::siemens::walker::Reader;
 use crate::siemens::words::{Purpose, Words, coordinate_of};
-use crate::standing::{AxisTurn, TipWords, Turning};
+use crate::turned_axis::{AxisTurn, TipWords, Turning};
 
 const TIP: TipWords = TipWords {
     control: "TRAORI",

@@ -127,7 +127,7 @@ fn interpret_once(files: &[SourceFile], options: &ReadOptions, shown: &[CountSho
             remarked: BTreeSet::new(),
         };
         reader.file();
-        let shown = reader.state.standing.shown();
+        let shown = reader.state.standing.shown_counts();
         found.shown = shown_by_both(&found.shown, &shown);
     }
     found

@@ -6,7 +6,7 @@ use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::tip_control::TipControl;
 use crate::heidenhain::words::Word;
-use crate::standing::{AxisTurn, TipWords, Turning};
+use crate::turned_axis::{AxisTurn, TipWords, Turning};
 
 const TIP: TipWords = TipWords {
     control: "M128",

@@ -101,7 +101,7 @@ impl Writer<'_> {
             let is_step = matches!(number, Some((RotaryWord { step: true, .. }, _)));
             let by_step = !is_step
                 && !way.shorter
-                && shown.count().end_word(now, to, digits) != EndWord::Angle;
+                && shown.way_of_counting().word_of_end(now, to, digits) != EndWord::Angle;
             let signs = self.signs[motion.file];
             if by_step && (number.is_some() || (to - now).abs() > self.half_deg()) {
                 let text = stands(&format!("I{letter}"), to - now, digits, signs);

@@ -33,7 +33,7 @@ impl Writer<'_> {
     /// Whole turns that an axis does not show at an angle, deg.
     fn wound_at(&self, axis: usize, to: f64) -> f64 {
         let shown = self.shown.get(axis).copied().unwrap_or_default();
-        match shown.count() {
+        match shown.way_of_counting() {
             AxisCount::OneTurn => turns_below(to),
             AxisCount::On | AxisCount::Open => 0.0,
         }
@@ -43,8 +43,8 @@ impl Writer<'_> {
     fn end_word(&self, axis: usize, from: f64, to: f64) -> EndWord {
         let shown = self.shown.get(axis).copied().unwrap_or_default();
         shown
-            .count()
-            .end_word(from, to, self.options.angle_decimals)
+            .way_of_counting()
+            .word_of_end(from, to, self.options.angle_decimals)
     }
 
     /// The word of an axis that turns it from where it stands to an angle, and that angle, where the block's own word would say
@@ -95,8 +95,12 @@ impl Writer<'_> {
             let by: f64 = text.parse().unwrap_or(to - from);
             return Some((format!("{letter}=IC({text})"), from + by));
         }
-        let one_turn = to - turns_below(to);
-        let text = format!("{:.digits$}", one_turn.max(0.0));
+        let one_turn = match to - turns_below(to) {
+            // What the arithmetic leaves.
+            least if least < 0.0 => 0.0,
+            one_turn => one_turn,
+        };
+        let text = format!("{one_turn:.digits$}");
         let value: f64 = text.parse().unwrap_or(one_turn);
         // Of one turn: 360 is 0.
         let text = match value >= 360.0 {
