@@ -43,6 +43,11 @@ fn an_axis_of_one_turn_counts_from_the_angle_that_it_shows() {
             "G0 C350\nG1 X5 C=ACP(10) F600\nX9 C=IC(-30)\nX12 C20\nX20 C340\n",
             vec![[350.0, 370.0], [370.0, 340.0], [340.0, 20.0], [20.0, 340.0]],
         ),
+        // On an arc behind a step.
+        (
+            "G0 X0 Y0 C=ACN(300)\nG1 Z0 C=IC(90) F600\nG3 X40 Y40 I0 J40 C120\n",
+            vec![[-60.0, 30.0], [30.0, 120.0]],
+        ),
         // The words that say it stand behind; three thirds of a turn are none.
         (
             "G1 X5 C=IC(120) F600\nG91 X9 C120\nX1 C120\nG90 X7 C0\nX3 C=ACN(350)\nX4 C355\n",
