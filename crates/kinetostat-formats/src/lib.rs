@@ -38,6 +38,7 @@
 //! ```
 
 mod apt;
+mod axis_count;
 mod corner;
 mod document;
 mod error;
@@ -59,6 +60,7 @@ mod siemens;
 mod standing;
 mod table;
 mod text;
+mod turned_axis;
 mod writing;
 
 pub use apt::reader::read_apt;

@@ -4,52 +4,9 @@
 //! whole turns. The laws are those of G43.4: with tool centre point control a cut needs all angles; without it X, Y and Z are
 //! places of the slides, and a cut is where the program says only with all axes at zero.
 
+use crate::axis_count::CountShown;
 use crate::model::stated_axes::AxesStated;
-
-/// Angles below this are zero, deg.
-const ZERO_DEG: f64 = 1e-9;
-
-/// Angles nearer than this are one, deg.
-const SAME_DEG: f64 = 1e-6;
-
-/// How a word turns an axis, deg.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum AxisTurn {
-    /// To an angle, straight on.
-    To(f64),
-    /// By an angle.
-    By(f64),
-    /// To an angle of one turn, the shorter way (DC; M126).
-    Shorter(f64),
-    /// To an angle of one turn, upwards (ACP).
-    Upwards(f64),
-    /// To an angle of one turn, downwards (ACN).
-    Downwards(f64),
-}
-
-/// What is wrong, and what to do.
-pub(crate) type AxisFault = (String, String);
-
-/// The words with which a language has tool centre point control, and states an angle.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TipWords {
-    /// `TRAORI`, `M128`.
-    pub control: &'static str,
-    /// `G0 `, `L `: what stands before the word of an axis at zero.
-    pub rapid: &'static str,
-    /// What stands behind the letter of an axis at zero.
-    pub zero: &'static str,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct StandingAxis {
-    letter: char,
-    at: Option<f64>,
-    /// Whole turns by which the control's count differs from that over all turns, deg.
-    wound: f64,
-    /// It was sent to a place of the machine.
-    sent: bool,
-}
+use crate::turned_axis::{AxisFault, AxisTurn, StandingAxis, TipWords, Turning, ZERO_DEG};
 
 /// Where the rotary axes stand.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -67,14 +24,12 @@ pub(crate) struct Standing {
 }
 
 impl Standing {
-    pub(crate) fn of_letters(letters: &[char]) -> Self {
-        let axis = |letter: &char| StandingAxis {
-            letter: *letter,
-            at: None,
-            wound: 0.0,
-            sent: false,
+    /// Of axes that count as it is shown of them.
+    pub(crate) fn of_letters(letters: &[char], shown: &[CountShown]) -> Self {
+        let axis = |(place, letter): (usize, &char)| {
+            StandingAxis::new(*letter, shown.get(place).copied().unwrap_or_default())
         };
-        let axes: Vec<StandingAxis> = letters.iter().map(axis).collect();
+        let axes: Vec<StandingAxis> = letters.iter().enumerate().map(axis).collect();
         Self {
             before: vec![None; axes.len()],
             axes,
@@ -94,8 +49,18 @@ impl Standing {
         self.halved = None;
     }
 
+    /// What the words so far show of how the axes count.
+    pub(crate) fn shown_counts(&self) -> Vec<CountShown> {
+        self.axes.iter().map(|axis| axis.shown).collect()
+    }
+
     /// A word turns an axis.
-    pub(crate) fn turn_axis(&mut self, place: usize, turn: AxisTurn) -> Result<(), AxisFault> {
+    pub(crate) fn turn_axis(
+        &mut self,
+        place: usize,
+        turn: AxisTurn,
+        turning: Turning<'_>,
+    ) -> Result<(), AxisFault> {
         let Some(axis) = self.axes.get_mut(place) else {
             return Ok(());
         };
@@ -104,70 +69,31 @@ impl Standing {
             // The other axes stand where the direction has brought them.
             self.by_direction = false;
         }
-        let letter = axis.letter;
-        let within = |to: f64| match (0.0..360.0).contains(&to) {
-            true => Ok(to),
-            false => Err((
-                format!("axis {letter} is sent to {to} deg of one turn (DC, ACP, ACN)"),
-                "write an angle from 0 to 359.999".to_owned(),
-            )),
-        };
-        let (at, by) = match (turn, axis.at) {
-            (AxisTurn::To(to), _) => {
-                axis.sent = false;
-                axis.at = Some(to + axis.wound);
-                return Ok(());
-            }
-            (AxisTurn::By(by), Some(at)) => (at, by),
-            (AxisTurn::By(_), None) => {
-                return Err((
-                    format!("axis {letter} turns by an angle, and where it stands is not stated"),
-                    format!("state it before by an absolute word ({letter}0)"),
-                ));
-            }
-            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
-                let up = match (within(to)? - at).rem_euclid(360.0) {
-                    // It stands there: what the arithmetic leaves is no turn.
-                    up if up > 360.0 - SAME_DEG => up - 360.0,
-                    up => up,
-                };
-                if matches!(turn, AxisTurn::Shorter(_)) && (up - 180.0).abs() < ZERO_DEG {
-                    self.halved = Some(letter);
-                }
-                let by = match turn {
-                    AxisTurn::Upwards(_) => up,
-                    AxisTurn::Downwards(_) if up > SAME_DEG => up - 360.0,
-                    AxisTurn::Shorter(_) if up > 180.0 => up - 360.0,
-                    _ => up,
-                };
-                axis.wound = ((at + by - to) / 360.0).round() * 360.0;
-                (to + axis.wound, 0.0)
-            }
-            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), None) => {
-                (within(to)?, 0.0)
-            }
-        };
-        axis.sent = false;
-        axis.at = Some(at + by);
+        if axis.take_turn(turn, turning)? {
+            self.halved = Some(axis.letter);
+        }
         Ok(())
     }
 
-    /// Whole turns between the angles of a word and those that count on, deg.
-    pub(crate) fn wound_of(&self, place: usize) -> f64 {
-        self.axes.get(place).map_or(0.0, |axis| axis.wound)
+    /// A word of SINUMERIK turns an axis that counts from 0 to 360 deg.
+    pub(crate) fn show_one_turn(&mut self, place: usize) {
+        if let Some(axis) = self.axes.get_mut(place) {
+            axis.shown.one_turn = true;
+        }
     }
 
     /// An axis is sent to a place of the machine: where it stands is not known.
     pub(crate) fn send_axis(&mut self, place: usize) {
         if let Some(axis) = self.axes.get_mut(place) {
-            (axis.at, axis.wound, axis.sent) = (None, 0.0, true);
+            axis.be_anywhere();
+            axis.sent = true;
         }
     }
 
     /// A direction of the tool says how the axes stand.
     pub(crate) fn take_direction_instead(&mut self) {
         for axis in &mut self.axes {
-            (axis.at, axis.wound, axis.sent) = (None, 0.0, false);
+            axis.be_anywhere();
         }
         self.by_direction = true;
     }
@@ -218,6 +144,7 @@ impl Standing {
             control,
             rapid,
             zero,
+            ..
         } = words;
         let now = self.angles_now();
         if !tip {

@@ -60,8 +60,8 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a file; `rotary_axes` are those whose words are followed.
-    pub(crate) fn new(rotary_axes: &[char]) -> Self {
+    /// Of the beginning of a file; `standing` are the rotary axes whose words are followed.
+    pub(crate) fn new(standing: Standing) -> Self {
         Self {
             place: [None; 3],
             unsettled: false,
@@ -84,7 +84,7 @@ impl State {
             aside: false,
             tip: TipControl::default(),
             shorter: false,
-            standing: Standing::of_letters(rotary_axes),
+            standing,
         }
     }
 

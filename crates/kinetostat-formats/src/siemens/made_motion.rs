@@ -163,7 +163,7 @@ impl Reader<'_> {
             line: block.line.clone(),
             words_at: block.words_at,
             axes: words.axes.clone(),
-            rotary: self.rotary_of(words),
+            rotary: words.rotary.clone(),
             via: words.via.clone(),
             arc_words: words.arc_words(),
             direction_words: words.direction_words(),

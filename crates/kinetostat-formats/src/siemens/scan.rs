@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::Isometry3;
 
+use crate::axis_count::{CountShown, shown_by_both};
 use crate::options::ReadOptions;
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::define;
@@ -14,6 +15,7 @@ use crate::siemens::table::row;
 use crate::siemens::tokens::Token;
 use crate::siemens::values::Variables;
 use crate::siemens::walker::{Corners, Reader, Scan};
+use crate::standing::Standing;
 use crate::table::Treatment;
 use crate::text::source::SourceFile;
 
@@ -23,7 +25,29 @@ pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
 }
 
 /// The same, with corners that are refused or followed.
+///
+/// How rotary axes count may show behind the words to which it matters: those programs are read twice.
 pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Corners) -> Scan {
+    let first = scan_once(files, options, corners, &[]);
+    match first.shown.iter().any(|shown| shown.asks_again()) {
+        true => {
+            let shown = first.shown;
+            Scan {
+                shown: shown.clone(),
+                ..scan_once(files, options, corners, &shown)
+            }
+        }
+        false => first,
+    }
+}
+
+/// The same, with what is shown of how rotary axes count.
+fn scan_once(
+    files: &[SourceFile],
+    options: &ReadOptions,
+    corners: Corners,
+    shown: &[CountShown],
+) -> Scan {
     let mut out = Scan::default();
     out.rotary.letters.clone_from(&options.rotary_axes);
     let frames = options.frames.iter();
@@ -41,7 +65,7 @@ pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Co
             frames: &frames,
             file,
             index,
-            state: State::new(&options.rotary_axes),
+            state: State::new(Standing::of_letters(&options.rotary_axes, shown)),
             variables: Variables::default(),
             corners,
         };
@@ -55,6 +79,8 @@ pub(crate) fn scan_with(files: &[SourceFile], options: &ReadOptions, corners: Co
                 Err(broken) => reader.broken(broken),
             }
         }
+        let shown = reader.state.standing.shown_counts();
+        out.shown = shown_by_both(&out.shown, &shown);
     }
     out
 }

@@ -141,8 +141,8 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// Of the beginning of a program; `rotary_axes` are those whose words are followed.
-    pub(crate) fn new(rotary_axes: &[char]) -> Self {
+    /// Of the beginning of a program; `standing` are the rotary axes whose words are followed.
+    pub(crate) fn new(standing: Standing) -> Self {
         Self {
             code: Code::Line,
             normal: 2,
@@ -162,7 +162,7 @@ impl State {
             machine_orientation: false,
             even_axes: None,
             law_remarked: false,
-            standing: Standing::of_letters(rotary_axes),
+            standing,
             direction: None,
             place: [None; 3],
             last: None,

@@ -8,12 +8,14 @@ use crate::siemens::expression::Expression;
 use crate::siemens::state::{Code, Coordinate};
 use crate::siemens::walker::Reader;
 use crate::siemens::words::{Purpose, Words, coordinate_of};
-use crate::standing::{AxisTurn, TipWords};
+use crate::turned_axis::{AxisTurn, TipWords, Turning};
 
 const TIP: TipWords = TipWords {
     control: "TRAORI",
     rapid: "G0 ",
     zero: "0",
+    step: |letter, by| format!("{letter}=IC({by})"),
+    shorter: |letter, to| format!("{letter}=DC({to}) the shorter way"),
 };
 
 impl Reader<'_> {
@@ -27,6 +29,9 @@ impl Reader<'_> {
     ) {
         if words.purpose == Purpose::Limits {
             return;
+        }
+        if how == How::Rotary {
+            self.state.standing.show_one_turn(place);
         }
         let Some(written) = self.number(&item.span, value) else {
             return;
@@ -45,6 +50,10 @@ impl Reader<'_> {
         if words.frame.is_some() || matches!(words.purpose, Purpose::Dwell | Purpose::Limits) {
             return false;
         }
+        let turning = Turning {
+            words: &TIP,
+            rapid: self.state.code == Code::Rapid,
+        };
         for (place, word, how) in &words.rotary {
             if words.purpose == Purpose::Machine {
                 self.state.standing.send_axis(*place);
@@ -63,7 +72,7 @@ impl Reader<'_> {
                 (_, true) => AxisTurn::By(to),
                 (_, false) => AxisTurn::To(to),
             };
-            if let Err((reason, remedy)) = self.state.standing.turn_axis(*place, turn) {
+            if let Err((reason, remedy)) = self.state.standing.turn_axis(*place, turn, turning) {
                 self.fault(&word.word, reason, &remedy);
             }
             if self.state.oriented {
@@ -98,14 +107,6 @@ impl Reader<'_> {
             return false;
         }
         self.state.standing.loses_place(tip)
-    }
-
-    /// The words of rotary axes of a motion, with the whole turns between the angles of all axes and those that count on.
-    pub(crate) fn rotary_of(&self, words: &Words) -> (Vec<(usize, Coordinate, How)>, Vec<f64>) {
-        let standing = &self.state.standing;
-        let axes = 0..self.options.rotary_axes.len();
-        let wound = axes.map(|place| standing.wound_of(place)).collect();
-        (words.rotary.clone(), wound)
     }
 
     /// Notes of the motion that follows how the axes stand, and how they get there.

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::axis_count::CountShown;
 use crate::corner::Cut;
 use crate::error::{ProgramError, note};
 use crate::model::motion::Motion;
@@ -28,6 +29,8 @@ pub(crate) struct Scan {
     pub faults: Vec<ProgramError>,
     /// What motions say of rotary axes.
     pub rotary: StatedAxes,
+    /// What the words show of how these axes count.
+    pub shown: Vec<CountShown>,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
 }
@@ -42,9 +45,8 @@ pub(crate) struct Written {
     /// X, Y, Z of its end; of the point on a CIP.
     pub axes: [Option<Coordinate>; 3],
     pub via: [Option<Coordinate>; 3],
-    /// Words of rotary axes, the axis among those that are followed with each; and the whole turns between the angles of all of them
-    /// and those that count on, deg.
-    pub rotary: (Vec<(usize, Coordinate, How)>, Vec<f64>),
+    /// Words of rotary axes, the axis among those that are followed with each.
+    pub rotary: Vec<(usize, Coordinate, How)>,
     /// Words that an end elsewhere makes void.
     pub arc_words: Vec<Range<usize>>,
     pub direction_words: Vec<Range<usize>>,

@@ -60,11 +60,11 @@ fn reading() -> ReadOptions {
     reading
 }
 
-fn read_as(language: Language, text: &str) -> Result<RobotProgram, Vec<ProgramError>> {
+pub fn read_as(language: Language, text: &str) -> Result<RobotProgram, Vec<ProgramError>> {
     read(language, vec![SourceFile::new("a.txt", text)], &reading())
 }
 
-fn robot(language: Language, text: &str) -> RobotPath {
+pub fn robot(language: Language, text: &str) -> RobotPath {
     let program = read_as(language, text).unwrap_or_else(|all| panic!("{}\n{text}", all[0]));
     path_of(&program, &making()).unwrap_or_else(|all| panic!("{}\n{text}", all[0]))
 }
@@ -73,11 +73,11 @@ const BEGIN_SIEMENS: &str = "G90 G71 G94 G17\nTRAORI\nORIAXES\nG0 X0 Y0 Z50 A0 C
 const BEGIN_HEIDENHAIN: &str =
     "BEGIN PGM A MM\nL X+0 Y+0 Z+50 A+0 C+0 R0 FMAX\nM128\nL X+0 Y+0 Z+50 FMAX\n";
 
-fn siemens(body: &str) -> String {
+pub fn siemens(body: &str) -> String {
     format!("{BEGIN_SIEMENS}{body}G0 Z50 A0 C0\nTRAFOOF\nM30\n")
 }
 
-fn heidenhain(body: &str) -> String {
+pub fn heidenhain(body: &str) -> String {
     format!("{BEGIN_HEIDENHAIN}{body}L Z+50 A+0 C+0 FMAX\nM129\nL Z+99 FMAX M30\nEND PGM A MM\n")
 }
 
@@ -119,7 +119,7 @@ fn in_three(chance: &mut Chance) -> [String; 3] {
     [text[0].clone(), siemens(&text[1]), heidenhain(&text[2])]
 }
 
-fn feeds(path: &Path) -> Vec<&Move> {
+pub fn feeds(path: &Path) -> Vec<&Move> {
     let feed = |motion: &&Move| motion.feed.is_some() && motion.is_known_feed();
     path.moves.iter().filter(feed).collect()
 }
@@ -222,7 +222,7 @@ impl CorrectionField for Bent {
     }
 }
 
-fn corrected(language: Language, text: &str, turns: bool) -> Result<Written, String> {
+pub fn corrected(language: Language, text: &str, turns: bool) -> Result<Written, String> {
     let program = read_as(language, text).map_err(|all| all[0].to_string())?;
     let (reading, making) = (reading(), making());
     let path = path_of(&program, &making).map_err(|all| all[0].to_string())?;
@@ -252,11 +252,11 @@ fn corrected(language: Language, text: &str, turns: bool) -> Result<Written, Str
     })
 }
 
-struct Written {
-    path: RobotPath,
-    written: kinetostat_program::Corrected,
-    again: RobotPath,
-    text: String,
+pub struct Written {
+    pub path: RobotPath,
+    pub written: kinetostat_program::Corrected,
+    pub again: RobotPath,
+    pub text: String,
 }
 
 #[test]
@@ -265,13 +265,13 @@ fn pieces_share_the_angles_out_and_end_where_the_block_does() {
         (
             Language::Siemens,
             siemens(
-                "G1 X50 Y20 Z0 A20 C=IC(30) F600\nX80 Y-10 A=IC(-55) C90\nG91 X5 C33.3\nG90 C=DC(350)\nX10 Y30 C=ACP(10.5)\nX60 A.5\n",
+                "G1 X50 Y20 Z0 A20 C=IC(30) F600\nX80 Y-10 A=IC(-55) C90\nG91 X5 C33.3\nG90 C=DC(350)\nX10 Y30 C=ACP(10.5)\nX60 A.5\nA-1\n",
             ),
         ),
         (
             Language::Heidenhain,
             heidenhain(
-                "L X+50 Y+20 Z+0 A+20 IC+30 F600\nL X+80 Y-10 IA-55 C+90\nL IX+5 IC+33.3\nL C-10 M126\nL X+10 Y+30 C+10.5\nL X+60 A+0.5 M127\n",
+                "L X+50 Y+20 Z+0 A+20 IC+30 F600\nL X+80 Y-10 IA-55 C+90\nL IX+5 IC+33.3\nL C-10 M126\nL X+10 Y+30 C+10.5\nL X+60 A+0.5 M127\nL A-1\n",
             ),
         ),
         // The great circle: other angles on the way.

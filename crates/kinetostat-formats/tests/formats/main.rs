@@ -13,6 +13,7 @@ mod apt;
 mod axes_alone;
 mod axes_on_circles;
 mod axis_angles;
+mod axis_counts;
 mod chance;
 mod circles;
 mod closed_circles;

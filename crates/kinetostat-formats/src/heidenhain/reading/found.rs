@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::axis_count::CountShown;
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::datum::Datum;
@@ -32,9 +33,9 @@ pub(crate) struct Way {
     pub pole: PoleThere,
     /// A block up to here stated the direction of the tool.
     pub directed: bool,
-    /// What it says of rotary axes whose words are followed, and the whole turns between their words and angles that count on, deg.
+    /// What it says of rotary axes whose words are followed, and whether they go the shorter way (M126).
     pub axes: Option<AxesStated>,
-    pub wound_deg: Vec<f64>,
+    pub shorter: bool,
     /// The motion at whose end the pole was set from where the tool was.
     pub pole_from: Option<usize>,
 }
@@ -60,6 +61,8 @@ pub(crate) struct Found {
     pub ways: Vec<Way>,
     /// What motions say of rotary axes whose words are followed.
     pub axes: BTreeMap<usize, AxesStated>,
+    /// What the words show of how these axes count.
+    pub shown: Vec<CountShown>,
     /// Rounded corners, in the order in which they run.
     pub corners: Vec<Result<Rounded, Unrounded>>,
     /// Behind the first of them, LP blocks that count on a radius or an angle of before: where they end, mm, and the unit, mm.

@@ -166,11 +166,9 @@ impl Reader<'_> {
             let index = self.found.motions.len() - 1;
             self.found.axes.insert(index, axes.clone());
         }
-        let places = 0..self.options.rotary_axes.len();
-        let wound = places.map(|place| self.state.standing.wound_of(place));
         self.found.ways.push(Way {
             axes,
-            wound_deg: wound.collect(),
+            shorter: self.state.shorter,
             block: block.clone(),
             shape,
             start: self.state.counts_from(),

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::apt::places::Frames;
+use crate::axis_count::{CountShown, shown_by_both};
 use crate::error::ProgramError;
 use crate::heidenhain::blocks::{Block, blocks_of};
 use crate::heidenhain::flow::{LABEL_TWICE, NAME_IT, Step, labels_of, order, step_of};
@@ -13,6 +14,7 @@ use crate::heidenhain::state::State;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
+use crate::standing::Standing;
 use crate::text::source::SourceFile;
 
 /// Most bytes of a file.
@@ -70,7 +72,24 @@ pub fn read_heidenhain(
 }
 
 /// Reads files, with all that is refused beside what is understood.
+///
+/// How rotary axes count may show behind the words to which it matters: those programs are read twice.
 pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
+    let first = interpret_once(files, options, &[]);
+    match first.shown.iter().any(|shown| shown.asks_again()) {
+        true => {
+            let shown = first.shown;
+            Found {
+                shown: shown.clone(),
+                ..interpret_once(files, options, &shown)
+            }
+        }
+        false => first,
+    }
+}
+
+/// The same, with what is shown of how rotary axes count.
+fn interpret_once(files: &[SourceFile], options: &ReadOptions, shown: &[CountShown]) -> Found {
     let mut found = Found {
         faults: Vec::new(),
         findings: Vec::new(),
@@ -79,6 +98,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
         corners: Vec::new(),
         polar: Vec::new(),
         axes: BTreeMap::new(),
+        shown: Vec::new(),
     };
     let frames = options.frames.iter();
     let frames: Frames = frames
@@ -98,7 +118,7 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
             file,
             index,
             unit_mm: 1.0,
-            state: State::new(&options.rotary_axes),
+            state: State::new(Standing::of_letters(&options.rotary_axes, shown)),
             pole_from: None,
             poles: [0; 2],
             has_corners: has_corners(file.bytes()),
@@ -107,6 +127,8 @@ pub(crate) fn interpret(files: &[SourceFile], options: &ReadOptions) -> Found {
             remarked: BTreeSet::new(),
         };
         reader.file();
+        let shown = reader.state.standing.shown_counts();
+        found.shown = shown_by_both(&found.shown, &shown);
     }
     found
 }

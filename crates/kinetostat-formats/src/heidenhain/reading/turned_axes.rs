@@ -6,12 +6,14 @@ use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::tip_control::TipControl;
 use crate::heidenhain::words::Word;
-use crate::standing::{AxisTurn, TipWords};
+use crate::turned_axis::{AxisTurn, TipWords, Turning};
 
 const TIP: TipWords = TipWords {
     control: "M128",
     rapid: "L ",
     zero: "+0 FMAX",
+    step: |letter, by| format!("I{letter}{by:+}"),
+    shorter: |letter, to| format!("M126 in the block, with {letter}{to:+}, for the shorter way"),
 };
 
 impl Reader<'_> {
@@ -57,6 +59,10 @@ impl Reader<'_> {
     ) -> bool {
         self.state.standing.begin_block();
         let mut turns = false;
+        let turning = Turning {
+            words: &TIP,
+            rapid: parsed.feed == FeedWord::Max,
+        };
         for word in &parsed.rotary {
             let at = &words[word.at].span;
             let Some(place) = self.state.standing.place_of_letter(word.letter) else {
@@ -85,7 +91,7 @@ impl Reader<'_> {
                 (_, true) => AxisTurn::Shorter(word.value.rem_euclid(360.0)),
                 (_, false) => AxisTurn::To(word.value),
             };
-            if let Err((reason, remedy)) = self.state.standing.turn_axis(place, turn) {
+            if let Err((reason, remedy)) = self.state.standing.turn_axis(place, turn, turning) {
                 self.fault(at, reason, &remedy);
             }
         }

@@ -2,6 +2,7 @@
 //!
 //! The pieces of a block share its turns out. What is rounded in one piece is made up for in the next.
 
+use crate::axis_count::{EndWord, turns_below};
 use crate::heidenhain::path_words::RotaryWord;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::words::Word;
@@ -87,30 +88,47 @@ impl Writer<'_> {
         let digits = self.angle_decimals();
         for axis in 0..end.len() {
             let letter = self.program.rotary.letters[axis];
-            let (to, now, wound) = (wanted[axis], self.angles_now[axis], way.wound_deg[axis]);
+            let (to, now) = (wanted[axis], self.angles_now[axis]);
             let word = own.iter().find(|word| char::from(word.letter) == letter);
             let number = word.and_then(|word| words[word.at].number().map(|n| (word, n)));
-            let Some((RotaryWord { step, .. }, number)) = number else {
+            // The shorter way goes to angles of one turn.
+            let reference = match (number, way.shorter) {
+                (Some((RotaryWord { step: true, .. }, _)), _) => now,
+                (_, true) => turns_below(to),
+                (_, false) => 0.0,
+            };
+            let shown = self.shown.get(axis).copied().unwrap_or_default();
+            let is_step = matches!(number, Some((RotaryWord { step: true, .. }, _)));
+            let by_step = !is_step
+                && !way.shorter
+                && shown.way_of_counting().word_of_end(now, to, digits) != EndWord::Angle;
+            let signs = self.signs[motion.file];
+            if by_step && (number.is_some() || (to - now).abs() > self.half_deg()) {
+                let text = stands(&format!("I{letter}"), to - now, digits, signs);
+                self.angles_now[axis] = now + parsed(&text.as_bytes()[2..]).unwrap_or(to - now);
+                match number {
+                    Some((word, _)) => edits.replace(words[word.at].span.clone(), text),
+                    None => added += &format!(" {text}"),
+                }
+                continue;
+            }
+            let value = to - reference;
+            let Some((word, number)) = number else {
                 if (to - now).abs() > self.half_deg() {
-                    let text = stands(
-                        &letter.to_string(),
-                        to - wound,
-                        digits,
-                        self.signs[motion.file],
-                    );
-                    let value = parsed(&text.as_bytes()[1..]).unwrap_or(to - wound);
-                    self.angles_now[axis] = value + wound;
+                    let text = stands(&letter.to_string(), value, digits, signs);
+                    let value = parsed(&text.as_bytes()[1..]).unwrap_or(value);
+                    self.angles_now[axis] = reference + value;
                     added += &format!(" {text}");
                 }
                 continue;
             };
-            let reference = match step {
-                true => now,
-                false => wound,
+            let off = match way.shorter && !word.step {
+                // Whole turns are none there.
+                true => (value - number.value + 180.0).rem_euclid(360.0) - 180.0,
+                false => value - number.value,
             };
-            let value = to - reference;
-            if (value - number.value).abs() < SAME_DEG {
-                self.angles_now[axis] = reference + number.value;
+            if off.abs() < SAME_DEG {
+                self.angles_now[axis] = to - off;
                 continue;
             }
             let text = number_text(file, number, value, digits);

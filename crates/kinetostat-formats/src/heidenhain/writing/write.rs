@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::heidenhain::numbering::numbered_again;
-use crate::heidenhain::reading::found::Way;
+use crate::heidenhain::reading::found::{Found, Way};
 use crate::heidenhain::reading::reader::interpret;
 use crate::heidenhain::writing::writer::{Reason, Writer};
 use crate::model::motion::Motion;
@@ -49,9 +49,10 @@ pub(crate) fn write_heidenhain(
         rotary_axes: program.rotary.letters.clone(),
         ..ReadOptions::default().as_written()
     };
-    let ways = interpret(&program.files, &reading).ways;
+    let Found { ways, shown, .. } = interpret(&program.files, &reading);
     let mut writer = Writer {
         program,
+        shown,
         options,
         edits: files.map(|_| Edits::default()).collect(),
         signs: program.files.iter().map(has_signs).collect(),

@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::axis_count::CountShown;
 use crate::heidenhain::digits::decimals;
 use crate::heidenhain::reading::found::Way;
 use crate::heidenhain::writing::words::Stated;
@@ -24,6 +25,8 @@ pub(crate) struct OwnPole {
 /// The walk over the motions.
 pub(crate) struct Writer<'w> {
     pub program: &'w RobotProgram,
+    /// What the program shows of how rotary axes count.
+    pub shown: Vec<CountShown>,
     pub options: &'w WriteOptions,
     pub edits: Vec<Edits>,
     /// Whether positive numbers have their sign, by file.

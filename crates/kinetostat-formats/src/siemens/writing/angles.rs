@@ -3,6 +3,7 @@
 //! The pieces of a block share its turns out: each states its angle in the way of the block's own word, and one without a word
 //! states it where it is another one than stands. What is rounded in one piece is made up for in the next.
 
+use crate::axis_count::{AxisCount, EndWord, turns_below};
 use crate::siemens::block::How;
 use crate::siemens::state::Coordinate;
 use crate::siemens::writing::writer::Writer;
@@ -25,12 +26,88 @@ struct AngleText {
 
 impl Writer<'_> {
     fn word_of(&self, axis: usize) -> Option<(&Coordinate, How)> {
-        let mut words = self.written.rotary.0.iter();
+        let mut words = self.written.rotary.iter();
         words.find_map(|(place, word, how)| (*place == axis).then_some((word, *how)))
     }
 
-    fn wound(&self, axis: usize) -> f64 {
-        self.written.rotary.1.get(axis).copied().unwrap_or(0.0)
+    /// Whole turns that an axis does not show at an angle, deg.
+    fn wound_at(&self, axis: usize, to: f64) -> f64 {
+        let shown = self.shown.get(axis).copied().unwrap_or_default();
+        match shown.way_of_counting() {
+            AxisCount::OneTurn => turns_below(to),
+            AxisCount::On | AxisCount::Open => 0.0,
+        }
+    }
+
+    /// How an absolute word turns an axis from where it stands to an angle.
+    fn end_word(&self, axis: usize, from: f64, to: f64) -> EndWord {
+        let shown = self.shown.get(axis).copied().unwrap_or_default();
+        shown
+            .way_of_counting()
+            .word_of_end(from, to, self.options.angle_decimals)
+    }
+
+    /// The word of an axis that turns it from where it stands to an angle, and that angle, where the block's own word would say
+    /// something else: across 0 and 360 deg, or where ACP and ACN would go round.
+    fn word_instead(
+        &self,
+        axis: usize,
+        (word, how): (&Coordinate, How),
+        from: f64,
+        to: f64,
+    ) -> Option<(String, f64)> {
+        if word.step {
+            return None;
+        }
+        let end_word = match how {
+            How::Rotary => {
+                let before = self.file.part(&(word.whole.start..word.number.start));
+                let shape = before.to_ascii_uppercase();
+                let against = match (shape.starts_with(b"ACP"), shape.starts_with(b"ACN")) {
+                    (true, _) => to < from,
+                    (_, true) => to > from,
+                    _ => false,
+                };
+                match against {
+                    true => EndWord::Shorter,
+                    false => return None,
+                }
+            }
+            _ => self.end_word(axis, from, to),
+        };
+        match end_word {
+            EndWord::Angle => None,
+            other => self.written_end(axis, other, from, to),
+        }
+    }
+
+    /// A word that ends at an angle by the shorter way or by a step, and the angle that it reaches.
+    fn written_end(
+        &self,
+        axis: usize,
+        end_word: EndWord,
+        from: f64,
+        to: f64,
+    ) -> Option<(String, f64)> {
+        let (letter, digits) = (self.letters.get(axis)?, self.options.angle_decimals);
+        if let EndWord::Step = end_word {
+            let text = format!("{:.digits$}", to - from);
+            let by: f64 = text.parse().unwrap_or(to - from);
+            return Some((format!("{letter}=IC({text})"), from + by));
+        }
+        let one_turn = match to - turns_below(to) {
+            // What the arithmetic leaves.
+            least if least < 0.0 => 0.0,
+            one_turn => one_turn,
+        };
+        let text = format!("{one_turn:.digits$}");
+        let value: f64 = text.parse().unwrap_or(one_turn);
+        // Of one turn: 360 is 0.
+        let text = match value >= 360.0 {
+            true => "0".to_owned(),
+            false => text,
+        };
+        Some((format!("{letter}=DC({text})"), to - one_turn + value))
     }
 
     /// The number with which a word turns an axis from where it stands to an angle.
@@ -42,7 +119,7 @@ impl Writer<'_> {
         to: f64,
     ) -> AngleText {
         let digits = self.options.angle_decimals;
-        let wound = self.wound(axis);
+        let wound = self.wound_at(axis, to);
         let (reference, value) = match (word.step, how) {
             (true, _) => (from, to - from),
             (false, How::Rotary) => {
@@ -90,9 +167,14 @@ impl Writer<'_> {
         if (to - from).abs() <= half_deg(digits) {
             return None;
         }
-        let letter = self.letters.get(axis)?;
-        let text = format!("{:.digits$}", to - self.wound(axis));
-        let reached = text.parse::<f64>().unwrap_or(to) + self.wound(axis);
+        let end_word = self.end_word(axis, from, to);
+        if end_word != EndWord::Angle {
+            let (word, reached) = self.written_end(axis, end_word, from, to)?;
+            return Some((format!(" {word}"), reached));
+        }
+        let (letter, wound) = (self.letters.get(axis)?, self.wound_at(axis, to));
+        let text = format!("{:.digits$}", to - wound);
+        let reached = text.parse::<f64>().unwrap_or(to) + wound;
         let word = match self.written.steps {
             true => format!(" {letter}=AC({text})"),
             false => format!(" {letter}{text}"),
@@ -110,6 +192,12 @@ impl Writer<'_> {
             let from = start[axis] + self.held.turned_deg[axis];
             let reached = match self.word_of(axis) {
                 Some((word, how)) => {
+                    let instead = self.word_instead(axis, (word, how), from, wanted[axis]);
+                    if let Some((text, reached)) = instead {
+                        self.edits.replace(word.word.clone(), text);
+                        self.hold(axis, reached - end[axis]);
+                        continue;
+                    }
                     let span = word.number.clone();
                     let made = self.angle_text(axis, (word, how), from, wanted[axis]);
                     if made.text.as_bytes() != self.file.part(&span) {
@@ -138,6 +226,12 @@ impl Writer<'_> {
             let from = end[axis] + self.held.turned_deg[axis];
             let found = match self.word_of(axis) {
                 Some((word, how)) if (wanted[axis] - from).abs() > SAME_DEG => {
+                    let instead = self.word_instead(axis, (word, how), from, wanted[axis]);
+                    if let Some((text, reached)) = instead {
+                        line.push_str(&format!(" {text}"));
+                        self.hold(axis, reached - end[axis]);
+                        continue;
+                    }
                     let made = self.angle_text(axis, (word, how), from, wanted[axis]);
                     let part = |from: usize, to: usize| {
                         String::from_utf8_lossy(self.file.part(&(from..to))).into_owned()
@@ -175,7 +269,7 @@ impl Writer<'_> {
 
     /// In a motion that stays as it is written, axes with absolute words come to where the program has them.
     pub(crate) fn angles_left(&mut self) {
-        for (axis, word, _) in &self.written.rotary.0 {
+        for (axis, word, _) in &self.written.rotary {
             if let Some(turned) = self.held.turned_deg.get_mut(*axis).filter(|_| !word.step) {
                 *turned = 0.0;
             }

@@ -69,6 +69,7 @@ pub(crate) fn write_siemens(
                     Some(AxesStated::Angles { start, end }) => Some([start, end]),
                     _ => None,
                 },
+                shown: &found.shown,
                 file: source,
                 motion,
                 written,

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::axis_count::CountShown;
 use crate::model::motion::Motion;
 use crate::options::WriteOptions;
 use crate::siemens::state::Code;
@@ -33,6 +34,8 @@ pub(crate) struct Writer<'w> {
     /// Letters of the rotary axes whose words are followed, and where they stand at the start and the end of the motion, deg.
     pub letters: &'w [char],
     pub angles: Option<[&'w [f64]; 2]>,
+    /// What the program shows of how they count.
+    pub shown: &'w [CountShown],
     pub file: &'w SourceFile,
     pub motion: &'w Motion,
     pub written: &'w Written,

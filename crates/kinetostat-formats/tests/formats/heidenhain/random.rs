@@ -228,6 +228,8 @@ pub fn program(chance: &mut Chance) -> String {
     if writer.chance.below(2) == 0 {
         writer.block("L A+0 C+0 FMAX");
         writer.block("M128");
+        // Angles below 0: both axes count on.
+        writer.block("L A-5 C-5 FMAX");
         writer.turns = true;
     }
     for _ in 0..writer.chance.below(16) {

@@ -129,7 +129,7 @@ impl Writer<'_> {
             words.push(match self.chance.below(4) {
                 0 => format!("A=IC({angle})"),
                 1 => format!("C=DC({})", angle.abs()),
-                2 => format!("C=AC({angle})"),
+                2 => format!("C=AC({})", angle.abs()),
                 _ => format!("A=AC({angle}) C=ACN({})", angle.abs()),
             });
         }
@@ -207,7 +207,7 @@ pub fn program(chance: &mut Chance) -> String {
     writer.line("F600");
     if writer.chance.below(2) == 0 {
         writer.line("TRAORI");
-        writer.line(&format!("G0 X{x} Y{y} Z{z} A0 C0"));
+        writer.line(&format!("G0 X{x} Y{y} Z{z} A-5 C0"));
         writer.turns = true;
     }
     for _ in 0..writer.chance.below(16) {

@@ -1,0 +1,188 @@
+//! One rotary axis: where it stands, and the words that turn it.
+//!
+//! Takes the words, gives an angle that counts on over whole turns; what a modulo axis shows of it is less by whole turns. Where it is
+//! open how the axis counts, and a cut depends on it, the word is refused with both readings.
+
+use crate::axis_count::{AxisCount, CountShown, SAME_DEG, is_in_one_turn, turns_below};
+
+/// Angles below this are zero, deg.
+pub(crate) const ZERO_DEG: f64 = 1e-9;
+
+/// How a word turns an axis, deg.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum AxisTurn {
+    /// To an angle, straight on.
+    To(f64),
+    /// By an angle.
+    By(f64),
+    /// To an angle of one turn, the shorter way (DC; M126).
+    Shorter(f64),
+    /// To an angle of one turn, upwards (ACP).
+    Upwards(f64),
+    /// To an angle of one turn, downwards (ACN).
+    Downwards(f64),
+}
+
+/// What is wrong, and what to do.
+pub(crate) type AxisFault = (String, String);
+
+/// The words with which a language has tool centre point control, and states an angle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TipWords {
+    /// `TRAORI`, `M128`.
+    pub control: &'static str,
+    /// `G0 `, `L `: what stands before the word of an axis at zero.
+    pub rapid: &'static str,
+    /// What stands behind the letter of an axis at zero.
+    pub zero: &'static str,
+    /// The word of a step, deg.
+    pub step: fn(char, f64) -> String,
+    /// What turns an axis of 0 to 360 deg to an angle.
+    pub shorter: fn(char, f64) -> String,
+}
+
+/// What else is to be known of a turn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turning<'w> {
+    pub words: &'w TipWords,
+    /// In rapid traverse: which way round the axis goes there, changes nothing in the part.
+    pub rapid: bool,
+}
+
+/// Where one axis stands, deg.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StandingAxis {
+    pub letter: char,
+    pub at: Option<f64>,
+    count: AxisCount,
+    pub shown: CountShown,
+    /// Whole turns that a modulo axis does not show, deg.
+    wound: f64,
+    /// It came out of 0 to 360 deg by no absolute word: which angle the control shows, is open.
+    left: bool,
+    /// It was sent to a place of the machine.
+    pub sent: bool,
+}
+
+impl StandingAxis {
+    /// Of an axis that counts as it is shown of it.
+    pub(crate) fn new(letter: char, shown: CountShown) -> Self {
+        Self {
+            letter,
+            at: None,
+            count: shown.way_of_counting(),
+            shown: CountShown::default(),
+            wound: 0.0,
+            left: false,
+            sent: false,
+        }
+    }
+
+    /// Where it stands is not known.
+    pub(crate) fn be_anywhere(&mut self) {
+        (self.at, self.wound) = (None, 0.0);
+        (self.left, self.sent) = (false, false);
+    }
+
+    /// A word turns it; whether by half a turn, the shorter way.
+    pub(crate) fn take_turn(
+        &mut self,
+        turn: AxisTurn,
+        turning: Turning<'_>,
+    ) -> Result<bool, AxisFault> {
+        let mut halved = false;
+        let at = match (turn, self.at) {
+            (AxisTurn::To(to), _) => return self.turn_to(to, turning).map(|()| false),
+            (AxisTurn::By(by), Some(at)) => at + by,
+            (AxisTurn::By(_), None) => {
+                let letter = self.letter;
+                return Err((
+                    format!("axis {letter} turns by an angle, and where it stands is not stated"),
+                    format!("state it before by an absolute word ({letter}0)"),
+                ));
+            }
+            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), Some(at)) => {
+                let up = match (self.of_one_turn(to)? - at).rem_euclid(360.0) {
+                    // It stands there: what the arithmetic leaves is no turn.
+                    up if up > 360.0 - SAME_DEG => up - 360.0,
+                    up => up,
+                };
+                halved = matches!(turn, AxisTurn::Shorter(_)) && (up - 180.0).abs() < ZERO_DEG;
+                let by = match turn {
+                    AxisTurn::Upwards(_) => up,
+                    AxisTurn::Downwards(_) if up > SAME_DEG => up - 360.0,
+                    AxisTurn::Shorter(_) if up > 180.0 => up - 360.0,
+                    _ => up,
+                };
+                to + ((at + by - to) / 360.0).round() * 360.0
+            }
+            (AxisTurn::Shorter(to) | AxisTurn::Upwards(to) | AxisTurn::Downwards(to), None) => {
+                self.of_one_turn(to)?
+            }
+        };
+        match self.count {
+            AxisCount::OneTurn => self.wound = turns_below(at),
+            // A step on an axis that counts on is followed; that a shorter way crosses 0 is said of one that does not.
+            AxisCount::On if matches!(turn, AxisTurn::By(_)) => {}
+            AxisCount::On | AxisCount::Open => self.left = !is_in_one_turn(at),
+        }
+        (self.at, self.sent) = (Some(at), false);
+        Ok(halved)
+    }
+
+    /// An absolute word turns it.
+    fn turn_to(&mut self, to: f64, turning: Turning<'_>) -> Result<(), AxisFault> {
+        let letter = self.letter;
+        let from = self.at.filter(|_| self.left);
+        (self.sent, self.left) = (false, false);
+        self.at = Some(to + self.wound);
+        let beyond = !(0.0..360.0).contains(&to);
+        self.shown.beyond |= beyond;
+        if beyond && self.count == AxisCount::OneTurn {
+            return Err((
+                format!(
+                    "axis {letter} is sent to {to} deg, and DC, ACP or ACN in this program turn it: such an axis counts from 0 to 360 deg"
+                ),
+                format!(
+                    "write an angle from 0 to 359.999, or a step ({})",
+                    (turning.words.step)(letter, 10.0)
+                ),
+            ));
+        }
+        let Some(from) = from.filter(|from| !turning.rapid && !is_in_one_turn(*from)) else {
+            return Ok(());
+        };
+        self.shown.differs = true;
+        let shown = from - turns_below(from);
+        // Digits that the arithmetic leaves are none.
+        let tidy = |angle: f64| (angle * 1e5).round() / 1e5 + 0.0;
+        let (on, within) = (tidy(to - from), tidy(to - shown));
+        let (from, shown) = (tidy(from), tidy(shown));
+        let step = turning.words.step;
+        Err((
+            format!(
+                "axis {letter} is sent to {to} deg, and how far it turns is open: it came to {from} deg by a step or the shorter way. If it counts on it turns by {on} deg, and if it counts from 0 to 360, it stands at {shown} and turns by {within} deg"
+            ),
+            format!(
+                "write the turn that is meant as a step: {} or {}; or, on an axis that counts from 0 to 360, {}; or, on one that counts on, state {letter}{from} where it stands",
+                step(letter, on),
+                step(letter, within),
+                (turning.words.shorter)(letter, to)
+            ),
+        ))
+    }
+
+    /// An angle of one turn.
+    fn of_one_turn(&self, to: f64) -> Result<f64, AxisFault> {
+        match (0.0..360.0).contains(&to) {
+            true => Ok(to),
+            false => Err((
+                format!(
+                    "axis {} is sent to {to} deg of one turn (DC, ACP, ACN)",
+                    self.letter
+                ),
+                "write an angle from 0 to 359.999".to_owned(),
+            )),
+        }
+    }
+}
