@@ -293,7 +293,12 @@ pub(crate) fn setting(
         forces: None,
         inputs,
     };
-    if flags.robot.converted {
+    // `check` and `deflect` take the same job.
+    let names_robot = job.is_some_and(|j| {
+        let table = j.job.robot.as_ref();
+        table.is_some_and(|table| table.get_ref().to.is_some())
+    });
+    if flags.robot.converted || (names_robot && setting.robot.is_none()) {
         setting.correct_what_is_made();
     }
     setting.write_flat_to(target);
