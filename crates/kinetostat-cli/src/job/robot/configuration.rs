@@ -12,8 +12,11 @@ use crate::ui::numbers::fixed;
 /// Nearer to a singular posture than this, mm or deg, both sides are one.
 const ON_NEITHER_SIDE: f64 = 0.1;
 
-/// What follows, and what helps.
-const REMEDY: &str = "the results are those of the model's posture, not of the program's. Give the model a home in the program's configuration, or run the parts with different configurations one by one";
+/// What helps, with the program that was written, ...
+const OF_PROGRAM: &str = "Give the model a home in the program's configuration, or run the parts with different configurations one by one";
+
+/// ... and with one that is made.
+const OF_MADE: &str = "State the configuration that was solved in the template (configuration), or give the model a home in the program's";
 
 /// What a program in a language would state of a posture: shoulder, elbow and wrist, each where it is on one of two sides.
 ///
@@ -96,6 +99,7 @@ pub(crate) fn other_configuration(
         let other = others(&stated, &own);
         (!other.is_empty()).then(|| {
             let what = of_parts(&other);
+            let remedy = made.map_or(OF_PROGRAM, |_| OF_MADE);
             let joints = arm.and_then(|arm| shown(arm, point));
             let joints = joints.map_or_else(String::new, |joints| {
                 format!(", with the joints at {} deg", joint_words(&joints))
@@ -108,7 +112,7 @@ pub(crate) fn other_configuration(
                 WarningCode::OtherConfiguration,
                 point.line,
                 format!(
-                    "the program states the configuration `{}`, and the model's arm is solved {solved}{joints}, which is another {what}: {REMEDY}.{taken}",
+                    "the program states the configuration `{}`, and the model's arm is solved {solved}{joints}, which is another {what}: the results are those of the model's posture, not of the program's. {remedy}.{taken}",
                     configuration.text,
                 ),
             )

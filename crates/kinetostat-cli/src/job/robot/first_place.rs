@@ -49,9 +49,11 @@ pub(crate) fn of_first_place(
                 WarningCode::OtherConfiguration,
                 point.line,
                 format!(
-                    "the program begins at start_joints_deg {} of the template, {other}: the results are not those of the arm that comes from there. start_joints_deg = [{}] begins in the posture that was solved; or give the model a home in the configuration of the start. Joints are taken {counted}",
+                    "the program begins at start_joints_deg {} of the template, {}: the results are not those of the arm that comes from there. start_joints_deg = [{}] begins in the posture that was solved{}. Joints are taken {counted}",
                     joint_words(start),
-                    joints.join(", ")
+                    other.what,
+                    joints.join(", "),
+                    other.helps,
                 ),
             )
         }));
@@ -59,25 +61,35 @@ pub(crate) fn of_first_place(
     found
 }
 
+/// What is otherwise, and what helps beside another start.
+struct Otherwise {
+    what: String,
+    helps: &'static str,
+}
+
 /// What is otherwise at the joints with which the program starts.
 fn otherwise(
     arm: &ArmOfTable,
     start: &[f64],
     (solved, joints): (&ArmConfiguration, &[f64]),
-) -> Option<String> {
+) -> Option<Otherwise> {
     let of_start = arm.configuration_at(start)?;
     if of_start.number != solved.number {
-        return Some(format!(
-            "where the arm is {of_start}, and the run solved it {solved}"
-        ));
+        return Some(Otherwise {
+            what: format!("where the arm is {of_start}, and the run solved it {solved}"),
+            helps: "; or give the model a home in the configuration of the start",
+        });
     }
     let far = start.iter().zip(joints).enumerate();
     let mut far = far.filter(|(_, (start, joint))| (*start - *joint).abs() > HALF_A_TURN);
     let (axis, (start, joint)) = far.next()?;
-    Some(format!(
-        "where joint {} is at {start:.1} deg, and the run solved it at {joint:.1} deg, more than half a turn away",
-        axis + 1
-    ))
+    Some(Otherwise {
+        what: format!(
+            "where joint {} is at {start:.1} deg, and the run solved it at {joint:.1} deg, more than half a turn away",
+            axis + 1
+        ),
+        helps: "",
+    })
 }
 
 /// The configuration as the language states it, where all of it is known.
