@@ -60,13 +60,13 @@ impl ArmJoints {
     ///
     /// let model = Model::preset("heavy_6r")?;
     /// let arm = ArmJoints::of(&model.mechanism).ok_or("not an arm of six turning joints")?;
-    /// let bent_down = arm.configuration(&[0.0, -0.3, 0.6, 0.0, 1.3, 0.0]).ok_or("no wrist in one point")?;
-    /// let bent_up = arm.configuration(&[0.0, -0.3, 0.6, 0.0, -1.3, 0.0]).ok_or("no wrist in one point")?;
+    /// let bent_down = arm.configuration_by_joints(&[0.0, -0.3, 0.6, 0.0, 1.3, 0.0]).ok_or("no wrist in one point")?;
+    /// let bent_up = arm.configuration_by_joints(&[0.0, -0.3, 0.6, 0.0, -1.3, 0.0]).ok_or("no wrist in one point")?;
     /// assert_eq!((bent_down.wrist, bent_up.wrist), (Wrist::NoFlip, Wrist::Flip));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn configuration(&self, joints: &[f64; 6]) -> Option<ArmConfiguration> {
+    pub fn configuration_by_joints(&self, joints: &[f64; 6]) -> Option<ArmConfiguration> {
         self.wrist.as_ref()?.configuration(joints)
     }
 

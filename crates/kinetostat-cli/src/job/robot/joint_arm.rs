@@ -40,7 +40,8 @@ impl ArmOfTable {
 
     /// The configuration at what stands in the table, deg; none of an arm whose last three axes do not meet in one point.
     pub(crate) fn configuration_at(&self, shown_deg: &[f64]) -> Option<ArmConfiguration> {
-        self.arm.configuration(&self.model_joints(shown_deg))
+        self.arm
+            .configuration_by_joints(&self.model_joints(shown_deg))
     }
 
     /// The model's joint values, rad.
