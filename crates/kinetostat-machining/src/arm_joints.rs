@@ -6,6 +6,8 @@
 use kinetostat::{Mechanism, Pose};
 
 use crate::free_turn::serial::SerialArm;
+use crate::joints::arm::Arm;
+use crate::result::joints::ArmConfiguration;
 
 /// Longest step of the way from one pose to another, m.
 const STEP: f64 = 0.02;
@@ -36,13 +38,36 @@ const MOST_STEPS: f64 = 1e4;
 #[derive(Clone, Debug)]
 pub struct ArmJoints {
     arm: SerialArm,
+    /// None where the last three axes do not meet in one point.
+    wrist: Option<Arm>,
 }
 
 impl ArmJoints {
     /// The joints of a machine with its tool; none where it has other joints than six that turn in one chain.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
-        SerialArm::of(mechanism).map(|arm| Self { arm })
+        SerialArm::of(mechanism).map(|arm| Self {
+            arm,
+            wrist: Arm::of(mechanism),
+        })
+    }
+
+    /// The configuration at joint values, rad; none of an arm whose last three axes do not meet in one point.
+    ///
+    /// ```
+    /// use kinetostat_machining::{ArmJoints, Wrist};
+    /// use kinetostat_model::Model;
+    ///
+    /// let model = Model::preset("heavy_6r")?;
+    /// let arm = ArmJoints::of(&model.mechanism).ok_or("not an arm of six turning joints")?;
+    /// let bent_down = arm.configuration_by_joints(&[0.0, -0.3, 0.6, 0.0, 1.3, 0.0]).ok_or("no wrist in one point")?;
+    /// let bent_up = arm.configuration_by_joints(&[0.0, -0.3, 0.6, 0.0, -1.3, 0.0]).ok_or("no wrist in one point")?;
+    /// assert_eq!((bent_down.wrist, bent_up.wrist), (Wrist::NoFlip, Wrist::Flip));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn configuration_by_joints(&self, joints: &[f64; 6]) -> Option<ArmConfiguration> {
+        self.wrist.as_ref()?.configuration(joints)
     }
 
     /// Pose of the tool, base from tool, m, at joint values in rad.

@@ -43,7 +43,9 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     let files = InputFiles::default();
     compensate(&files, &args).map_err(|failure| {
         let mut program = args.run.program.clone();
-        program.robot.converted = args.to.is_some();
+        let job = args.run.job.as_deref();
+        let job = job.and_then(|path| JobFile::read(&files, path).ok());
+        program.robot.converted = target(job.as_ref(), &args).is_some();
         let query = RunQuery {
             // A table and a copy need no machine: not all of the job is read for them.
             job: args
@@ -144,9 +146,14 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
 fn with_turn_hint(mut failure: Failure, (setting, to): (&Setting, Option<RobotWord>)) -> Failure {
     let helps = failure.plain.contains("turn of the tool") || failure.plain.contains("tool turned");
     if helps && to.is_some() && setting.free_turn == FreeTurnWord::AsStated {
-        failure.plain.push_str(
-            ". --free-turn (free_turn = \"choose\" under [robot]) chooses the turn of a round tool along the path",
-        );
+        failure.plain.push_str(match failure.plain.contains("No turn of the tool") {
+            true => {
+                ". That is of a turn that stays the same along the program: --free-turn (free_turn = \"choose\" under [robot]) looks for one that changes along it, of a round tool"
+            }
+            false => {
+                ". --free-turn (free_turn = \"choose\" under [robot]) chooses the turn of a round tool along the path"
+            }
+        });
         failure.styled = None;
     }
     failure

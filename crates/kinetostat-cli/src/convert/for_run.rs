@@ -19,7 +19,7 @@ use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::divided::Divided;
 use crate::job::robot::read_once::Reading;
-use crate::job::robot::settings::settings;
+use crate::job::robot::settings::{MadeArm, settings};
 use crate::job::robot::source::RobotSource;
 use crate::job::setting::Setting;
 use crate::job::target_word::RobotWord;
@@ -91,6 +91,11 @@ pub(crate) fn for_run(
     };
     let mut found = settings(None, &flags.robot, (of_robot, axis))?;
     found.axis_is_stated = true;
+    found.corrected = setting.correct_converted.directions();
+    found.made_arm = Some(MadeArm {
+        states_configuration: template.template.configuration.is_some(),
+        start_joints_deg: template.template.start_joints_deg.clone(),
+    });
     found.making.tool_axis = axis;
     // Straight rapids have this speed, but for the last digit.
     found.making.rapid_from_mm_per_s = Some(0.999_999 * template.template.rapid_speed_mm_per_s);

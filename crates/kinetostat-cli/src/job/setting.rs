@@ -48,6 +48,8 @@ pub(crate) struct Setting {
     pub(crate) reading: ReadOptions,
     /// What of the tool's pose is corrected in a program in G-code.
     pub(crate) correct: CorrectWord,
+    /// The same of a program that is made in another language: it states how its tool stands where its source does not.
+    pub(crate) correct_converted: CorrectWord,
     pub(crate) writing: WriteOptions,
     pub(crate) max_blocks_per_second: Option<f64>,
     /// What refuses a program.
@@ -64,6 +66,14 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
+    /// What of the tool's pose is corrected counts for the program that is made of this one.
+    fn correct_what_is_made(&mut self) {
+        self.correct_converted = std::mem::take(&mut self.correct);
+        if let Some(robot) = &mut self.robot {
+            robot.settings.corrected = self.correct.directions();
+        }
+    }
+
     /// A failure along the program: with its name, and of an expanded one with the lines that its lines came from.
     pub(crate) fn within(&self, mut failure: Failure) -> Failure {
         if let Some(flat) = &self.flat {
@@ -273,6 +283,7 @@ pub(crate) fn setting(
         program_name,
         reading,
         correct: flags.robot.correct.or(in_job).unwrap_or_default(),
+        correct_converted: CorrectWord::default(),
         writing: write,
         max_blocks_per_second,
         limits,
@@ -282,6 +293,14 @@ pub(crate) fn setting(
         forces: None,
         inputs,
     };
+    // `check` and `deflect` take the same job.
+    let names_robot = job.is_some_and(|j| {
+        let table = j.job.robot.as_ref();
+        table.is_some_and(|table| table.get_ref().to.is_some())
+    });
+    if flags.robot.converted || (names_robot && setting.robot.is_none()) {
+        setting.correct_what_is_made();
+    }
     setting.write_flat_to(target);
     Ok(setting)
 }

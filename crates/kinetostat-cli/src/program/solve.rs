@@ -1,5 +1,6 @@
 //! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
+use kinetostat::Pose;
 use kinetostat::number::larger;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
@@ -15,6 +16,8 @@ use crate::job::free_turn::{FreeTurn, chosen, only_tool};
 use crate::job::machine::MachineSetup;
 use crate::job::program::{ReadProgram, read_program};
 use crate::job::robot::configuration::other_configuration;
+use crate::job::robot::first_place::of_first_place;
+use crate::job::robot::joint_arm::ArmOfTable;
 use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
@@ -232,8 +235,11 @@ pub(crate) fn turned(
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {
-        let other = other_configuration(read.program, &read.path, &run.points);
+        let arm = ArmOfTable::of(model, &Pose::identity());
+        let other = other_configuration(read, arm.as_ref(), &run.points);
         run.result.warnings.extend(other);
+        let first = of_first_place(read, arm.as_ref(), &run.points);
+        run.result.warnings.extend(first);
     }
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second

@@ -420,3 +420,85 @@ fn the_check_of_a_job_names_the_programs_of_its_language() {
         }
     }
 }
+
+/// The language does not say in which of its postures the arm was solved: it is named, and what speaks against it.
+#[test]
+fn the_configuration_that_was_solved_is_named() {
+    let here = place(JOB);
+    let here = here.path();
+    let run_with = |more: &str, to: &str| {
+        let cell = CELL.replace("[base]", &format!("{more}\n[base]"));
+        std::fs::write(here.join("cell.toml"), cell).unwrap();
+        let line = format!("compensate job.toml --to {to} --template cell.toml --force-overwrite");
+        one_line(&run(here, &words(&line)).answered().out)
+    };
+    for (to, words) in [("ls", "(`N U T`)"), ("krl", "(S 2)"), ("rapid", "(cfx 0)")] {
+        let said = run_with("", to);
+        let expected = format!(
+            "the arm was solved in the configuration front, elbow up, wrist not flipped {words}; at its first place its joints are ("
+        );
+        assert!(said.contains(&expected), "{said}");
+        assert!(!said.contains("states the configuration"), "{said}");
+    }
+    for (to, stated, part) in [
+        ("ls", "F U T, 0, 0, 0", "wrist"),
+        ("ls", "N D B, 0, 0, 0", "shoulder and elbow"),
+        ("krl", "S 0, T 0", "elbow"),
+        ("krl", "S 6, T 0", "wrist"),
+        ("rapid", "[0,0,0,1]", "wrist"),
+    ] {
+        let said = run_with(&format!("configuration = \"{stated}\""), to);
+        assert!(
+            said.contains("the program states the configuration `"),
+            "{said}"
+        );
+        assert!(
+            said.contains(&format!("which is another {part}: ")),
+            "{said}"
+        );
+    }
+    // Where the arm starts counts, too: it begins with its wrist bent to the other side, or a turn away.
+    let said = run_with("start_joints_deg = [0, -20, 35, 180, -75, 0]", "krl");
+    assert!(
+        said.contains("where the arm is front, elbow up, wrist flipped, and the run solved it front, elbow up, wrist not flipped"),
+        "{said}"
+    );
+    let said = run_with("start_joints_deg = [0, -20, 35, 350, 75, 0]", "krl");
+    assert!(said.contains("where joint 4 is at 350.0 deg"), "{said}");
+    let said = run_with("start_joints_deg = [0, -20, 35, 0, 75, 0]", "krl");
+    assert!(
+        !said.contains("the program begins at start_joints_deg"),
+        "{said}"
+    );
+}
+
+/// A program of positions states how its tool stands as soon as it is one of a robot.
+#[test]
+fn the_orientation_of_a_converted_program_is_corrected() {
+    let here = place(JOB);
+    let here = here.path();
+    let line = "compensate job.toml --to krl --template cell.toml --out o.src --flat-program f.src --correct pose";
+    run(here, &words(line)).answered();
+    let [flat, written] = ["f.src", "o.src"].map(|name| read(here, name));
+    let angles = |text: &str| -> Vec<String> {
+        let motions = text.lines().filter(|line| line.starts_with("LIN {"));
+        let angles =
+            motions.filter_map(|line| Some(line[line.find(",A ")?..line.find('}')?].to_owned()));
+        angles
+            .collect::<std::collections::BTreeSet<_>>()
+            .into_iter()
+            .collect()
+    };
+    assert_eq!(angles(&flat).len(), 1, "{flat}");
+    assert!(angles(&written).len() > 1, "{written}");
+    // In the job, too.
+    let job = format!("{JOB}[robot]\nto = \"krl\"\ntemplate = \"cell.toml\"\ncorrect = \"pose\"\n");
+    std::fs::write(here.join("job.toml"), job).unwrap();
+    run(here, &words("check job.toml")).answered();
+    run(
+        here,
+        &words("compensate job.toml --out o.src --flat-program f.src --force-overwrite"),
+    )
+    .answered();
+    assert_eq!(angles(&read(here, "o.src")), angles(&written));
+}

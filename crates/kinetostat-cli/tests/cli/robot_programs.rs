@@ -181,10 +181,21 @@ fn another_configuration_than_the_model_s_is_warned_of() {
                 "[[60,0,-1],[0,0,1,0],[0,0,0,2]",
                 1,
             ),
-            "after `[0,0,0,0]` and front, elbow up, wrist not flipped on line 6",
+            "the program states the configuration `[0,0,0,2]`, and the model's arm is solved front, elbow up, wrist not flipped",
         ),
-        // Where all stay to one side of elbow and wrist nothing can be said.
-        (SLOT.replace("[0,0,0,0],[9E9", "[0,0,0,3],[9E9"), ""),
+        (
+            SLOT.replace("[0,0,0,0],[9E9", "[0,0,0,3],[9E9"),
+            "which is another elbow and wrist",
+        ),
+        // Where the controller takes what is near, elbow and wrist are not those that are stated.
+        (
+            SLOT.replace("[0,0,0,0],[9E9", "[0,0,0,3],[9E9").replace(
+                "    MoveJ pIn,",
+                "    ConfJ\\Off;\n    ConfL\\Off;\n    MoveJ pIn,",
+            ),
+            "",
+        ),
+        (SLOT.to_owned(), ""),
     ] {
         let here = place(&stated);
         let said = run(here.path(), &words(RUN)).answered();

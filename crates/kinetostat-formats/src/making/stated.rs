@@ -177,29 +177,34 @@ pub(crate) fn is_identity(pose: &Isometry3<f64>) -> bool {
 fn of_configuration(template: &Template, language: MakeLanguage) -> Option<MakeError> {
     let text = template.configuration.as_ref()?;
     let (form, right) = match language {
-        MakeLanguage::Krl => ("S 2, T 35", is_status_and_turn(text)),
-        MakeLanguage::Rapid => ("[0,-1,0,0]", is_four_numbers(text)),
-        MakeLanguage::FanucLs => ("N U T, 0, 0, 0", is_configuration(text)),
+        MakeLanguage::Krl => (
+            "\"S 2, T 35\" here, S from 0 to 31 (bits 0 to 2 say how the arm bends) and T from 0 to 63",
+            is_status_and_turn(text),
+        ),
+        MakeLanguage::Rapid => ("\"[0,-1,0,0]\" here", is_four_numbers(text)),
+        MakeLanguage::FanucLs => ("\"N U T, 0, 0, 0\" here", is_configuration(text)),
         _ => return None,
     };
     (!right).then(|| {
         let shown: String = text.chars().take(40).filter(|c| !c.is_control()).collect();
         MakeError::of(
             format!("the configuration is `{shown}`"),
-            format!("it is written as \"{form}\" here"),
+            format!("it is written as {form}"),
         )
     })
 }
 
 fn is_status_and_turn(text: &str) -> bool {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let number = |part: &str, letter: char| {
+    let number = |part: &str, letter: char, most: u32| {
         let rest = part.strip_prefix(letter).map(str::trim);
         rest.is_some_and(|rest| {
-            !rest.is_empty() && rest.len() <= 3 && rest.bytes().all(|b| b.is_ascii_digit())
+            let digits = rest.len() <= 3 && rest.bytes().all(|b| b.is_ascii_digit());
+            digits && rest.parse().is_ok_and(|value: u32| value <= most)
         })
     };
-    matches!(parts[..], [s, t] if number(s, 'S') && number(t, 'T'))
+    // S has five bits at most, T one for each of six axes.
+    matches!(parts[..], [s, t] if number(s, 'S', 31) && number(t, 'T', 63))
 }
 
 fn is_four_numbers(text: &str) -> bool {

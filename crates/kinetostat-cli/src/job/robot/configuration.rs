@@ -1,93 +1,153 @@
 //! The configuration of the arm that a program states, beside that in which the model was solved.
 
-use kinetostat_formats::{RobotPath, RobotProgram, StatedArm};
+use kinetostat_formats::{Language, RobotProgram, StatedArm};
 use kinetostat_machining::{
     ArmConfiguration, Elbow, PointResult, Shoulder, Warning, WarningCode, Wrist,
 };
 
-/// A place where the program states a configuration, and that of the model there.
-struct Place {
-    line: usize,
-    text: String,
-    stated: StatedArm,
-    solved: ArmConfiguration,
+use crate::job::robot::joint_arm::ArmOfTable;
+use crate::job::robot::read_program::RobotRead;
+use crate::ui::numbers::fixed;
+
+/// Nearer to a singular posture than this, mm or deg, both sides are one.
+const ON_NEITHER_SIDE: f64 = 0.1;
+
+/// What helps, with the program that was written, ...
+const OF_PROGRAM: &str = "Give the model a home in the program's configuration, or run the parts with different configurations one by one";
+
+/// ... and with one that is made.
+const OF_MADE: &str = "State the configuration that was solved in the template (configuration), or give the model a home in the program's";
+
+/// What a program in a language would state of a posture: shoulder, elbow and wrist, each where it is on one of two sides.
+///
+/// Behind axis 1 is the same for all makers, and so is the elbow: KUKA sets bit 1 where axis 3 bends the forearm down from the upper
+/// arm (elbow up), ABB and FANUC say the other side (bit 1 of cfx: the wrist is behind the lower arm; D). The wrist of KUKA and ABB is the
+/// sign of axis 5 as the controller shows it; without `[controller]`, and for FANUC, a wrist is flipped that bends to the other side than
+/// at the model's home.
+pub(crate) fn as_stated(
+    language: Language,
+    solved: &ArmConfiguration,
+    axis_5_deg: Option<f64>,
+) -> StatedArm {
+    let beyond = |distance: f64| distance > ON_NEITHER_SIDE;
+    let is_down = solved.elbow == Elbow::Down;
+    let by_sign = axis_5_deg.filter(|_| matches!(language, Language::Krl | Language::Rapid));
+    let flips = by_sign.map_or(solved.wrist == Wrist::Flip, |angle| angle < 0.0);
+    StatedArm {
+        is_back: beyond(solved.shoulder_from_singular_mm)
+            .then_some(solved.shoulder == Shoulder::Back),
+        elbow: beyond(solved.elbow_from_singular_deg)
+            .then_some(is_down != (language == Language::Krl)),
+        wrist: beyond(solved.wrist_from_singular_deg).then_some(flips),
+    }
 }
 
-/// What is wrong with a part of the arm, if anything: two places that speak against each other, or one.
-type Against<'p> = Option<(&'p Place, Option<&'p Place>)>;
+/// What the controller shows at a place, deg: of a model with `[controller]`.
+pub(crate) fn shown_by_controller(
+    arm: Option<&ArmOfTable>,
+    point: &PointResult,
+) -> Option<Vec<f64>> {
+    arm.filter(|arm| arm.has_controller())
+        .and_then(|arm| shown(arm, point))
+}
 
-/// Places where the model's arm bends otherwise than the program states: stiffness and joint values there are those of another
+/// Joint values at a place, deg, as a program states them.
+pub(crate) fn shown(arm: &ArmOfTable, point: &PointResult) -> Option<Vec<f64>> {
+    let commands = <[f64; 6]>::try_from(point.actuator_command.as_slice()).ok()?;
+    arm.shown_deg(&commands.map(f64::to_radians))
+}
+
+/// `(1.0, -20.3, ...)`.
+pub(crate) fn joint_words(joints: &[f64]) -> String {
+    let joints: Vec<String> = joints.iter().map(|joint| fixed(*joint, 1)).collect();
+    format!("({})", joints.join(", "))
+}
+
+/// The first place where the model's arm bends otherwise than the program states: stiffness and joint values there are those of another
 /// posture.
-///
-/// What is behind axis 1 is the same for all makers. Of elbow and wrist only the zeros of the maker's axes say which side a flag means:
-/// there one flag must always go with one side of the model.
 pub(crate) fn other_configuration(
-    program: &RobotProgram,
-    path: &RobotPath,
+    read: &RobotRead<'_>,
+    arm: Option<&ArmOfTable>,
     points: &[PointResult],
 ) -> Option<Warning> {
-    let places = places(program, path, points);
-    let back = |place: &&Place| {
-        (place.stated.is_back).is_some_and(|back| back != (place.solved.shoulder == Shoulder::Back))
-    };
-    let shoulder: Against<'_> = places.iter().find(back).map(|place| (place, None));
-    let elbow = || changes_alone(&places, |p| (p.stated.elbow, p.solved.elbow == Elbow::Down));
-    let wrist = || changes_alone(&places, |p| (p.stated.wrist, p.solved.wrist == Wrist::Flip));
-    let (place, before) = shoulder.or_else(elbow).or_else(wrist)?;
-    let here = format!(
-        "the program states the configuration `{}`, and the model's arm is solved {}",
-        place.text, place.solved
-    );
-    let than = before.map_or_else(String::new, |before| {
-        format!(
-            ", after `{}` and {} on line {}",
-            before.text, before.solved, before.line
-        )
-    });
-    Some(Warning::at_line(
-        WarningCode::OtherConfiguration,
-        place.line,
-        format!(
-            "{here}{than}: the results are those of the model's posture, not of the program's. Give the model a home in the program's configuration, or run the parts with different configurations one by one"
-        ),
-    ))
-}
-
-/// The last point of every motion that states a configuration, where the model has one.
-fn places(program: &RobotProgram, path: &RobotPath, points: &[PointResult]) -> Vec<Place> {
+    let (program, language) = (read.program, read.program.language);
+    let made = read.settings.made_arm.as_ref();
+    // The others of a made program state nothing: the arm takes what is near.
+    let only_first = made.is_some() && language == Language::Rapid;
+    if only_first && made.is_some_and(|made| !made.states_configuration) {
+        return None;
+    }
+    let is_near = language == Language::Rapid && made.is_none() && takes_what_is_near(program);
     let is_last = |(index, point): &(usize, &PointResult)| {
         let next = points.get(index + 1);
         next.is_none_or(|next| next.move_index != point.move_index)
     };
-    let last = points.iter().enumerate().filter(is_last);
-    last.filter_map(|(_, point)| {
-        let motion = program.motions.get(*path.motions.get(point.move_index)?)?;
-        let configuration = &motion.target.pose()?.configuration;
-        let stated = StatedArm::of(program.language, configuration);
-        (stated != StatedArm::default()).then_some(Place {
-            line: point.line,
-            text: configuration.text.clone(),
-            stated,
-            solved: point.configuration?,
+    let mut last = points.iter().enumerate().filter(is_last);
+    last.find_map(|(_, point)| {
+        let motion = *read.path.motions.get(point.move_index)?;
+        if only_first && point.move_index != points.first()?.move_index {
+            return None;
+        }
+        let configuration = &program.motions.get(motion)?.target.pose()?.configuration;
+        let mut stated = StatedArm::of(language, configuration);
+        if is_near {
+            (stated.elbow, stated.wrist) = (None, None);
+        }
+        let solved = point.configuration?;
+        let shown_5 = shown_by_controller(arm, point).and_then(|shown| shown.get(4).copied());
+        let own = as_stated(language, &solved, shown_5);
+        let other = others(&stated, &own);
+        (!other.is_empty()).then(|| {
+            let what = of_parts(&other);
+            let remedy = made.map_or(OF_PROGRAM, |_| OF_MADE);
+            let joints = arm.and_then(|arm| shown(arm, point));
+            let joints = joints.map_or_else(String::new, |joints| {
+                format!(", with the joints at {} deg", joint_words(&joints))
+            });
+            let taken = match shown_5.is_some() || other == ["shoulder"] {
+                true => "",
+                false => " The model's joints are taken for those of the controller here, as the model has no [controller]: where its home is not in the configuration that the controller counts as not flipped, this may be said without need.",
+            };
+            Warning::at_line(
+                WarningCode::OtherConfiguration,
+                point.line,
+                format!(
+                    "the program states the configuration `{}`, and the model's arm is solved {solved}{joints}, which is another {what}: the results are those of the model's posture, not of the program's. {remedy}.{taken}",
+                    configuration.text,
+                ),
+            )
         })
     })
-    .collect()
 }
 
-/// The first place where a stated side changes and the model's does not, or the other way round, with the one that it is compared with.
-fn changes_alone(places: &[Place], side: impl Fn(&Place) -> (Option<bool>, bool)) -> Against<'_> {
-    let mut first: Option<(&Place, bool, bool)> = None;
-    for place in places {
-        let (Some(stated), solved) = side(place) else {
-            continue;
-        };
-        let Some((before, stated_before, solved_before)) = first else {
-            first = Some((place, stated, solved));
-            continue;
-        };
-        if (stated == stated_before) != (solved == solved_before) {
-            return Some((place, Some(before)));
+/// What is stated and is otherwise.
+fn others(stated: &StatedArm, own: &StatedArm) -> Vec<&'static str> {
+    let parts = [
+        ("shoulder", stated.is_back, own.is_back),
+        ("elbow", stated.elbow, own.elbow),
+        ("wrist", stated.wrist, own.wrist),
+    ];
+    let differ = parts
+        .iter()
+        .filter(|(_, stated, own)| stated.zip(*own).is_some_and(|(stated, own)| stated != own));
+    differ.map(|(name, ..)| *name).collect()
+}
+
+fn of_parts(parts: &[&str]) -> String {
+    match parts {
+        [first, others @ .., last] => {
+            let before: Vec<&str> = [&[*first], others].concat();
+            format!("{} and {last}", before.join(", "))
         }
+        _ => parts.concat(),
     }
-    None
+}
+
+/// A program in RAPID that switches the supervision of configurations off: what it states of elbow and wrist is not kept.
+fn takes_what_is_near(program: &RobotProgram) -> bool {
+    let mut files = program.files.iter();
+    files.any(|file| {
+        let text = String::from_utf8_lossy(file.bytes()).to_ascii_lowercase();
+        text.contains("confl\\off") && text.contains("confj\\off")
+    })
 }

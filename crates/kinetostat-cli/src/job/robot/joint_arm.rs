@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use kinetostat::Pose;
 use kinetostat_formats::{JointArm, Language, Motion, TableArm, Target, read};
-use kinetostat_machining::ArmJoints;
+use kinetostat_machining::{ArmConfiguration, ArmJoints};
 use kinetostat_model::{Controller, Model};
 use nalgebra::Isometry3;
 
@@ -31,6 +31,17 @@ impl ArmOfTable {
             arm: ArmJoints::of(&model.mechanism.with_tool(tool))?,
             controller: model.controller.clone(),
         })
+    }
+
+    /// Joint values are those that the controller shows, not those of the model.
+    pub(crate) fn has_controller(&self) -> bool {
+        self.controller.is_some()
+    }
+
+    /// The configuration at what stands in the table, deg; none of an arm whose last three axes do not meet in one point.
+    pub(crate) fn configuration_at(&self, shown_deg: &[f64]) -> Option<ArmConfiguration> {
+        self.arm
+            .configuration_by_joints(&self.model_joints(shown_deg))
     }
 
     /// The model's joint values, rad.

@@ -8,6 +8,7 @@
 pub(crate) mod called_files;
 pub(crate) mod configuration;
 pub(crate) mod divided;
+pub(crate) mod first_place;
 pub(crate) mod flat;
 pub(crate) mod frames;
 pub(crate) mod joint_arm;

@@ -22,7 +22,7 @@ use crate::ui::fault_list::fault_list_text;
 pub(crate) struct RobotRead<'s> {
     pub(crate) program: &'s RobotProgram,
     pub(crate) path: Cow<'s, RobotPath>,
-    settings: &'s RobotSettings,
+    pub(crate) settings: &'s RobotSettings,
 }
 
 impl RobotRead<'_> {

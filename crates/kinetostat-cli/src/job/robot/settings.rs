@@ -31,8 +31,19 @@ pub(crate) struct RobotSettings {
     pub(crate) joint_rows: Option<BetweenRows>,
     /// What the joint values of a table are, in words.
     pub(crate) joints_are: Option<&'static str>,
+    /// Of a program that was converted, what its template says of the posture of the arm.
+    pub(crate) made_arm: Option<MadeArm>,
     /// Rows of a table of joint values that are beyond limits of the model.
     pub(crate) beyond_limits: Vec<Warning>,
+}
+
+/// What a template says of the posture of the arm.
+#[derive(Clone, Debug)]
+pub(crate) struct MadeArm {
+    /// The configuration is stated.
+    pub(crate) states_configuration: bool,
+    /// Where the arm starts, as the controller shows it, deg.
+    pub(crate) start_joints_deg: Option<Vec<f64>>,
 }
 
 /// What options and job file say of a program of a language; `usual_axis` is its own, from the tool's tip to its holder.
@@ -131,6 +142,7 @@ pub(crate) fn settings(
             JointRowsWord::Linear => BetweenRows::Linear,
         }),
         joints_are: None,
+        made_arm: None,
         beyond_limits: Vec::new(),
     })
 }

@@ -149,7 +149,7 @@ fn names_too_long_or_strange() {
 #[test]
 fn templates_that_cannot_be_written() {
     type Change = fn(&mut Template);
-    let broken: [(MakeLanguage, Change, &str); 23] = [
+    let broken: [(MakeLanguage, Change, &str); 27] = [
         (
             MakeLanguage::Krl,
             |t| t.base.pose = Some(Isometry3::translation(1e12, 0.0, 0.0)),
@@ -239,6 +239,26 @@ fn templates_that_cannot_be_written() {
             MakeLanguage::Krl,
             |t| t.configuration = Some("S 2}\nHALT".into()),
             "it is written as \"S 2, T 35\" here",
+        ),
+        (
+            MakeLanguage::Krl,
+            |t| t.configuration = Some("S 32, T 35".into()),
+            "S from 0 to 31",
+        ),
+        (
+            MakeLanguage::Krl,
+            |t| t.configuration = Some("S 2, T 64".into()),
+            "T from 0 to 63",
+        ),
+        (
+            MakeLanguage::Krl,
+            |t| t.program_name = "If".into(),
+            "`If` is a word of its own on controllers",
+        ),
+        (
+            MakeLanguage::Rapid,
+            |t| t.program_name = "ENDPROC".into(),
+            "`ENDPROC` is a word of its own on controllers",
         ),
         (
             MakeLanguage::Rapid,
