@@ -97,10 +97,6 @@ impl Group {
     /// Numbers of these postures into their places of a table.
     #[inline(always)]
     pub fn put<S: Simd>(&self, table: &mut [f64], from: usize, numbers: &[Lanes<S>]) {
-        if numbers.is_empty() {
-            // A machine without springs has nothing in its table.
-            return;
-        }
         let width = table.len() / self.count.div_ceil(BLOCK) / BLOCK;
         if self.stride > 1 {
             self.scatter(table, width, from, numbers);
@@ -118,6 +114,10 @@ impl Group {
     /// The same where the postures lie apart.
     #[inline(always)]
     fn scatter<S: Simd>(&self, table: &mut [f64], width: usize, from: usize, numbers: &[Lanes<S>]) {
+        if width == 0 {
+            // A machine without springs has nothing in its table.
+            return;
+        }
         for lane in 0..self.filled(S::F64_LANES) {
             let item = self.item(lane);
             let start = ((item / BLOCK) * width + from) * BLOCK + item % BLOCK;
