@@ -11,11 +11,8 @@ use crate::krl::tree::Content;
 use crate::krl::usage::note_usage;
 use crate::krl::values::Values;
 use crate::krl::walking::walker::Walker;
-use crate::model::external::moving_axis;
-use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::parsed::{Parsed, sort_faults};
+use crate::model::parsed::{Parsed, Read};
 use crate::model::program::{Finding, Language, RobotProgram};
-use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -95,18 +92,7 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
     let mut walker = Walker::new(&values, &mut targets, options.unknown_targets, &mut faults);
     walker.walk(main);
     let resolved = resolve(walker, main);
-    if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(&files, &resolved.motions, Language::Krl));
-    }
-    sort_faults(&mut faults, &files);
-    faults.dedup();
-    let motions = resolved.motions;
-    let mut findings = [
-        resolved.findings,
-        unknown_frames(&motions),
-        left_as_written(&motions),
-    ]
-    .concat();
+    let mut findings = resolved.findings;
     for file in &token_files {
         findings.extend(not_paired(file).into_iter().map(|(line, what)| Finding {
             file: file.index,
@@ -116,18 +102,14 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
             ),
         }));
     }
-    findings.sort_by_key(|finding| (finding.file, finding.line));
-    Parsed {
-        program: RobotProgram {
-            language: Language::Krl,
-            files,
-            motions,
-            findings,
-            declarations: targets.declarations,
-            rotary: StatedAxes::default(),
-        },
+    let read = Read {
+        motions: resolved.motions,
+        declarations: targets.declarations,
+        findings,
         faults,
-    }
+        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+    };
+    Parsed::of_robot(Language::Krl, files, read)
 }
 
 /// The routine with which the program begins.

@@ -10,11 +10,8 @@ use crate::ls::order::Order;
 use crate::ls::positions::Positions;
 use crate::ls::program::Place;
 use crate::ls::step::Step;
-use crate::model::external::moving_axis;
-use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::parsed::{Parsed, sort_faults};
+use crate::model::parsed::{Parsed, Read};
 use crate::model::program::{Language, RobotProgram};
-use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::text::source::SourceFile;
 
@@ -113,26 +110,13 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
 }
 
 /// The program with what a person should know of it.
-fn finish(mut reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
-    if reader.options.external_axes == ExternalAxes::Refused {
-        let moving = moving_axis(&files, &reader.motions, Language::FanucLs);
-        reader.faults.extend(moving);
-    }
-    sort_faults(&mut reader.faults, &files);
-    reader.findings.extend(unknown_frames(&reader.motions));
-    reader.findings.extend(left_as_written(&reader.motions));
-    reader
-        .findings
-        .sort_by_key(|finding| (finding.file, finding.line));
-    Parsed {
-        program: RobotProgram {
-            language: Language::FanucLs,
-            files,
-            motions: reader.motions,
-            findings: reader.findings,
-            declarations: reader.declarations,
-            rotary: StatedAxes::default(),
-        },
+fn finish(reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
+    let read = Read {
+        motions: reader.motions,
+        declarations: reader.declarations,
+        findings: reader.findings,
         faults: reader.faults,
-    }
+        external_axes_may_move: reader.options.external_axes != ExternalAxes::Refused,
+    };
+    Parsed::of_robot(Language::FanucLs, files, read)
 }

@@ -181,7 +181,7 @@ pub(crate) fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLangua
         && own.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     // The names of what a controller holds by itself are declared by none.
     let is_system = own.eq_ignore_ascii_case("tool0") || own.eq_ignore_ascii_case("wobj0");
-    // What the controller has under 0 nobody sets, and it needs no other number: $NULLFRAME, wobj0.
+    // Frame 0 belongs to the controller and is never defined by the user, so it keeps its number: $NULLFRAME, wobj0.
     let is_zero = has_own_zero(language) && frame.known().is_some_and(is_identity);
     let is_named = language == MakeLanguage::Rapid && is_name && !is_system;
     StatedFrame {

@@ -158,7 +158,7 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
     faults
 }
 
-/// Whether a frame of number 0 is one that the controller has and nobody sets: wobj0 and tool0, UF 0 and UT 0. KRL writes poses.
+/// Whether frame 0 belongs to the controller and cannot be defined by the user: wobj0 and tool0, UF 0 and UT 0. KRL writes poses.
 pub(crate) fn has_own_zero(language: MakeLanguage) -> bool {
     matches!(language, MakeLanguage::Rapid | MakeLanguage::FanucLs)
 }

@@ -1,7 +1,11 @@
 //! A program with what is refused in it.
 
 use crate::error::ProgramError;
-use crate::model::program::{Language, RobotProgram};
+use crate::model::external::moving_axis;
+use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::motion::Motion;
+use crate::model::program::{Finding, Language, RobotProgram};
+use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
 use crate::text::source::SourceFile;
 
@@ -11,6 +15,16 @@ pub(crate) struct Parsed {
     pub program: RobotProgram,
     /// In order of files and lines.
     pub faults: Vec<ProgramError>,
+}
+
+/// What a reader of a robot's language found in its files.
+pub(crate) struct Read {
+    pub motions: Vec<Motion>,
+    pub declarations: Vec<Declaration>,
+    pub findings: Vec<Finding>,
+    pub faults: Vec<ProgramError>,
+    /// Otherwise a motion of one is a fault.
+    pub external_axes_may_move: bool,
 }
 
 impl Parsed {
@@ -29,6 +43,35 @@ impl Parsed {
         }
     }
 
+    /// Of what a reader of a robot's language found: with the findings that all languages share, and with findings and
+    /// faults in the order of files and lines.
+    pub(crate) fn of_robot(language: Language, files: Vec<SourceFile>, read: Read) -> Self {
+        let Read {
+            motions,
+            declarations,
+            mut findings,
+            mut faults,
+            external_axes_may_move,
+        } = read;
+        if !external_axes_may_move {
+            faults.extend(moving_axis(&files, &motions, language));
+        }
+        sort_faults(&mut faults, &files);
+        faults.dedup();
+        findings.extend(unknown_frames(&motions));
+        findings.extend(left_as_written(&motions));
+        findings.sort_by_key(|finding| (finding.file, finding.line));
+        let program = RobotProgram {
+            language,
+            files,
+            motions,
+            findings,
+            declarations,
+            rotary: StatedAxes::default(),
+        };
+        Self { program, faults }
+    }
+
     /// The program, if nothing is refused.
     pub(crate) fn without_faults(self) -> Result<RobotProgram, Vec<ProgramError>> {
         match self.faults.is_empty() {
@@ -39,7 +82,7 @@ impl Parsed {
 }
 
 /// Brings faults into the order of files and lines.
-pub(crate) fn sort_faults(faults: &mut [ProgramError], files: &[SourceFile]) {
+fn sort_faults(faults: &mut [ProgramError], files: &[SourceFile]) {
     let place = |fault: &ProgramError| {
         let file = files.iter().position(|file| file.name() == fault.file);
         (file, fault.span.start, fault.line)

@@ -1,11 +1,8 @@
 //! The reader of RAPID modules.
 
 use crate::error::ProgramError;
-use crate::model::external::moving_axis;
-use crate::model::findings::{left_as_written, unknown_frames};
-use crate::model::parsed::{Parsed, sort_faults};
+use crate::model::parsed::{Parsed, Read};
 use crate::model::program::{Language, RobotProgram};
-use crate::model::stated_axes::StatedAxes;
 use crate::options::{ExternalAxes, ReadOptions};
 use crate::rapid::frames::Values;
 use crate::rapid::lex::tokens_of;
@@ -93,28 +90,12 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
     let mut values = Values::new(&token_files, symbols, options);
     let mut targets = Targets::default();
     let walked = walk(&mut values, &mut targets, options, &mut faults);
-    if options.external_axes == ExternalAxes::Refused {
-        faults.extend(moving_axis(&files, &walked.motions, Language::Rapid));
-    }
-    sort_faults(&mut faults, &files);
-    let motions = walked.motions;
-    let mut findings = [
-        targets.findings,
-        walked.findings,
-        unknown_frames(&motions),
-        left_as_written(&motions),
-    ]
-    .concat();
-    findings.sort_by_key(|finding| (finding.file, finding.line));
-    Parsed {
-        program: RobotProgram {
-            language: Language::Rapid,
-            files,
-            motions,
-            findings,
-            declarations: targets.declarations,
-            rotary: StatedAxes::default(),
-        },
+    let read = Read {
+        motions: walked.motions,
+        declarations: targets.declarations,
+        findings: [targets.findings, walked.findings].concat(),
         faults,
-    }
+        external_axes_may_move: options.external_axes != ExternalAxes::Refused,
+    };
+    Parsed::of_robot(Language::Rapid, files, read)
 }

@@ -12,6 +12,8 @@ use winnow::prelude::*;
 use winnow::stream::LocatingSlice;
 use winnow::token::{any, one_of, take_till, take_while};
 
+use crate::text::line::tenths;
+
 type Input<'i> = LocatingSlice<&'i [u8]>;
 
 /// One token of a line.
@@ -42,6 +44,20 @@ pub(crate) enum Token {
 pub(crate) struct Spanned {
     pub token: Token,
     pub span: Range<usize>,
+}
+
+impl Spanned {
+    /// The number of a G word in tenths: G43.1 is 431. None for every other token.
+    pub(crate) fn g_code(&self) -> Option<u32> {
+        match self.token {
+            Token::Word {
+                letter: b'G',
+                value,
+                ..
+            } => Some(tenths(value)),
+            _ => None,
+        }
+    }
 }
 
 /// Appends the tokens of `line` (without its line ending) to `tokens`.

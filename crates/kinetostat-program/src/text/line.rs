@@ -47,10 +47,15 @@ impl Word {
         self.start as usize..self.end as usize
     }
 
-    /// The number of a code in tenths: M5 is 50. Codes that were read have no finer digits.
+    /// The number of a code in tenths.
     pub(crate) fn tenths(&self) -> u32 {
-        (self.value * 10.0).round() as u32
+        tenths(self.value)
     }
+}
+
+/// The number of a code in tenths: M5 is 50. Codes that were read have no finer digits.
+pub(crate) fn tenths(value: f64) -> u32 {
+    (value * 10.0).round() as u32
 }
 
 /// Bytes of the first line without its line ending, and that ending: empty at the end of a file that has none there.

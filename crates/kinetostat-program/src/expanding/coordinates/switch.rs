@@ -2,6 +2,7 @@
 
 use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::line::tenths;
 
 /// What a block does to the coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +54,7 @@ impl Block {
         for spanned in &tokens {
             let piece = &text[spanned.span.clone()];
             if let Token::Word { letter, value, .. } = spanned.token {
-                let tenths = (10.0 * value).round() as u32;
+                let tenths = tenths(value);
                 if letter == b'G' {
                     block.codes.push(tenths);
                 }
@@ -92,9 +93,7 @@ impl Block {
 }
 
 fn is_there(tokens: &[Spanned], code: u32) -> bool {
-    tokens.iter().any(|one| {
-        matches!(one.token, Token::Word { letter: b'G', value, .. } if (10.0 * value).round() as u32 == code)
-    })
+    tokens.iter().any(|one| one.g_code() == Some(code))
 }
 
 /// Words that mean something else beside G50 and G50.1 on some controllers.

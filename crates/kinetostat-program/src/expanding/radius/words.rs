@@ -3,6 +3,7 @@
 use crate::expanding::radius::geometry::{Axes, Side};
 use crate::expanding::translate::wrong::Wrong;
 use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::line::tenths;
 
 /// G4, the moves, and modes that change nothing about the contour; in tenths.
 const CODES: &[u32] = &[
@@ -144,10 +145,6 @@ pub(crate) fn other_side(text: &[u8]) -> Vec<u8> {
         other.extend_from_slice(piece);
     }
     other
-}
-
-fn tenths(value: f64) -> u32 {
-    (10.0 * value).round() as u32
 }
 
 /// Whether a function may stand in a contour.

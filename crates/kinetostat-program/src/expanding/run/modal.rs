@@ -9,6 +9,7 @@ use crate::path::spindle::SpindleRotation;
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
 use crate::text::lex::{Spanned, Token};
+use crate::text::line::tenths;
 
 /// What blocks leave in force and the path does not know.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +61,7 @@ impl Functions {
         let is_on = of(b'P').is_none_or(|p| p != 0.0);
         let (mut is_time, mut is_angle) = (false, false);
         for (letter, value) in words() {
-            match (letter, (10.0 * value).round() as u32) {
+            match (letter, tenths(value)) {
                 (b'G', 40) => is_time = of(b'P').is_none(),
                 (b'G', code @ (610 | 611)) => self.path_mode = Some((code, None, None)),
                 (b'G', 640) => self.path_mode = Some((640, of(b'P'), of(b'Q'))),

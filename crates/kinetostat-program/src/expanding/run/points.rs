@@ -42,15 +42,7 @@ impl Runner<'_> {
     fn lacks_a_point(&self, text: &[u8]) -> bool {
         let mut tokens: Vec<Spanned> = Vec::new();
         tokens_of(text, &mut tokens);
-        let code = |one: &Spanned| match one.token {
-            Token::Word {
-                letter: b'G',
-                value,
-                ..
-            } => Some((10.0 * value).round() as u32),
-            _ => None,
-        };
-        let codes: Vec<u32> = tokens.iter().filter_map(code).collect();
+        let codes: Vec<u32> = tokens.iter().filter_map(Spanned::g_code).collect();
         // Arguments of macros are scaled by other rules, and K repeats cycles.
         let repeats = self.cycle.is_some() || codes.iter().copied().any(is_cycle);
         !codes.contains(&650)

@@ -4,6 +4,7 @@ use crate::error::ProgramError;
 use crate::expanding::run::modal::{Context, Saved};
 use crate::expanding::run::runner::Runner;
 use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::line::tenths;
 
 /// What to do about modes that cannot be put back.
 const REMEDY: &str = "name it before M70 or M73, or write the modes as words and leave out M72";
@@ -33,7 +34,7 @@ impl SavingBlock {
                 after.extend_from_slice(piece);
                 continue;
             };
-            let tenths = (10.0 * value).round() as u32;
+            let tenths = tenths(value);
             match letter {
                 b'M' if matches!(tenths, 700 | 710 | 720 | 730) => {
                     code = Some(code.map_or(tenths, |first: u32| first.max(tenths)));

@@ -2,6 +2,7 @@
 
 use crate::expanding::number::number;
 use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::line::tenths;
 
 /// Letters that belong to a motion.
 const OF_MOTION: &[u8; 15] = b"XYZABCUVWIJKRPQ";
@@ -70,8 +71,7 @@ impl MotionBlock {
     }
 
     fn word(&mut self, letter: u8, value: f64, piece: &[u8]) {
-        let tenths = (10.0 * value).round();
-        match (letter, tenths as u32) {
+        match (letter, tenths(value)) {
             (b'N', _) => self.head.extend_from_slice(piece),
             (b'G', code) if is_motion(code) => self.motion = Some(code),
             (b'M', 0 | 10 | 20 | 300 | 600) => {
@@ -157,19 +157,12 @@ impl MotionBlock {
 pub(crate) fn without_cancel(text: &[u8]) -> Option<Vec<u8>> {
     let mut tokens: Vec<Spanned> = Vec::new();
     tokens_of(text, &mut tokens);
-    let code = |one: &Spanned| match one.token {
-        Token::Word {
-            letter: b'G',
-            value,
-            ..
-        } => Some((10.0 * value).round() as u32),
-        _ => None,
-    };
-    let has = |wanted: &[u32]| tokens.iter().filter_map(code).any(|c| wanted.contains(&c));
+    let codes: Vec<u32> = tokens.iter().filter_map(Spanned::g_code).collect();
+    let has = |wanted: &[u32]| codes.iter().any(|code| wanted.contains(code));
     if !has(&[800]) || !has(&[0, 10, 20, 30]) {
         return None;
     }
-    let rest = tokens.iter().filter(|one| code(one) != Some(800));
+    let rest = tokens.iter().filter(|one| one.g_code() != Some(800));
     let rest: Vec<u8> = rest.fold(Vec::new(), |mut rest, one| {
         rest.extend_from_slice(&text[one.span.clone()]);
         rest
