@@ -74,6 +74,7 @@ mod findings;
 #[doc(hidden)]
 pub mod internal;
 mod model;
+mod parameters;
 mod plausibility;
 mod presets;
 mod problem;
@@ -84,6 +85,7 @@ pub use assembly::controller::{Controller, ControllerAxis};
 pub use elements::rotary::RotaryAxis;
 pub use exact::{exact, exact_toml};
 pub use model::{Model, json_schema, read_model};
+pub use parameters::{Parameter, ParameterKind, ParametricModel};
 pub use plausibility::link_matrix::doubts_of_link_matrix;
 pub use plausibility::numbers::odd_angles;
 pub use presets::{Preset, PresetKind, preset_names, preset_text};

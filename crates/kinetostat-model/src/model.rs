@@ -228,7 +228,7 @@ impl Model {
     }
 
     /// Lines of messages about a changed document are not those of its file: the name says so.
-    fn changed(&self) -> String {
+    pub(crate) fn changed(&self) -> String {
         const MARK: &str = " (changed)";
         match self.file.ends_with(MARK) {
             true => self.file.clone(),
@@ -271,7 +271,7 @@ const ROUGH_HOME_M: f64 = 5e-3;
 
 /// A home that is off by a few millimetres, only where the machine cannot move, is taken to the
 /// nearest pose that it can take.
-fn move_home_within_reach(mechanism: &mut Mechanism, findings: &mut Findings) {
+pub(crate) fn move_home_within_reach(mechanism: &mut Mechanism, findings: &mut Findings) {
     let Some(written) = mechanism.move_home_within_reach(ROUGH_HOME_M) else {
         return;
     };

@@ -21,8 +21,15 @@ use crate::schema::{Document, Element, SCHEMA_VERSION, Spring6};
 /// What a machine's repeatability can be, mm: from that of stages for optics to what no machine is built for.
 const REPEATABILITY_MM: [f64; 2] = [1e-5, 10.0];
 
-/// The mechanism, or `None` with errors in `findings`.
+/// The mechanism, or `None` with errors in `findings`; looked at for what is implausible.
 pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<Mechanism> {
+    let mechanism = mechanism_of(document, findings)?;
+    check_plausibility(document, &mechanism, &mut findings.warnings);
+    Some(mechanism)
+}
+
+/// The mechanism, or `None` with errors in `findings`.
+pub(crate) fn mechanism_of(document: &Document, findings: &mut Findings) -> Option<Mechanism> {
     let root = KeyPath::root();
     if document.schema != SCHEMA_VERSION {
         findings.error(
@@ -82,15 +89,13 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
     for load in platform_loads {
         builder = builder.platform_load(load);
     }
-    let mechanism = findings.keep(builder.build().map_err(|e| {
+    findings.keep(builder.build().map_err(|e| {
         Finding::new(
             &root.key("mechanism"),
             e.to_string(),
             "correct the description of the machine",
         )
-    }))?;
-    check_plausibility(document, &mechanism, &mut findings.warnings);
-    Some(mechanism)
+    }))
 }
 
 fn workspace(document: &Document, findings: &mut Findings) {

@@ -14,5 +14,6 @@ mod loads_and_links;
 mod many_loaded;
 mod many_postures;
 mod orientations;
+mod parameters;
 mod presets;
 mod sections;

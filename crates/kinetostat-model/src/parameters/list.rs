@@ -1,0 +1,77 @@
+//! All numbers of a document with their paths.
+
+use crate::parameters::document::walk;
+use crate::parameters::unit::{ParameterKind, unit};
+use crate::parameters::walk::Visit;
+use crate::schema::Document;
+
+/// A number of a model file, by a name that people can type.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Where it stands: `chain.arm.joint 2.stiffness_n_m_per_rad`, `section.tube.tube.outer_diameter_mm`.
+    pub path: String,
+    /// As the file says it, in its unit; 1 for a factor (`...scale`), which no file says.
+    pub value: f64,
+    /// As people write it (`N/mm`); empty where there is none.
+    pub unit: &'static str,
+    /// What it is of.
+    pub kind: ParameterKind,
+    /// The SI unit in one of its unit: `value * in_si` is in SI (m, rad, N, kg).
+    pub in_si: f64,
+}
+
+/// All numbers in the order of the walk.
+pub(crate) fn list(document: &mut Document) -> Vec<Parameter> {
+    let mut lister = Lister::default();
+    walk(document, &mut lister);
+    lister.found
+}
+
+#[derive(Default)]
+struct Lister {
+    steps: Vec<String>,
+    found: Vec<Parameter>,
+}
+
+impl Visit for Lister {
+    fn enter(&mut self, step: &str) {
+        self.steps.push(step.to_owned());
+    }
+
+    fn leave(&mut self) {
+        self.steps.pop();
+    }
+
+    fn number(&mut self, value: &mut f64, _: bool) {
+        let (kind, unit, in_si) = of_steps(&self.steps);
+        self.found.push(Parameter {
+            path: self.steps.join("."),
+            value: *value,
+            unit,
+            kind,
+            in_si,
+        });
+    }
+}
+
+/// What a number is of, from the last steps of its path: a key, or a key and components.
+fn of_steps(steps: &[String]) -> (ParameterKind, &'static str, f64) {
+    let last = |back: usize| steps.len().checked_sub(back).and_then(|i| steps.get(i));
+    let (one, two, three) = (last(1), last(2), last(3));
+    let text = |s: Option<&String>| s.map(String::as_str).unwrap_or_default().to_owned();
+    let component = |s: &str| !s.contains('_') && s.len() <= 7;
+    let known = |key: &str| unit(key, None, None).0 != ParameterKind::Direction;
+    let (one, two, three) = (text(one), text(two), text(three));
+    // A number under its key; in a list; in a matrix.
+    if known(&one) {
+        return unit(&one, None, None);
+    }
+    if component(&one) && component(&two) && is_matrix(&three) {
+        return unit(&three, Some(&two), Some(&one));
+    }
+    unit(&two, Some(&one), None)
+}
+
+fn is_matrix(key: &str) -> bool {
+    key.starts_with("matrix_") || key == "inertia_kg_m2"
+}
