@@ -4,8 +4,6 @@
 
 pub(crate) mod arguments;
 
-use std::io::Write;
-
 use kinetostat_formats::{FileForm, Language, SourceFile, language_of};
 use kinetostat_machining::number::counted;
 use nalgebra::Vector3;
@@ -26,6 +24,7 @@ use crate::job::robot::source::RobotSource;
 use crate::job::robot_arguments::RobotArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, wrapped};
+use crate::ui::screen::print_bytes;
 
 pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
     let bytes = InputFiles::default().bytes("program", &args.program)?;
@@ -63,9 +62,9 @@ pub(crate) fn run(args: &ExpandArgs) -> Answer<()> {
                 let path = path.display().to_string();
                 text.push_str(&format!("  {}\n", crate::ui::safe_text::safe(&path)));
             }
-            print(text.as_bytes())
+            print_bytes(text.as_bytes())
         }
-        None => print(flat),
+        None => print_bytes(flat),
     }
 }
 
@@ -90,7 +89,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     let called = with_called_files(&mut source, &args.program, &folders)?;
     let (text, flat) = flat_text(&source)?;
     let Some(out) = &args.out else {
-        return print(text.file.bytes());
+        return print_bytes(text.file.bytes());
     };
     let called = called.into_iter().map(|(path, _)| path);
     let inputs = std::iter::once(args.program.clone())
@@ -107,7 +106,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         },
         0,
     );
-    print((said + &written(&paths)).as_bytes())
+    print_bytes((said + &written(&paths)).as_bytes())
 }
 
 fn summary(name: &str, done: &Flattened) -> String {
@@ -134,16 +133,4 @@ fn summary(name: &str, done: &Flattened) -> String {
         text.push_str(&item(&done.flat.with_sources(&found)));
     }
     text
-}
-
-fn print(bytes: &[u8]) -> Answer<()> {
-    let mut out = std::io::stdout().lock();
-    let done = out.write_all(bytes).and_then(|()| out.flush());
-    match done {
-        // Who closed the pipe has read enough.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        done => {
-            done.map_err(|error| Failure::input(format!("the answer cannot be printed: {error}")))
-        }
-    }
 }

@@ -12,6 +12,7 @@ use tempfile::NamedTempFile;
 use crate::files::journal::{self, Contents, Entry, Journal};
 use crate::files::paths::{parent_of, same_bytes, same_file, same_place};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::still_wanted;
 use crate::ui::safe_text::safe;
 use crate::ui::system_error::description;
 use crate::ui::{layout, screen};
@@ -238,6 +239,7 @@ impl Outputs {
 
     /// Renames all outputs into place. If one cannot be, those before it are taken back.
     pub(crate) fn commit(self) -> Answer<Vec<PathBuf>> {
+        still_wanted()?;
         let replace = self.existing == Existing::Replace;
         let mut journals = self.journals;
         let entries: Vec<Entry> = self

@@ -10,6 +10,7 @@ use crate::place::arguments::PlaceArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::short;
+use crate::ui::screen::{self, Stream};
 use crate::ui::spelling::nearest;
 
 /// A joint or an axis and where it stands.
@@ -97,9 +98,10 @@ pub(crate) fn given(model: &Model, place: &PlaceArgs) -> Answer<Option<Vec<f64>>
         (true, true) => return Ok(None),
         (false, _) => ("--controller", &place.controller),
         (true, false) => {
-            eprintln!(
-                "warning: --pendant is called --controller now; the old name goes with the next version"
-            );
+            screen::print(
+                Stream::Err,
+                "warning: --pendant is called --controller now; the old name goes with the next version\n",
+            )?;
             ("--pendant", &place.pendant)
         }
     };

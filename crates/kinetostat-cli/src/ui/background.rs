@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::{RunError, Watch};
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::host;
 use crate::ui::progress::Progress;
 use crate::ui::screen;
 
@@ -40,9 +41,10 @@ pub(crate) fn interruptible<R: Send + 'static>(
     let stage = Stage::new();
     let bar = stage.0.clone();
     let (to, from) = channel();
+    let host = host::current();
     std::thread::spawn(move || {
         // Nobody listens any more after Ctrl-C.
-        let _ = to.send(work(&stage));
+        let _ = to.send(host::working_for(host, || work(&stage)));
     });
     let stop = Progress::new();
     let answer = loop {

@@ -1,14 +1,15 @@
 //! Progress of long work on a terminal, and Ctrl-C.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::Watch;
 use kinetostat_program::Monitor;
 
-use crate::ui::failure::{Code, Failure, STOPPED};
+use crate::ui::failure::{Answer, Code, Failure, STOPPED};
+use crate::ui::host::{self, Host};
 use crate::ui::screen;
 
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -38,6 +39,7 @@ const OPEN: &str = "{msg:35!} {pos:>9} points, {elapsed:>4}";
 
 /// Shows stages with an estimate of the time left, if somebody watches.
 pub(crate) struct Progress {
+    host: Option<Arc<Host>>,
     bar: Option<ProgressBar>,
     stage: Mutex<(String, usize)>,
 }
@@ -47,6 +49,7 @@ impl Progress {
         let bar = screen::watched()
             .then(|| ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(8)));
         Self {
+            host: host::current(),
             bar,
             stage: Mutex::new((String::new(), 0)),
         }
@@ -67,6 +70,9 @@ impl Drop for Progress {
 
 impl Watch for Progress {
     fn stage(&self, name: &str, total: usize) {
+        if let Some(host) = &self.host {
+            host.watch().stage(name, total);
+        }
         let Some(bar) = &self.bar else { return };
         let Ok(mut stage) = self.stage.lock() else {
             return;
@@ -93,13 +99,36 @@ impl Watch for Progress {
     }
 
     fn advance(&self, done: usize) {
+        if let Some(host) = &self.host {
+            host.watch().advance(done);
+        }
         if let Some(bar) = &self.bar {
             bar.set_position(done as u64);
         }
     }
 
     fn cancelled(&self) -> bool {
-        STOP.load(Ordering::SeqCst)
+        stopped(self.host.as_deref())
+    }
+}
+
+/// Whether the command is to end: its host says so, or without one Ctrl-C came.
+fn stopped(host: Option<&Host>) -> bool {
+    match host {
+        Some(host) => host.watch().cancelled(),
+        None => STOP.load(Ordering::SeqCst),
+    }
+}
+
+/// Ends a command of a host that wants no answer any more: nothing is put in place then. Without a host the
+/// handler of Ctrl-C ends the process.
+///
+/// # Errors
+/// That it was stopped.
+pub(crate) fn still_wanted() -> Answer<()> {
+    match host::current() {
+        Some(host) if host.watch().cancelled() => Err(Failure::new(Code::Stopped, STOPPED)),
+        _ => Ok(()),
     }
 }
 
@@ -179,6 +208,7 @@ mod tests {
         let screen = Screen::default();
         let target = ProgressDrawTarget::term_like(Box::new(screen.clone()));
         let progress = Progress {
+            host: None,
             bar: Some(ProgressBar::with_draw_target(None, target)),
             stage: Mutex::new((String::new(), 0)),
         };

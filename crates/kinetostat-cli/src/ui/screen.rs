@@ -7,6 +7,7 @@ use clap::error::ErrorKind as ClapKind;
 use kinetostat_model::shortened;
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::host;
 use crate::ui::safe_text::safe;
 
 /// Where the text for people goes.
@@ -18,6 +19,13 @@ pub(crate) enum Stream {
 
 /// Prints text without a line break after it. That the reader has closed the pipe is no failure.
 pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
+    if let Some(host) = host::current() {
+        host.print(
+            stream,
+            anstream::adapter::strip_str(text).to_string().as_bytes(),
+        );
+        return Ok(());
+    }
     let result = match stream {
         Stream::Out => write(&mut anstream::stdout().lock(), text.as_bytes()),
         Stream::Err => write(&mut anstream::stderr().lock(), text.as_bytes()),
@@ -27,6 +35,10 @@ pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
 
 /// Prints bytes to the standard output without looking at them.
 pub(crate) fn print_bytes(bytes: &[u8]) -> Answer<()> {
+    if let Some(host) = host::current() {
+        host.print(Stream::Out, bytes);
+        return Ok(());
+    }
     unless_closed(write(&mut std::io::stdout().lock(), bytes))
 }
 
@@ -49,6 +61,13 @@ fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
 
 /// Tells why the command ends. Nothing can be done if even that fails.
 pub(crate) fn complain(failure: &Failure) {
+    if let Some(host) = host::current() {
+        host.print(
+            Stream::Err,
+            format!("error: {}\n", failure.plain).as_bytes(),
+        );
+        return;
+    }
     let mut to = anstream::stderr().lock();
     let text = match &failure.styled {
         // anstream takes the colours out where the terminal has none.
@@ -68,6 +87,15 @@ pub(crate) fn complain_of_line(error: &clap::Error) {
     );
     let whole = error.render().to_string();
     let text = shortened(&safe(&whole));
+    if let Some(host) = host::current() {
+        let stream = if error.use_stderr() {
+            Stream::Err
+        } else {
+            Stream::Out
+        };
+        host.print(stream, if requested { &whole } else { &text }.as_bytes());
+        return;
+    }
     let _ = match requested || text == whole {
         true => error.print(),
         false => write(&mut anstream::stderr().lock(), text.as_bytes()),
@@ -76,5 +104,5 @@ pub(crate) fn complain_of_line(error: &clap::Error) {
 
 /// Whether a person watches the standard error.
 pub(crate) fn watched() -> bool {
-    std::io::stderr().is_terminal()
+    host::current().is_none() && std::io::stderr().is_terminal()
 }

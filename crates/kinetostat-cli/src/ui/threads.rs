@@ -1,6 +1,7 @@
 //! Work on a stated number of threads.
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::host;
 
 /// Runs `work` on a number of threads.
 pub(crate) fn in_threads<R: Send>(
@@ -19,5 +20,6 @@ pub(crate) fn in_threads<R: Send>(
         .num_threads(count)
         .build()
         .map_err(|error| Failure::input(format!("{count} threads cannot be started: {error}")))?;
-    Ok(pool.install(work))
+    let host = host::current();
+    Ok(pool.install(|| host::working_for(host, work)))
 }

@@ -1,0 +1,163 @@
+//! The kinetostat command as a library: how far a machine bends along a program, and a program that cuts where
+//! it should.
+//!
+//! One folder per command; commands do not know each other. Below them, from the top down, what they share:
+//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
+//! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
+//! and knows the exit codes. `command_line` stands above all.
+//!
+//! The command itself calls [`main`]; another program, as the Python package, calls [`run_inside`].
+
+mod assemble;
+mod check;
+mod command_line;
+mod compensate;
+mod convert;
+mod curve;
+mod deflect;
+mod demo;
+mod dialect;
+mod end_condition;
+mod engagement;
+mod equilibria;
+mod expand;
+mod files;
+mod force;
+mod import;
+mod job;
+mod machine;
+mod map;
+mod model;
+mod options;
+mod place;
+mod program;
+mod reproduce;
+mod shell;
+mod stiffness;
+mod ui;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use kinetostat_machining::Watch;
+
+use crate::command_line::negative_numbers::{no_number, plain_numbers};
+use crate::command_line::{Cli, Command};
+use crate::files::journal;
+use crate::ui::failure::{self, Answer, Code};
+use crate::ui::host::{self, Host};
+use crate::ui::{progress, screen};
+
+/// What the command does as a process of its own.
+///
+/// Words come from the process, and so do exit code, printed text and Ctrl-C.
+#[must_use]
+pub fn main() -> ExitCode {
+    ExitCode::from(answer(std::env::args_os(), || {
+        progress::catch_interrupts(journal::remove_temporary);
+    }))
+}
+
+/// What a command that ran inside another program leaves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 130 stopped: as the exit code of the process would be.
+    pub code: u8,
+    /// What it would have printed to the standard output.
+    pub out: Vec<u8>,
+    /// What it would have printed to the standard error, without colours.
+    pub err: Vec<u8>,
+}
+
+/// Runs a command inside another program: nothing is printed, and no signal is caught. Several threads may do so at once.
+///
+/// `words` begin with the name of the command (`stiffness`). `watch` hears of progress; where it says that the work
+/// is cancelled the command ends with code 130 and no file is put in place.
+///
+/// ```
+/// # use std::sync::Arc;
+/// use kinetostat_machining::Unwatched;
+///
+/// let words = ["stiffness", "orthoglide", "--at", "0", "0", "0", "--json"];
+/// let outcome = kinetostat_cli::run_inside(words.map(Into::into), Arc::new(Unwatched));
+/// assert_eq!(outcome.code, 0);
+/// assert!(outcome.out.starts_with(b"{"));
+/// ```
+pub fn run_inside(
+    words: impl IntoIterator<Item = OsString>,
+    watch: Arc<dyn Watch + Send + Sync>,
+) -> Outcome {
+    let host = Arc::new(Host::new(watch));
+    let all = std::iter::once(OsString::from("kinetostat")).chain(words);
+    let code = host::working_for(Some(host.clone()), || answer(all, || ()));
+    let (out, err) = host.printed();
+    Outcome { code, out, err }
+}
+
+/// All commands with their options, as the reader of the command line knows them: from it the interface of the Python
+/// package is made.
+///
+/// ```
+/// let command = kinetostat_cli::command();
+/// assert!(command.find_subcommand("stiffness").is_some());
+/// ```
+#[must_use]
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// The exit code of a command; `begin` is called when its words are understood.
+fn answer(words: impl Iterator<Item = OsString>, begin: impl FnOnce()) -> u8 {
+    let words = plain_numbers(words);
+    if let Some(what) = no_number(&words) {
+        screen::complain(&failure::Failure::input(what));
+        return Code::WrongInput as u8;
+    }
+    let cli = match Cli::try_parse_from(words) {
+        Ok(cli) => cli,
+        Err(error) => {
+            screen::complain_of_line(&error);
+            // Help and version were requested; everything else is wrong input.
+            return match error.kind() {
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => 0,
+                _ => Code::WrongInput as u8,
+            };
+        }
+    };
+    begin();
+    match run(cli.command) {
+        Ok(()) => 0,
+        Err(failure) => {
+            screen::complain(&failure);
+            failure.code as u8
+        }
+    }
+}
+
+fn run(command: Command) -> Answer<()> {
+    match command {
+        Command::Demo(args) => demo::run(&args),
+        Command::Compensate(args) => compensate::run(*args),
+        Command::Deflect(args) => deflect::run(*args),
+        Command::Stiffness(args) => stiffness::run(&args),
+        Command::Map(args) => map::run(&args),
+        Command::Assemble(args) => assemble::run(&args),
+        Command::Curve(args) => curve::run(&args),
+        Command::Equilibria(args) => equilibria::run(&args),
+        Command::Force(args) => force::run(&args),
+        Command::Engagement(args) => engagement::run(&args),
+        Command::Expand(args) => expand::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::Dialect(args) => dialect::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Import(args) => import::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
+        Command::Model(args) => model::run(&args),
+        Command::Completions(args) => shell::completions(&args, Cli::command()),
+        Command::Man(args) => shell::man(&args, Cli::command()),
+    }
+}
