@@ -56,9 +56,16 @@ use crate::ui::{progress, screen};
 /// Words come from the process, and so do exit code, printed text and Ctrl-C.
 #[must_use]
 pub fn main() -> ExitCode {
-    ExitCode::from(answer(std::env::args_os(), || {
+    ExitCode::from(run_as_process(std::env::args_os()))
+}
+
+/// The same for words that another program was started with, the first of them its name: it prints to the standard streams,
+/// catches Ctrl-C and gives the exit code.
+#[must_use]
+pub fn run_as_process(words: impl Iterator<Item = OsString>) -> u8 {
+    answer(words, || {
         progress::catch_interrupts(journal::remove_temporary);
-    }))
+    })
 }
 
 /// What a command that ran inside another program leaves.

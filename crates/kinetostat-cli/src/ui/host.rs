@@ -8,7 +8,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use kinetostat_machining::Watch;
 
-use crate::ui::screen::Stream;
+/// Where the text for people goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stream {
+    Out,
+    Err,
+}
 
 thread_local! {
     static CURRENT: RefCell<Option<Arc<Host>>> = const { RefCell::new(None) };
@@ -31,7 +36,7 @@ impl Host {
     }
 
     /// Takes what a command prints.
-    pub(crate) fn print(&self, stream: Stream, bytes: &[u8]) {
+    pub(crate) fn take(&self, stream: Stream, bytes: &[u8]) {
         let to = match stream {
             Stream::Out => &self.out,
             Stream::Err => &self.err,
@@ -42,10 +47,10 @@ impl Host {
 
     /// What was printed to the standard output and to the standard error.
     pub(crate) fn printed(&self) -> (Vec<u8>, Vec<u8>) {
-        let take = |from: &Mutex<Vec<u8>>| {
+        let all = |from: &Mutex<Vec<u8>>| {
             std::mem::take(&mut *from.lock().unwrap_or_else(PoisonError::into_inner))
         };
-        (take(&self.out), take(&self.err))
+        (all(&self.out), all(&self.err))
     }
 
     pub(crate) fn watch(&self) -> &dyn Watch {

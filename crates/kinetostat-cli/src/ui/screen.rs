@@ -8,19 +8,13 @@ use kinetostat_model::shortened;
 
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::host;
+pub(crate) use crate::ui::host::Stream;
 use crate::ui::safe_text::safe;
-
-/// Where the text for people goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stream {
-    Out,
-    Err,
-}
 
 /// Prints text without a line break after it. That the reader has closed the pipe is no failure.
 pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
     if let Some(host) = host::current() {
-        host.print(
+        host.take(
             stream,
             anstream::adapter::strip_str(text).to_string().as_bytes(),
         );
@@ -36,7 +30,7 @@ pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
 /// Prints bytes to the standard output without looking at them.
 pub(crate) fn print_bytes(bytes: &[u8]) -> Answer<()> {
     if let Some(host) = host::current() {
-        host.print(Stream::Out, bytes);
+        host.take(Stream::Out, bytes);
         return Ok(());
     }
     unless_closed(write(&mut std::io::stdout().lock(), bytes))
@@ -62,7 +56,7 @@ fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
 /// Tells why the command ends. Nothing can be done if even that fails.
 pub(crate) fn complain(failure: &Failure) {
     if let Some(host) = host::current() {
-        host.print(
+        host.take(
             Stream::Err,
             format!("error: {}\n", failure.plain).as_bytes(),
         );
@@ -93,7 +87,7 @@ pub(crate) fn complain_of_line(error: &clap::Error) {
         } else {
             Stream::Out
         };
-        host.print(stream, if requested { &whole } else { &text }.as_bytes());
+        host.take(stream, if requested { &whole } else { &text }.as_bytes());
         return;
     }
     let _ = match requested || text == whole {

@@ -1,0 +1,138 @@
+//! Arrays of numpy to poses, wrenches and commands, and back.
+
+use kinetostat::nalgebra::{
+    Matrix3, Matrix4, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6,
+};
+use kinetostat::{Pose, Wrench};
+use numpy::ndarray::IntoDimension;
+use numpy::{IntoPyArray, PyArray, PyArrayMethods, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+
+use crate::errors::{Class, error};
+
+/// An array of float64, C-contiguous: what `numpy.ascontiguousarray(x, dtype=float)` gives.
+pub type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
+
+/// The numbers of an array whose rows have a given shape, with the number of rows.
+///
+/// # Errors
+/// An array of another shape, or with a number that is not finite; both shapes are said.
+pub fn rows<'a>(
+    name: &str,
+    array: &'a Numbers<'_>,
+    shape: &[usize],
+) -> PyResult<(usize, &'a [f64])> {
+    use numpy::PyUntypedArrayMethods;
+    let found = array.shape();
+    if found.len() != shape.len() + 1 || &found[1..] != shape {
+        let wanted: Vec<String> = shape.iter().map(usize::to_string).collect();
+        let found: Vec<String> = found.iter().map(usize::to_string).collect();
+        return Err(error(
+            Class::Argument,
+            format!(
+                "{name} has shape ({}), expected (n, {})",
+                found.join(", "),
+                wanted.join(", ")
+            ),
+        ));
+    }
+    let count = found[0];
+    let numbers = array.as_slice().map_err(|_| {
+        error(
+            Class::Argument,
+            format!("{name} is not C-contiguous: use numpy.ascontiguousarray"),
+        )
+    })?;
+    if let Some(at) = numbers.iter().position(|x| !x.is_finite()) {
+        let each: usize = shape.iter().product();
+        return Err(error(
+            Class::Argument,
+            format!(
+                "{name} holds {} in row {}: give finite numbers",
+                numbers[at],
+                at / each.max(1)
+            ),
+        ));
+    }
+    Ok((count, numbers))
+}
+
+/// How far a rotation matrix may be from one, entry by entry of `R^T R - 1`.
+const ROUNDED: f64 = 1e-6;
+
+/// A pose from sixteen numbers, a 4 x 4 matrix row by row.
+///
+/// # Errors
+/// A matrix that is no rigid motion: what is wrong with it.
+pub fn pose(name: &str, row: usize, m: &[f64]) -> PyResult<Pose> {
+    let refuse = |what: &str| {
+        Err(error(
+            Class::Argument,
+            format!("{name}[{row}] is no pose: {what}"),
+        ))
+    };
+    let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    if m[12..16] != [0.0, 0.0, 0.0, 1.0] {
+        return refuse("the last row of a 4 x 4 pose is 0 0 0 1");
+    }
+    if (rotation.transpose() * rotation - Matrix3::identity()).amax() > ROUNDED {
+        return refuse("its rotation is not orthonormal");
+    }
+    if rotation.determinant() < 0.0 {
+        return refuse("its rotation mirrors (determinant -1)");
+    }
+    let rotation =
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+    Ok(Pose::from_parts(
+        Vector3::new(m[3], m[7], m[11]).into(),
+        rotation,
+    ))
+}
+
+/// Poses from an array (n, 4, 4).
+///
+/// # Errors
+/// As [`rows`] and [`pose`].
+pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
+    let (_, numbers) = rows(name, array, &[4, 4])?;
+    let (each, _) = numbers.as_chunks::<16>();
+    (each.iter().enumerate())
+        .map(|(row, m)| pose(name, row, m))
+        .collect()
+}
+
+/// Wrenches from an array (n, 6): force, moment.
+///
+/// # Errors
+/// As [`rows`].
+pub fn wrenches(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
+    let (_, numbers) = rows(name, array, &[6])?;
+    let (each, _) = numbers.as_chunks::<6>();
+    Ok(each
+        .iter()
+        .map(|w| Wrench(Vector6::from_column_slice(w)))
+        .collect())
+}
+
+/// A new array of a given shape; the numbers go over without a copy.
+///
+/// # Errors
+/// More or fewer numbers than the shape has: a fault of this module.
+pub fn array<'py, S: IntoDimension>(
+    py: Python<'py>,
+    numbers: Vec<f64>,
+    shape: S,
+) -> PyResult<Bound<'py, PyArray<f64, S::Dim>>> {
+    numbers.into_pyarray(py).reshape(shape)
+}
+
+/// A pose as a 4 x 4 matrix, row by row.
+pub fn matrix_of(pose: &Pose) -> Vec<f64> {
+    let m: Matrix4<f64> = pose.to_homogeneous();
+    m.transpose().as_slice().to_vec()
+}
+
+/// A 6 x 6 matrix row by row.
+pub fn rows_of(m: &Matrix6<f64>) -> Vec<f64> {
+    m.transpose().as_slice().to_vec()
+}

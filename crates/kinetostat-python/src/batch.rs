@@ -1,0 +1,394 @@
+//! Many postures at once.
+
+use std::sync::Arc;
+
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details, Status, Table};
+use kinetostat::spatial::pose_residual;
+use kinetostat::{Directions, Mechanism, Pose, PostureRequest, Wrench};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+
+use crate::arrays::{Numbers, array, poses, rows, wrenches};
+use crate::errors::{Class, error, of_core};
+use crate::machine::Machine;
+use crate::work::{Course, Manner, away};
+
+/// Postures that a thread takes at a time.
+const BLOCK: usize = 256;
+
+/// Postures that are solved on the calling thread: to hand them over takes longer.
+const FEW: usize = 64;
+
+/// What became of a posture, as `kinetostat.Status` counts.
+fn number(status: Status, outside: bool) -> u8 {
+    match (status.is_solved(), outside) {
+        (false, _) => 2,
+        (true, true) => 1,
+        (true, false) => 0,
+    }
+}
+
+/// The first row of a block, its part of each column, and of the states.
+type Rows<'a> = (usize, Vec<&'a mut [f64]>, &'a mut [u8]);
+
+/// Columns of many rows, each with its own width, written block by block by all threads.
+struct Columns {
+    widths: Vec<usize>,
+    numbers: Vec<Vec<f64>>,
+    status: Vec<u8>,
+}
+
+impl Columns {
+    fn new(count: usize, widths: &[usize]) -> Self {
+        Self {
+            widths: widths.to_vec(),
+            numbers: widths.iter().map(|w| vec![0.0; count * w]).collect(),
+            status: vec![0; count],
+        }
+    }
+
+    fn blocks(&mut self) -> Vec<Rows<'_>> {
+        let mut parts: Vec<_> = (self.widths.iter().zip(&mut self.numbers))
+            .map(|(width, numbers)| numbers.chunks_mut((BLOCK * width).max(1)))
+            .collect();
+        (self.status.chunks_mut(BLOCK).enumerate())
+            .map(|(i, status)| {
+                let own = parts.iter_mut().map(|part| part.next().unwrap_or_default());
+                (BLOCK * i, own.collect(), status)
+            })
+            .collect()
+    }
+
+    /// Solves block after block on all threads; false where it was stopped before the end.
+    fn fill<T: Default + Send>(
+        &mut self,
+        course: &Course,
+        solve: impl Fn(&mut T, usize, &mut [&mut [f64]], &mut [u8]) + Sync,
+    ) -> bool {
+        course.of(self.status.len());
+        let stopped = || course.stopped();
+        let one = |room: &mut T, (first, mut columns, status): Rows<'_>| {
+            // What is not wanted any more is not solved.
+            if !stopped() {
+                solve(room, first, &mut columns, status);
+                course.add(status.len());
+            }
+        };
+        if self.status.len() <= FEW {
+            let mut room = T::default();
+            self.blocks()
+                .into_iter()
+                .for_each(|block| one(&mut room, block));
+        } else {
+            self.blocks().into_par_iter().for_each_init(T::default, one);
+        }
+        !course.stopped()
+    }
+}
+
+/// Puts rows of a table into rows of an array.
+fn put(table: &Table, to: &mut [f64]) {
+    let width = table.width();
+    if width == 0 {
+        return;
+    }
+    for (i, row) in to.chunks_exact_mut(width).enumerate() {
+        for (k, number) in row.iter_mut().enumerate() {
+            *number = table.get(i, k);
+        }
+    }
+}
+
+/// Rows of 16 numbers, a 4 x 4 matrix each, from rows of 12: rotation row by row, position.
+fn put_poses(table: &Table, to: &mut [f64]) {
+    for (i, row) in to.chunks_exact_mut(16).enumerate() {
+        for k in 0..3 {
+            for j in 0..3 {
+                row[4 * k + j] = table.get(i, 3 * k + j);
+            }
+            row[4 * k + 3] = table.get(i, 9 + k);
+        }
+        let known = !row[3].is_nan();
+        row[12..15].fill(if known { 0.0 } else { f64::NAN });
+        row[15] = if known { 1.0 } else { f64::NAN };
+    }
+}
+
+/// Does the work here if it is little, else away from the interpreter.
+fn done<R: Send + 'static>(
+    py: Python<'_>,
+    count: usize,
+    manner: &Manner<'_>,
+    work: impl FnOnce(&Course) -> R + Send + 'static,
+) -> PyResult<R> {
+    if count <= FEW && manner.progress.is_none() {
+        return Ok(py.detach(|| work(&Course::default())));
+    }
+    away(py, manner, move |course| work(course))
+}
+
+/// Where the machine is commanded to: poses of its tool, or its joints.
+enum Places {
+    Poses(Vec<Pose>),
+    Joints(Vec<f64>, usize),
+}
+
+impl Places {
+    fn of(
+        machine: &Machine,
+        targets: Option<&Numbers<'_>>,
+        joints: Option<&Numbers<'_>>,
+    ) -> PyResult<Self> {
+        match (targets, joints) {
+            (Some(targets), None) => Ok(Self::Poses(poses("poses", targets)?)),
+            (None, Some(joints)) => {
+                let each = machine.mechanism.actuator_count();
+                let (_, numbers) = rows("joints", joints, &[each])?;
+                // What cannot be commanded by joints says so before the work begins.
+                let batch = machine.batch();
+                let first = numbers.get(..each).unwrap_or_default();
+                batch.stiffness_at_joints(first).map_err(|e| of_core(&e))?;
+                Ok(Self::Joints(numbers.to_vec(), each))
+            }
+            _ => Err(error(Class::Argument, "give poses or joints")),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Poses(poses) => poses.len(),
+            Self::Joints(commands, each) => commands.len() / each.max(&1),
+        }
+    }
+
+    fn stiffness(&self, batch: &Batch, from: usize, to: usize, out: &mut BatchStiffness) {
+        match self {
+            Self::Poses(poses) => batch.stiffness_into(&poses[from..to], out),
+            Self::Joints(commands, each) => {
+                // The first row was tried, and all rows have its length.
+                let _ = batch.stiffness_at_joints_into(&commands[from * each..to * each], out);
+            }
+        }
+    }
+
+    /// Where the tool is commanded to, as drawn.
+    fn target(&self, machine: &Mechanism, i: usize) -> Option<Pose> {
+        match self {
+            Self::Poses(poses) => Some(poses[i]),
+            Self::Joints(commands, each) => {
+                let own = PostureRequest::commands(&commands[i * each..(i + 1) * each]);
+                Some(*machine.posture(own).ok()?.target())
+            }
+        }
+    }
+
+    fn equilibrium(
+        &self,
+        batch: &Batch,
+        (from, to): (usize, usize),
+        wrenches: &[Wrench],
+        details: Details,
+        out: &mut BatchEquilibrium,
+    ) -> kinetostat::Result<()> {
+        match self {
+            Self::Poses(poses) => batch.equilibrium_into(&poses[from..to], wrenches, details, out),
+            Self::Joints(commands, each) => {
+                let own = &commands[from * each..to * each];
+                batch.equilibrium_at_joints_into(own, wrenches, details, out)
+            }
+        }
+    }
+}
+
+/// One wrench for all postures, or one for each.
+fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
+    let found = wrenches("wrenches", numbers)?;
+    match found.len() {
+        1 => Ok(vec![found[0]; count]),
+        n if n == count => Ok(found),
+        n => Err(error(
+            Class::Argument,
+            format!(
+                "wrenches has shape ({n}, 6), expected (1, 6) or ({count}, 6) as there are {count} postures"
+            ),
+        )),
+    }
+}
+
+/// Stiffness (n, 6, 6), commands (n, actuators), state (n,) of many postures of the unloaded machine as drawn.
+#[pyfunction]
+#[pyo3(signature = (machine, poses=None, joints=None, threads=None, progress=None))]
+pub fn stiffness_of_many<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    poses: Option<Numbers<'py>>,
+    joints: Option<Numbers<'py>>,
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let places = Places::of(machine, poses.as_ref(), joints.as_ref())?;
+    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
+    let manner = Manner { threads, progress };
+    let columns = done(py, count, &manner, move |course| {
+        let mut columns = Columns::new(count, &[36, actuators]);
+        columns.fill(course, |found: &mut BatchStiffness, first, out, status| {
+            places.stiffness(&batch, first, first + status.len(), found);
+            put(&found.stiffness, out[0]);
+            put(&found.commands, out[1]);
+            for (i, status) in status.iter_mut().enumerate() {
+                *status = number(found.status[i], found.outside_limits(&mechanism, i));
+            }
+        });
+        columns
+    })?;
+    let mut numbers = columns.numbers.into_iter();
+    let mut next = || numbers.next().unwrap_or_default();
+    let answer = PyDict::new(py);
+    answer.set_item("matrix", array(py, next(), [count, 6, 6])?)?;
+    answer.set_item("commands", array(py, next(), [count, actuators])?)?;
+    answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
+    Ok(answer)
+}
+
+/// Equilibria of many postures. `details`: 0 rest, 1 stiffness too, 2 stability too.
+#[pyfunction]
+#[pyo3(signature = (machine, wrenches, details, poses=None, joints=None, threads=None, progress=None))]
+pub fn equilibrium_of_many<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    wrenches: Numbers<'py>,
+    details: u8,
+    poses: Option<Numbers<'py>>,
+    joints: Option<Numbers<'py>>,
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let places = Places::of(machine, poses.as_ref(), joints.as_ref())?;
+    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
+    let wrenches = each_wrench(count, &wrenches)?;
+    let details = match details {
+        0 => Details::Rest,
+        1 => Details::Stiffness,
+        _ => Details::Stability,
+    };
+    let wanted = |from: Details, width: usize| if details >= from { width } else { 0 };
+    let widths = [
+        16,
+        6,
+        actuators,
+        actuators,
+        wanted(Details::Stiffness, 36),
+        wanted(Details::Stability, 3),
+    ];
+    let manner = Manner { threads, progress };
+    let columns = done(py, count, &manner, move |course| {
+        let mut columns = Columns::new(count, &widths);
+        columns.fill(
+            course,
+            |found: &mut BatchEquilibrium, first, out, status| {
+                let end = first + status.len();
+                let own = &wrenches[first..end];
+                if places
+                    .equilibrium(&batch, (first, end), own, details, found)
+                    .is_err()
+                {
+                    out.iter_mut().for_each(|column| column.fill(f64::NAN));
+                    status.fill(2);
+                    return;
+                }
+                put_poses(&found.tool, out[0]);
+                for (i, row) in out[1].chunks_exact_mut(6).enumerate() {
+                    let target = places.target(&mechanism, first + i);
+                    match target.filter(|_| found.status[i].is_solved()) {
+                        Some(target) => {
+                            let moved = pose_residual(&found.tool_pose(i), &target);
+                            row.copy_from_slice(moved.0.as_slice());
+                        }
+                        None => row.fill(f64::NAN),
+                    }
+                }
+                put(&found.commands, out[2]);
+                put(&found.actuator_forces, out[3]);
+                put(&found.stiffness, out[4]);
+                put(&found.stability, out[5]);
+                for (i, status) in status.iter_mut().enumerate() {
+                    *status = number(found.status[i], found.outside_limits(&mechanism, i));
+                }
+            },
+        );
+        columns
+    })?;
+    let mut numbers = columns.numbers.into_iter();
+    let mut next = || numbers.next().unwrap_or_default();
+    let answer = PyDict::new(py);
+    answer.set_item("tool", array(py, next(), [count, 4, 4])?)?;
+    answer.set_item("displacement", array(py, next(), [count, 6])?)?;
+    answer.set_item("commands", array(py, next(), [count, actuators])?)?;
+    answer.set_item("actuator_forces", array(py, next(), [count, actuators])?)?;
+    if widths[4] > 0 {
+        answer.set_item("stiffness", array(py, next(), [count, 6, 6])?)?;
+    }
+    if widths[5] > 0 {
+        answer.set_item("stability", array(py, next(), [count, 3])?)?;
+    }
+    answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
+    Ok(answer)
+}
+
+/// Poses to command so that the tool is at `poses` under `wrenches` in the directions that are corrected.
+#[pyfunction]
+#[pyo3(signature = (machine, poses, wrenches, directions, threads=None, progress=None))]
+pub fn targets_of_many<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    poses: Numbers<'py>,
+    wrenches: Numbers<'py>,
+    directions: [bool; 6],
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let wanted = crate::arrays::poses("poses", &poses)?;
+    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let (count, actuators) = (wanted.len(), machine.mechanism.actuator_count());
+    let wrenches = each_wrench(count, &wrenches)?;
+    let chosen = (0..6).filter(|k| directions[*k]);
+    let directions = chosen.fold(Directions::NONE, Directions::with);
+    let batch: Arc<Batch> = batch;
+    let manner = Manner { threads, progress };
+    let columns = done(py, count, &manner, move |course| {
+        let mut columns = Columns::new(count, &[16, 16, actuators]);
+        columns.fill(course, |_: &mut (), first, out, status| {
+            let end = first + status.len();
+            let found =
+                batch.targets_under_load(&wanted[first..end], &wrenches[first..end], directions);
+            let Ok(found) = found else {
+                out.iter_mut().for_each(|column| column.fill(f64::NAN));
+                status.fill(2);
+                return;
+            };
+            for (row, target) in out[0].chunks_exact_mut(16).zip(&found.targets) {
+                row.copy_from_slice(&crate::arrays::matrix_of(target));
+            }
+            let equilibrium = &found.equilibrium;
+            put_poses(&equilibrium.tool, out[1]);
+            put(&equilibrium.commands, out[2]);
+            for (i, status) in status.iter_mut().enumerate() {
+                let outside = equilibrium.outside_limits(&mechanism, i);
+                *status = number(equilibrium.status[i], outside);
+            }
+        });
+        columns
+    })?;
+    let mut numbers = columns.numbers.into_iter();
+    let mut next = || numbers.next().unwrap_or_default();
+    let answer = PyDict::new(py);
+    answer.set_item("targets", array(py, next(), [count, 4, 4])?)?;
+    answer.set_item("tool", array(py, next(), [count, 4, 4])?)?;
+    answer.set_item("commands", array(py, next(), [count, actuators])?)?;
+    answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
+    Ok(answer)
+}

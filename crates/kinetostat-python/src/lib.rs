@@ -1,0 +1,42 @@
+//! `kinetostat._core`: machines and commands for Python.
+//!
+//! Arrays come and go as float64 in SI units. What is said about a quantity stands in the Python package
+//! (`python/kinetostat`); here are conversions, threads, interruption and errors, and no arithmetic of mechanics.
+
+#![allow(
+    unsafe_code,
+    reason = "pyo3's macros write it; there is none of our own"
+)]
+
+mod arrays;
+mod batch;
+mod command;
+mod equilibrium;
+mod errors;
+mod machine;
+mod posture;
+mod stiffness;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::batch::{equilibrium_of_many, stiffness_of_many, targets_of_many};
+    #[pymodule_export]
+    use crate::command::{command_tree, run_as_process, run_command};
+    #[pymodule_export]
+    use crate::equilibrium::Equilibrium;
+    #[pymodule_export]
+    use crate::machine::{Machine, preset_names, urdf_to_toml};
+    #[pymodule_export]
+    use crate::posture::Posture;
+    #[pymodule_export]
+    use crate::stiffness::Stiffness;
+    #[pymodule_export]
+    use crate::work::forked;
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,282 @@
+//! A machine: read, changed, commanded.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use kinetostat::batch::Batch;
+use kinetostat::nalgebra::{UnitQuaternion, Vector3};
+use kinetostat::{Mechanism, MotionKind, Pose, PostureRequest};
+use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
+use kinetostat_model::Model;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use sha2::{Digest, Sha256};
+
+use crate::arrays::{Numbers, array, matrix_of, pose, rows};
+use crate::errors::{Class, error, of_core, of_model};
+use crate::posture::Posture;
+
+/// A model with its tool, and the machine compiled for many postures once one is asked for.
+#[pyclass(frozen, module = "kinetostat._core")]
+pub struct Machine {
+    model: Arc<Model>,
+    tool: Pose,
+    pub(crate) mechanism: Mechanism,
+    compiled: OnceLock<Arc<Batch>>,
+}
+
+impl Machine {
+    fn new(model: Arc<Model>, tool: Pose) -> Self {
+        let mechanism = model.mechanism.with_tool(&tool);
+        Self {
+            model,
+            tool,
+            mechanism,
+            compiled: OnceLock::new(),
+        }
+    }
+
+    fn read(model: Result<Model, kinetostat_model::ModelError>) -> PyResult<Self> {
+        let model = model.map_err(|e| of_model(&e))?;
+        Ok(Self::new(Arc::new(model), Pose::identity()))
+    }
+
+    pub(crate) fn batch(&self) -> Arc<Batch> {
+        self.compiled
+            .get_or_init(|| Arc::new(Batch::new(&self.mechanism)))
+            .clone()
+    }
+
+    fn home(&self) -> Pose {
+        self.mechanism.platforms()[self.mechanism.tool()].home
+    }
+}
+
+fn kind(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Prismatic => "prismatic",
+        MotionKind::Revolute => "revolute",
+    }
+}
+
+/// One pose from an array (1, 4, 4).
+fn one(name: &str, matrix: &Numbers<'_>) -> PyResult<Pose> {
+    let (count, numbers) = rows(name, matrix, &[4, 4])?;
+    match count {
+        1 => pose(name, 0, numbers),
+        _ => Err(error(Class::Argument, format!("{name}: give one pose"))),
+    }
+}
+
+#[pymethods]
+impl Machine {
+    #[staticmethod]
+    fn open(py: Python<'_>, name_or_path: &str) -> PyResult<Self> {
+        Self::read(py.detach(|| Model::open(name_or_path)))
+    }
+
+    #[staticmethod]
+    fn preset(py: Python<'_>, name: &str) -> PyResult<Self> {
+        Self::read(py.detach(|| Model::preset(name)))
+    }
+
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: &str, file: &str) -> PyResult<Self> {
+        Self::read(py.detach(|| Model::from_toml(text, file)))
+    }
+
+    /// From a document as JSON: the keys of a model file.
+    #[staticmethod]
+    fn from_json(py: Python<'_>, json: &str, file: &str) -> PyResult<Self> {
+        let document: serde_json::Value =
+            serde_json::from_str(json).map_err(|e| error(Class::Model, e.to_string()))?;
+        // As text, so that mistakes are told as those of a file are.
+        let text = toml::to_string(&document).map_err(|e| error(Class::Model, e.to_string()))?;
+        Self::read(py.detach(|| Model::from_toml(&text, file)))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.model.name()
+    }
+
+    #[getter]
+    fn file(&self) -> &str {
+        &self.model.file
+    }
+
+    /// The text of the model file.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.model.text
+    }
+
+    /// The document as TOML, without comments, in the order of the schema.
+    fn to_toml(&self) -> PyResult<String> {
+        self.model.to_toml().map_err(|e| of_model(&e))
+    }
+
+    /// The document as JSON.
+    fn to_json(&self) -> PyResult<String> {
+        serde_json::to_string(&self.model.document).map_err(|e| error(Class::Model, e.to_string()))
+    }
+
+    /// What looks wrong although it can be computed.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        let each = self.model.warnings.iter();
+        each.map(ToString::to_string).collect()
+    }
+
+    /// SHA-256 of the document and the tool.
+    fn fingerprint(&self) -> PyResult<String> {
+        let mut hash = Sha256::new();
+        hash.update(self.to_toml()?.as_bytes());
+        for number in matrix_of(&self.tool) {
+            hash.update((number + 0.0).to_le_bytes());
+        }
+        Ok(hash.finalize().iter().map(|b| format!("{b:02x}")).collect())
+    }
+
+    fn tool<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, matrix_of(&self.tool), [4, 4])
+    }
+
+    fn home_pose<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, matrix_of(&self.home()), [4, 4])
+    }
+
+    fn with_tool(&self, tool: Numbers<'_>) -> PyResult<Self> {
+        Ok(Self::new(self.model.clone(), one("tool", &tool)?))
+    }
+
+    /// Name, kind, home, limits (or none), rating (or none), m and rad, N and N m.
+    #[expect(clippy::type_complexity, reason = "a row for a dataclass of Python")]
+    fn actuators(&self) -> Vec<(String, &'static str, f64, Option<(f64, f64)>, Option<f64>)> {
+        let limbs = self.mechanism.limbs().iter();
+        let each = limbs.flat_map(|limb| limb.nominal.actuators());
+        let named = self.mechanism.actuator_names().into_iter();
+        (named.zip(each).zip(self.model.ratings()))
+            .map(|((name, a), rating)| (name, kind(a.kind), a.home, a.limits, rating))
+            .collect()
+    }
+
+    fn platform_names(&self) -> Vec<String> {
+        let each = self.mechanism.platforms().iter();
+        each.map(|p| p.name.clone()).collect()
+    }
+
+    fn limb_names(&self) -> Vec<String> {
+        let each = self.mechanism.limbs().iter();
+        each.map(|limb| limb.name.clone()).collect()
+    }
+
+    /// The tool turns as the machine moves: it has fewer than six freedoms.
+    fn turns_as_it_moves(&self) -> bool {
+        self.mechanism.turns_as_it_moves()
+    }
+
+    /// Smallest and largest coordinates of the workspace that the file states, m.
+    fn workspace(&self) -> Option<([f64; 3], [f64; 3])> {
+        let (a, b) = self.model.workspace()?;
+        Some((a.into(), b.into()))
+    }
+
+    fn natural_length(&self) -> f64 {
+        self.mechanism.natural_length()
+    }
+
+    /// The machine commanded for a pose (1, 4, 4), near the joints of another posture.
+    #[pyo3(signature = (target, near=None))]
+    fn posture_at_pose(&self, target: Numbers<'_>, near: Option<&Posture>) -> PyResult<Posture> {
+        let target = one("pose", &target)?;
+        let mut request = PostureRequest::pose(&target);
+        if let Some(near) = near {
+            request = request.near(&near.0);
+        }
+        self.ask(request)
+    }
+
+    /// The machine commanded for a position, its orientation as at home; where the tool turns as the machine moves, the one
+    /// nearest to that at home.
+    #[pyo3(signature = (position, follows, near=None))]
+    fn posture_at_position(
+        &self,
+        position: [f64; 3],
+        follows: bool,
+        near: Option<&Posture>,
+    ) -> PyResult<Posture> {
+        let position = Vector3::from(position);
+        let rotation: UnitQuaternion<f64> = self.home().rotation;
+        let pose = Pose::from_parts(position.into(), rotation);
+        let mut request = match follows {
+            true => PostureRequest::position(&position, &rotation),
+            false => PostureRequest::pose(&pose),
+        };
+        if let Some(near) = near {
+            request = request.near(&near.0);
+        }
+        self.ask(request)
+    }
+
+    fn posture_at_joints(&self, joints: Vec<f64>) -> PyResult<Posture> {
+        self.ask(PostureRequest::commands(&joints))
+    }
+}
+
+impl Machine {
+    fn ask(&self, request: PostureRequest<'_>) -> PyResult<Posture> {
+        let posture = self.mechanism.posture(request);
+        posture
+            .map(|p| Posture(Arc::new(p)))
+            .map_err(|e| of_core(&e))
+    }
+}
+
+/// Names of the machines that come along.
+#[pyfunction]
+pub fn preset_names() -> Vec<(&'static str, &'static str)> {
+    let each = kinetostat_model::preset_names().iter();
+    each.map(|preset| (preset.name, preset.description))
+        .collect()
+}
+
+/// The model file of a robot's URDF, and what was skipped or looks wrong in it. `stiffness` is one number for all drives that turn
+/// (N m/rad), `stiffness_table` a CSV with the header `name,value,unit`; `home` says of joints whether they turn and where they
+/// stand (rad, m).
+#[pyfunction]
+#[pyo3(signature = (text, file, base=None, tip=None, passive=Vec::new(), home=BTreeMap::new(), stiffness=None, stiffness_table=None))]
+pub fn urdf_to_toml(
+    py: Python<'_>,
+    text: &str,
+    file: &str,
+    base: Option<String>,
+    tip: Option<String>,
+    passive: Vec<String>,
+    home: BTreeMap<String, (bool, f64)>,
+    stiffness: Option<f64>,
+    stiffness_table: Option<String>,
+) -> PyResult<(String, Vec<String>)> {
+    let mut options = UrdfOptions::default();
+    (options.base, options.tip, options.passive) = (base, tip, passive);
+    options.stiffness = match (stiffness, stiffness_table) {
+        (_, Some(text)) => JointStiffness::Table {
+            file: "joint_stiffness".to_owned(),
+            text,
+        },
+        (Some(all), None) => JointStiffness::All(all),
+        (None, None) => JointStiffness::Unknown,
+    };
+    let kind = |turning| match turning {
+        true => MotionKind::Revolute,
+        false => MotionKind::Prismatic,
+    };
+    let home = home.into_iter();
+    options.home = home
+        .map(|(name, (turning, at))| (name, (kind(turning), at)))
+        .collect();
+    let imported = py.detach(|| import_urdf(text, file, &options));
+    let imported = imported.map_err(|e| of_model(&e))?;
+    let notices = imported.notices.iter().map(ToString::to_string).collect();
+    Ok((imported.toml, notices))
+}

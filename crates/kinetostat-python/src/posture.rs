@@ -1,0 +1,72 @@
+//! A machine commanded for a target of its tool.
+
+use std::sync::Arc;
+
+use kinetostat::nalgebra::Vector6;
+use kinetostat::{Pose, Wrench};
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+use crate::arrays::{Numbers, array, matrix_of, pose, rows};
+use crate::equilibrium::Equilibrium;
+use crate::errors::of_core;
+use crate::stiffness::Stiffness;
+
+/// A machine whose actuators are commanded.
+#[pyclass(frozen, module = "kinetostat._core")]
+pub struct Posture(pub(crate) Arc<kinetostat::Posture>);
+
+#[pymethods]
+impl Posture {
+    /// Commands of all actuators, m or rad.
+    #[getter]
+    fn commands<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.0.commands())
+    }
+
+    /// Nominal pose of the tool, (4, 4).
+    #[getter]
+    fn target<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, matrix_of(self.0.target()), [4, 4])
+    }
+
+    /// Actuators outside their limits: name, command, lower and upper limit (m or rad).
+    #[getter]
+    fn limit_violations(&self) -> Vec<(String, f64, f64, f64)> {
+        let found = self.0.limit_violations().into_iter();
+        found
+            .map(|(name, at, (low, high))| (name, at, low, high))
+            .collect()
+    }
+
+    /// Cartesian stiffness of the unloaded machine as drawn.
+    fn stiffness(&self) -> PyResult<Stiffness> {
+        Stiffness::of(&self.0)
+    }
+
+    /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point.
+    fn deflected_by(&self, py: Python<'_>, wrench: [f64; 6]) -> PyResult<Equilibrium> {
+        let wrench = Wrench(Vector6::from(wrench));
+        let found = py.detach(|| self.0.deflected_by(&wrench));
+        Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
+    }
+
+    /// Equilibrium with the tool held at a pose (1, 4, 4): the wrench that holds it is part of the answer.
+    fn held_at(&self, py: Python<'_>, target: Numbers<'_>) -> PyResult<Equilibrium> {
+        let (_, numbers) = rows("pose", &target, &[4, 4])?;
+        let held: Pose = pose("pose", 0, numbers)?;
+        let found = py.detach(|| self.0.wrench_at(&held));
+        Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
+    }
+
+    fn __repr__(&self) -> String {
+        let at = self.0.target().translation.vector;
+        format!(
+            "<Posture of '{}', tool at [{:.6}, {:.6}, {:.6}] m>",
+            self.0.mechanism().name(),
+            at.x,
+            at.y,
+            at.z
+        )
+    }
+}

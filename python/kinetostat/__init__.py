@@ -1,0 +1,59 @@
+"""Elastostatics of robots that machine: how stiff, how far off under load, whether stable, what to command instead.
+
+Arrays in, arrays out: SI units (m, rad, N, N m), float64, base axes, linear part before angular; a wrench is what the environment applies to
+the tool. Functions that run a command of the command line (:mod:`kinetostat.commands`) return the same dictionaries as its JSON, with
+units in the names.
+"""
+
+from __future__ import annotations
+
+import os as _os
+
+from kinetostat import _core, commands, errors, spatial
+from kinetostat._core import Equilibrium, Posture, Stiffness
+from kinetostat.errors import (
+    ArgumentError,
+    KinetostatError,
+    ModelError,
+    ToleranceMissedWarning,
+    UnansweredError,
+)
+from kinetostat.machine import Actuator, Machine, preset_names
+from kinetostat.progress import bar
+from kinetostat.results import Equilibria, Stiffnesses, Targets
+from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
+from kinetostat.status import FoundBy, Status
+
+__version__ = _core.VERSION
+
+__all__ = [
+    "Actuator",
+    "ArgumentError",
+    "Equilibria",
+    "Equilibrium",
+    "FoundBy",
+    "KinetostatError",
+    "Machine",
+    "ModelError",
+    "Posture",
+    "Status",
+    "Stiffness",
+    "Stiffnesses",
+    "Targets",
+    "ToleranceMissedWarning",
+    "UnansweredError",
+    "__version__",
+    "bar",
+    "commands",
+    "errors",
+    "pose",
+    "preset_names",
+    "rotation_from_vector",
+    "rotation_vector",
+    "spatial",
+    "wrench",
+]
+
+# A child process has none of its parent's threads.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(after_in_child=_core.forked)

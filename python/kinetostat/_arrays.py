@@ -1,0 +1,52 @@
+"""Arguments as arrays of float64, with messages that show both shapes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kinetostat.errors import ArgumentError
+
+Floats = NDArray[np.float64]
+
+
+def _shape(shape: tuple[Any, ...]) -> str:
+    return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
+
+
+def numbers(name: str, value: ArrayLike) -> Floats:
+    """As C-contiguous float64; refuses complex numbers, text, objects and what is ragged."""
+    try:
+        given = np.asarray(value)
+    except ValueError as ragged:
+        raise ArgumentError(f"{name} is no array: {ragged}") from None
+    if given.dtype.kind not in "fiub":
+        raise ArgumentError(f"{name} has dtype {given.dtype}, expected real numbers")
+    return np.ascontiguousarray(given, dtype=np.float64) if given.ndim else given.astype(np.float64)
+
+
+def fitting(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Numbers whose last axes have a shape; the axes before are free."""
+    given = numbers(name, value)
+    if given.shape[max(given.ndim - len(shape), 0) :] != shape:
+        raise ArgumentError(f"{name} has shape {_shape(given.shape)}, expected {_shape(('...', *shape))}")
+    return given
+
+
+def rows(name: str, value: ArrayLike, shape: tuple[int, ...]) -> tuple[Floats, tuple[int, ...]]:
+    """The same as rows (n, *shape), with the shape of the axes before."""
+    given = fitting(name, value, shape)
+    leading = given.shape[: given.ndim - len(shape)]
+    return given.reshape(-1, *shape) if leading != () else given.reshape(1, *shape), leading
+
+
+def one(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Finite numbers of exactly this shape."""
+    given = numbers(name, value)
+    if given.shape != shape:
+        raise ArgumentError(f"{name} has shape {_shape(given.shape)}, expected {_shape(shape)}")
+    if not np.all(np.isfinite(given)):
+        raise ArgumentError(f"{name} is {given.tolist()}: give finite numbers")
+    return given

@@ -1,0 +1,120 @@
+"""Commands of the command line inside this process."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import tempfile
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from kinetostat import _core
+from kinetostat.errors import ArgumentError, ToleranceMissedWarning, UnansweredError
+from kinetostat.machine import Machine
+
+_WRONG_INPUT, _UNANSWERED, _TOLERANCE_MISSED = 1, 2, 3
+
+
+@dataclasses.dataclass(frozen=True)
+class Completed:
+    """What a command leaves."""
+
+    code: int
+    """Exit code: 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 130 stopped."""
+    out: bytes
+    """What it prints to the standard output."""
+    err: str
+    """What it prints to the standard error."""
+
+    def json(self) -> Any:
+        """Its answer, of a command with ``--json``."""
+        return json.loads(self.out)
+
+
+def run(words: Sequence[str | os.PathLike[str]], progress: Callable[[int, int, str], object] | None = None) -> Completed:
+    """A command by its words, as on the command line, without a process of its own.
+
+    Examples
+    --------
+    >>> run(["model", "list"]).code
+    0
+    """
+    return Completed(*_core.run_command([os.fspath(word) for word in words], progress))
+
+
+def _words(value: Any) -> list[str]:
+    if isinstance(value, (bool, np.bool_)):
+        raise ArgumentError(f"{value} is no value of an option")
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        return [repr(value.item() if isinstance(value, np.generic) else value)]
+    return [os.fspath(value)]
+
+
+def _option(name: str, value: Any) -> list[str]:
+    if value is None or value is False:
+        return []
+    if value is True:
+        return [name]
+    head = [name] if name else []
+    if isinstance(value, (str, os.PathLike)) or np.ndim(value) == 0:
+        return head + _words(value)
+    if np.ndim(value[0]) == 0 and not (isinstance(value[0], str) and name):
+        return head + [word for inner in value for word in _words(inner)]
+    return [word for inner in value for word in _option(name, inner)]
+
+
+def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder: str) -> list[str]:
+    words = list(command)
+    for index, (name, value) in enumerate(options):
+        if isinstance(value, Machine):
+            if not np.array_equal(value.tool, np.eye(4)):
+                raise ArgumentError("a command takes a machine without a tool: give its length with tool_length_mm, or its pose in the job")
+            path = os.path.join(folder, f"model-{index}.toml")
+            with open(path, "w", encoding="utf-8", newline="\n") as file:
+                file.write(value.text)
+            value = path
+        words += _option(name, value)
+    return words
+
+
+def _done(
+    command: Sequence[str],
+    options: Sequence[tuple[str, Any]],
+    progress: Callable[[int, int, str], object] | None,
+    extra: Sequence[str],
+) -> Completed:
+    with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
+        done = run([*_in_words(command, options, folder), *extra], progress)
+    message = done.err.strip()
+    at = message.rfind("error: ")
+    reason = message[at + 7 :] if at >= 0 else message
+    if done.code == _WRONG_INPUT:
+        raise ArgumentError(reason)
+    if done.code == _TOLERANCE_MISSED:
+        warnings.warn(reason, ToleranceMissedWarning, stacklevel=4)
+    elif done.code != 0 and not (done.code == _UNANSWERED and done.out.startswith(b"{")):
+        raise UnansweredError(reason)
+    return done
+
+
+def answered(
+    command: Sequence[str],
+    options: Sequence[tuple[str, Any]],
+    progress: Callable[[int, int, str], object] | None,
+) -> dict[str, Any]:
+    """The answer of a command with ``--json``."""
+    answer: dict[str, Any] = _done(command, options, progress, ["--json"]).json()
+    return answer
+
+
+def texted(
+    command: Sequence[str],
+    options: Sequence[tuple[str, Any]],
+    progress: Callable[[int, int, str], object] | None,
+) -> str:
+    """What a command prints."""
+    return _done(command, options, progress, []).out.decode()

@@ -1,0 +1,603 @@
+"""A machine: read from a file, a dictionary or a URDF; asked for stiffness, equilibria and targets."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kinetostat import _core
+from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat.errors import ArgumentError
+from kinetostat.results import Equilibria, Stiffnesses, Targets
+
+if TYPE_CHECKING:
+    from kinetostat._core import Posture
+
+__all__ = ["Actuator", "Machine", "preset_names"]
+
+Progress = Callable[[int, int, str], object]
+"""Called with what is done, how much there is (0: nobody knows) and the name of the stage."""
+
+_DETAILS = ("rest", "stiffness", "stability")
+_DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclasses.dataclass(frozen=True)
+class Actuator:
+    """A drive of a machine."""
+
+    name: str
+    """``limb.actuator``, or the actuator's own name in a machine of one limb."""
+    kind: Literal["prismatic", "revolute"]
+    home: float
+    """Command at home, m or rad."""
+    limits: tuple[float, float] | None
+    """Smallest and largest command, m or rad; none where the model states none."""
+    rating: float | None
+    """Largest force (N) or torque (N m) that the model states; none where it states none."""
+
+    @property
+    def unit(self) -> Literal["m", "rad"]:
+        """Unit of its commands."""
+        return "m" if self.kind == "prismatic" else "rad"
+
+
+def preset_names() -> dict[str, str]:
+    """Names of the machines that come along, each with what it is.
+
+    Examples
+    --------
+    >>> "orthoglide" in preset_names()
+    True
+    """
+    return dict(_core.preset_names())
+
+
+class Machine:
+    """A robot with its tool: geometry, springs, loads, as its model file says.
+
+    Made by :meth:`preset`, :meth:`open`, :meth:`from_toml`, :meth:`from_dict` or :meth:`from_urdf`; never changed afterwards. Units are
+    SI (m, rad, N, N m); poses are 4 x 4 matrices, base from tool; base axes; wrenches act on the tool, about its reference point.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> machine = ks.Machine.preset("orthoglide")
+    >>> posture = machine.posture(position=[0, 0, 0])
+    >>> k = posture.stiffness().matrix
+    >>> k.shape
+    (6, 6)
+    >>> loaded = posture.deflected_by(ks.wrench([100, -20, -30]))
+    >>> loaded.stable
+    True
+    """
+
+    __slots__ = ("__weakref__", "_fingerprint", "_native")
+
+    _native: _core.Machine
+    _fingerprint: str | None
+
+    def __init__(self) -> None:
+        raise TypeError("use Machine.preset, Machine.open, Machine.from_toml, Machine.from_dict or Machine.from_urdf")
+
+    @classmethod
+    def _of(cls, native: _core.Machine) -> Machine:
+        made = object.__new__(cls)
+        made._native = native
+        made._fingerprint = None
+        return made
+
+    # Where it comes from -------------------------------------------------------------------------------------------
+
+    @classmethod
+    def preset(cls, name: str) -> Machine:
+        """A machine that comes along; :func:`preset_names` lists them.
+
+        Examples
+        --------
+        >>> Machine.preset("two_link").name
+        'planar arm of two links'
+        """
+        return cls._of(_core.Machine.preset(name))
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Machine:
+        """A model file (TOML) by its path, or a preset by its name.
+
+        Raises
+        ------
+        ModelError
+            Every problem of the file with its line and what to do.
+
+        Examples
+        --------
+        >>> Machine.open("orthoglide").name
+        'Orthoglide'
+        """
+        return cls._of(_core.Machine.open(os.fspath(path)))
+
+    @classmethod
+    def from_toml(cls, text: str, file: str = "model.toml") -> Machine:
+        """A model from the text of a model file; ``file`` names it in messages.
+
+        Examples
+        --------
+        >>> text = Machine.preset("two_link").text
+        >>> Machine.from_toml(text) == Machine.preset("two_link")
+        True
+        """
+        return cls._of(_core.Machine.from_toml(text, file))
+
+    @classmethod
+    def from_dict(cls, document: Mapping[str, Any], file: str = "dictionary") -> Machine:
+        """A model from a dictionary with the keys of a model file; values of None are left out.
+
+        Examples
+        --------
+        >>> document = Machine.preset("two_link").to_dict()
+        >>> document["mechanism"]["name"] = "mine"
+        >>> Machine.from_dict(document).name
+        'mine'
+        """
+        return cls._of(_core.Machine.from_json(json.dumps(_plain(document), allow_nan=True), file))
+
+    @classmethod
+    def from_urdf(
+        cls,
+        robot: object,
+        *,
+        base: str | None = None,
+        tip: str | None = None,
+        passive: Sequence[str] = (),
+        home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None = None,
+        stiffness: float | Mapping[str, tuple[float, str]] | None = None,
+    ) -> Machine:
+        """A machine from a URDF: geometry, masses and limits; what bends is given here or stays rigid.
+
+        Parameters
+        ----------
+        robot : path, str or object
+            Path of a URDF file, its text (beginning with ``<``), or an object with ``write_xml_string()`` (yourdfpy) or
+            ``to_xml_string()`` (urdf_parser_py).
+        base, tip : str, optional
+            Links that stand and that carry the tool.
+        passive : sequence of str
+            Joints that nothing drives.
+        home : mapping, optional
+            Where joints stand at home: ``{"joint": ("revolute", 0.5)}``, rad or m.
+        stiffness : float or mapping, optional
+            One stiffness for all drives that turn, N m/rad, or by joint with its unit: ``{"joint": (2e5, "N m/rad")}``. Drives
+            without one are rigid.
+
+        Returns
+        -------
+        Machine
+            What was skipped or looks wrong is in :attr:`warnings`.
+
+        Examples
+        --------
+        >>> urdf = '''<robot name="crane"><link name="post"/><link name="boom"/>
+        ... <joint name="shoulder" type="revolute"><parent link="post"/><child link="boom"/>
+        ... <origin xyz="0 0 1.5"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="0" velocity="1"/></joint>
+        ... <link name="hook"/><joint name="end" type="fixed"><origin xyz="1 0 0"/>
+        ... <parent link="boom"/><child link="hook"/></joint></robot>'''
+        >>> crane = Machine.from_urdf(urdf, tip="hook", stiffness=2e5)
+        >>> crane.posture(joints=[0.0]).deflected_by([0, 0, -100, 0, 0, 0]).displacement[2]
+        -0.0005
+        """
+        text, file = _urdf_text(robot)
+        table = None
+        if isinstance(stiffness, Mapping):
+            lines = [f"{name},{value!r},{unit}" for name, (value, unit) in stiffness.items()]
+            table = "\n".join(["name,value,unit", *lines, ""])
+        stands = {name: (kind == "revolute", at) for name, (kind, at) in (home or {}).items()}
+        single = None if isinstance(stiffness, Mapping) else stiffness
+        toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
+        return cls._of(_core.Machine.from_toml(toml, file))
+
+    # What it is ----------------------------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """Name of the machine."""
+        return self._native.name
+
+    @property
+    def file(self) -> str:
+        """Name of its file, ``preset NAME``, or what it was made from."""
+        return self._native.file
+
+    @property
+    def text(self) -> str:
+        """Text of its model file, comments included."""
+        return self._native.text
+
+    @property
+    def warnings(self) -> list[str]:
+        """What looks wrong in the model although it can be computed."""
+        return self._native.warnings
+
+    @property
+    def actuators(self) -> tuple[Actuator, ...]:
+        """Its drives, in the order of commands."""
+        return tuple(Actuator(*row) for row in self._native.actuators())
+
+    @property
+    def platforms(self) -> tuple[str, ...]:
+        """Names of its platforms, the base first."""
+        return tuple(self._native.platform_names())
+
+    @property
+    def limbs(self) -> tuple[str, ...]:
+        """Names of its limbs."""
+        return tuple(self._native.limb_names())
+
+    @property
+    def home(self) -> Floats:
+        """(4, 4): pose of the tool at home, base from tool."""
+        return self._native.home_pose()
+
+    @property
+    def tool(self) -> Floats:
+        """(4, 4): flange from tool."""
+        return self._native.tool()
+
+    @property
+    def workspace(self) -> tuple[Floats, Floats] | None:
+        """Two opposite corners of the workspace that the model states, m; none where it states none."""
+        found = self._native.workspace()
+        return None if found is None else (np.array(found[0]), np.array(found[1]))
+
+    @property
+    def turns_as_it_moves(self) -> bool:
+        """Whether the tool turns as the machine moves, because it has fewer than six freedoms."""
+        return self._native.turns_as_it_moves()
+
+    def to_toml(self) -> str:
+        """The model as a file: every key, no comments. The tool is not part of it."""
+        return self._native.to_toml()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The model as a dictionary with the keys of a model file."""
+        found: dict[str, Any] = _without_none(json.loads(self._native.to_json()))
+        return found
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the model file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            File to write; an existing one is replaced.
+        """
+        target = os.fspath(path)
+        beside = f"{target}.{os.getpid()}.part"
+        try:
+            with open(beside, "w", encoding="utf-8", newline="\n") as file:
+                file.write(self.to_toml())
+            os.replace(beside, target)
+        except BaseException:
+            if os.path.exists(beside):
+                os.remove(beside)
+            raise
+
+    def with_tool(self, tool: ArrayLike | None = None, *, length: float | None = None) -> Machine:
+        """The same machine with another tool.
+
+        Parameters
+        ----------
+        tool : array_like, shape (4, 4), optional
+            Pose of the tool's reference point, flange from tool, m.
+        length : float, optional
+            Instead: a straight tool, its tip so many m along z of the flange.
+
+        Examples
+        --------
+        >>> longer = Machine.preset("heavy_6r").with_tool(length=0.2)
+        >>> float(longer.tool[2, 3])
+        0.2
+        """
+        if (tool is None) == (length is None):
+            raise ArgumentError("give a tool or its length, m")
+        pose = np.eye(4)
+        if length is not None:
+            pose[2, 3] = float(one("length", length, ()))
+        else:
+            pose = one("tool", np.asarray(tool), (4, 4))
+        return self._of(self._native.with_tool(pose[None]))
+
+    # What it does --------------------------------------------------------------------------------------------------
+
+    def posture(
+        self,
+        position: ArrayLike | None = None,
+        rotation: ArrayLike | None = None,
+        *,
+        pose: ArrayLike | None = None,
+        joints: ArrayLike | None = None,
+        near: Posture | None = None,
+    ) -> Posture:
+        """The machine commanded for a place; at home without one.
+
+        Parameters
+        ----------
+        position : array_like, shape (3,), optional
+            Position of the tool's reference point, m.
+        rotation : array_like, shape (3, 3), optional
+            Rotation matrix with the position, base from tool; as at home without it. Where the tool turns as the machine moves,
+            the one nearest to that at home is taken.
+        pose : array_like, shape (4, 4), optional
+            Instead of both: base from tool.
+        joints : array_like, shape (actuators,), optional
+            Instead of a place: commands, m or rad.
+        near : Posture, optional
+            Where several postures reach the place, the one next to this is taken.
+
+        Returns
+        -------
+        Posture
+
+        Raises
+        ------
+        UnansweredError
+            The place is out of reach; the message says the nearest one that was found.
+        """
+        if joints is not None:
+            if pose is not None or position is not None or rotation is not None:
+                raise ArgumentError("give joints or a place, not both")
+            return self._native.posture_at_joints(one("joints", joints, (len(self._native.actuators()),)).tolist())
+        if pose is not None:
+            if position is not None or rotation is not None:
+                raise ArgumentError("give a pose, or a position and a rotation, not both")
+            return self._native.posture_at_pose(one("pose", pose, (4, 4))[None], near)
+        if rotation is None and position is not None:
+            place = one("position", position, (3,))
+            return self._native.posture_at_position(place.tolist(), self._native.turns_as_it_moves(), near)
+        at = self._native.home_pose()
+        if position is not None:
+            at[:3, 3] = one("position", position, (3,))
+        if rotation is not None:
+            at[:3, :3] = one("rotation", rotation, (3, 3))
+        return self._native.posture_at_pose(at[None], near)
+
+    def _poses(self, poses: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
+        """Poses (n, 4, 4) from poses or from positions with the orientation at home."""
+        given = numbers("poses", poses)
+        if given.shape[-2:] == (4, 4):
+            return rows("poses", given, (4, 4))
+        if given.shape[-1:] != (3,):
+            raise ArgumentError(f"poses has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
+        places, leading = rows("poses", given, (3,))
+        out = np.empty((len(places), 4, 4))
+        out[:] = self._native.home_pose()
+        out[:, :3, 3] = places
+        return out, leading
+
+    def stiffness(
+        self,
+        poses: ArrayLike | None = None,
+        *,
+        joints: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Stiffnesses:
+        """Cartesian stiffness of many postures of the unloaded machine as drawn.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4) or (..., 3)
+            Poses of the tool, base from tool, or positions with the orientation at home, m.
+        joints : array_like, shape (..., actuators)
+            Instead, for a serial machine without passive joints: commands, m or rad.
+        threads : int, optional
+            Number of threads; all cores without it. The answer is the same.
+        progress : callable, optional
+            Called with what is done, how much there is and the name of the stage; :func:`kinetostat.bar` makes one of tqdm.
+
+        Returns
+        -------
+        Stiffnesses
+            Arrays with the leading axes of what was given.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("orthoglide")
+        >>> x = np.linspace(-0.05, 0.05, 5)
+        >>> machine.stiffness(np.stack([x, 0 * x, 0 * x], axis=-1)).matrix.shape
+        (5, 6, 6)
+        """
+        places, commands, leading = self._places(poses, joints)
+        found = _core.stiffness_of_many(self._native, places, commands, threads, progress)
+        return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def _places(self, poses: ArrayLike | None, joints: ArrayLike | None) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
+        if (poses is None) == (joints is None):
+            raise ArgumentError("give poses or joints")
+        if poses is not None:
+            places, leading = self._poses(poses)
+            return places, None, leading
+        commands, leading = rows("joints", np.asarray(joints), (len(self._native.actuators()),))
+        return None, commands, leading
+
+    def equilibrium(
+        self,
+        poses: ArrayLike | None = None,
+        wrenches: ArrayLike = (0.0,) * 6,
+        *,
+        joints: ArrayLike | None = None,
+        details: Literal["rest", "stiffness", "stability"] = "stability",
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Equilibria:
+        """Equilibria of many postures of the machine as it is, with its own loads and deviations, under wrenches on the tool.
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4) or (..., 3)
+            Commanded poses of the tool, or positions with the orientation at home, m.
+        wrenches : array_like, shape (6,) or (..., 6)
+            Force and moment on the tool (N, N m), base axes, about its reference point: one for all, or one for each.
+        joints : array_like, shape (..., actuators)
+            Instead of poses, for a serial machine without passive joints: commands, m or rad.
+        details : {"rest", "stiffness", "stability"}
+            How much is wanted; each includes those before it.
+        threads, progress
+            As for :meth:`stiffness`.
+
+        Returns
+        -------
+        Equilibria
+
+        Examples
+        --------
+        >>> machine = Machine.preset("orthoglide")
+        >>> found = machine.equilibrium([[0, 0, 0], [0.01, 0, 0]], [100, 0, 0, 0, 0, 0])
+        >>> bool(found.stable.all()), found.displacement.shape
+        (True, (2, 6))
+        """
+        if details not in _DETAILS:
+            raise ArgumentError(f"details is {details!r}, expected one of {', '.join(_DETAILS)}")
+        places, commands, leading = self._places(poses, joints)
+        loads = self._wrenches(wrenches, leading)
+        level = _DETAILS.index(details)
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, progress)
+        stability = found.pop("stability", None)
+        arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
+        if stability is not None:
+            arrays["stable"] = _shaped(stability[:, 0] > 0, leading)
+            arrays["against_force"] = _shaped(stability[:, 1], leading)
+            arrays["share_to_buckling"] = _shaped(stability[:, 2], leading)
+        return Equilibria(**arrays)
+
+    def _wrenches(self, wrenches: ArrayLike, leading: tuple[int, ...]) -> Floats:
+        given = fitting("wrenches", wrenches, (6,))
+        if given.ndim == 1:
+            return given.reshape(1, 6)
+        if given.shape[:-1] != leading:
+            raise ArgumentError(f"wrenches has shape {given.shape}, expected (6,) or {(*leading, 6)}")
+        return np.ascontiguousarray(given.reshape(-1, 6))
+
+    def targets(
+        self,
+        poses: ArrayLike,
+        wrenches: ArrayLike,
+        *,
+        directions: Sequence[str] | Literal["position", "pose"] = "position",
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Targets:
+        """Poses to command so that the loaded tool is where it should be: compensation [R 7.7-7.13].
+
+        Parameters
+        ----------
+        poses : array_like, shape (..., 4, 4) or (..., 3)
+            Where the tool should be under the load, base from tool, m.
+        wrenches : array_like, shape (6,) or (..., 6)
+            Force and moment on the tool there (N, N m).
+        directions : {"position", "pose"} or sequence of str
+            What is corrected: names of ``x y z rx ry rz``, base axes.
+        threads, progress
+            As for :meth:`stiffness`.
+
+        Returns
+        -------
+        Targets
+
+        Examples
+        --------
+        >>> machine = Machine.preset("orthoglide")
+        >>> found = machine.targets([[0, 0, 0]], [100, -20, -30, 0, 0, 0])
+        >>> bool(np.abs(found.tool[0, :3, 3]).max() < 1e-12)
+        True
+        """
+        names = {"position": _DIRECTIONS[:3], "pose": _DIRECTIONS}.get(str(directions), directions)
+        unknown = [name for name in names if name not in _DIRECTIONS]
+        if unknown or isinstance(names, str):
+            raise ArgumentError(f"directions is {directions!r}, expected 'position', 'pose' or some of {_DIRECTIONS}")
+        places, leading = self._poses(poses)
+        loads = self._wrenches(wrenches, leading)
+        wanted = [name in names for name in _DIRECTIONS]
+        found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
+        return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    # As a value ----------------------------------------------------------------------------------------------------
+
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of the model and its tool: the same on every machine and in every run."""
+        if self._fingerprint is None:
+            self._fingerprint = self._native.fingerprint()
+        return self._fingerprint
+
+    def __hash__(self) -> int:
+        return int(self.fingerprint[:15], 16)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Machine):
+            return NotImplemented
+        return self.fingerprint == other.fingerprint
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.text, self.file, self.tool)
+
+    def __copy__(self) -> Machine:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Machine:
+        return self
+
+    def __repr__(self) -> str:
+        count = len(self._native.actuators())
+        return f"<Machine '{self.name}' ({self.file}): {len(self.limbs)} limbs, {count} actuators>"
+
+
+def _restored(text: str, file: str, tool: Floats) -> Machine:
+    """A machine that was pickled."""
+    native = _core.Machine.from_toml(text, file)
+    return Machine._of(native if np.array_equal(tool, np.eye(4)) else native.with_tool(tool[None]))
+
+
+def _shaped(array: NDArray[Any], leading: tuple[int, ...]) -> NDArray[Any]:
+    return array.reshape(leading + array.shape[1:])
+
+
+def _without_none(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_none(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, list):
+        return [_without_none(inner) for inner in value]
+    return value
+
+
+def _plain(value: Any) -> Any:
+    """Arrays and numbers of numpy as plain ones, without None."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, np.generic):
+        return value.item()
+    return copy.copy(value)
+
+
+def _urdf_text(robot: object) -> tuple[str, str]:
+    for method in ("write_xml_string", "to_xml_string"):
+        if hasattr(robot, method):
+            text = getattr(robot, method)()
+            return text.decode() if isinstance(text, bytes) else str(text), f"{type(robot).__name__}.urdf"
+    if isinstance(robot, str) and robot.lstrip().startswith("<"):
+        return robot, "text.urdf"
+    if isinstance(robot, (str, os.PathLike)):
+        path = os.fspath(robot)
+        with open(path, encoding="utf-8-sig") as file:
+            return file.read(), path
+    raise ArgumentError(f"robot is a {type(robot).__name__}, expected a path, the text of a URDF, or a yourdfpy object")

@@ -1,0 +1,33 @@
+"""What became of a posture or an equilibrium."""
+
+from __future__ import annotations
+
+import enum
+
+__all__ = ["FoundBy", "Status"]
+
+
+class Status(enum.IntEnum):
+    """What became of one posture of many."""
+
+    SOLVED = 0
+    """There is an answer, and all commands are within their limits."""
+    OUTSIDE_LIMITS = 1
+    """There is an answer, but an actuator would be outside its limits."""
+    UNSOLVED = 2
+    """There is none: the place cannot be reached, or has no equilibrium. Its numbers are NaN."""
+
+
+class FoundBy(enum.Enum):
+    """How an equilibrium was found. Where several exist it tells which of them this is."""
+
+    DIRECTLY = "directly"
+    """Newton's iteration from the commanded posture."""
+    OUT_OF_LINE = "out_of_line"
+    """Newton's iteration from a posture slightly out of line: of shapes that mirror each other it is one."""
+    GROWING_LOAD = "growing_load"
+    """The load grew from rest in steps."""
+    OTHER_START = "other_start"
+    """Newton's iteration from another start: it may lie on another branch."""
+    CONTINUATION = "continuation"
+    """A curve of equilibria was followed to it."""
