@@ -3,7 +3,7 @@ from os import PathLike
 from typing import Any, Literal, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int, str], object]
@@ -55,7 +55,7 @@ class Posture:
     @property
     def limit_violations(self) -> list[tuple[str, float, float, float]]: ...
     def stiffness(self) -> Stiffness: ...
-    def deflected_by(self, wrench: Sequence[float] | _Floats) -> Equilibrium: ...
+    def deflected_by(self, wrench: ArrayLike) -> Equilibrium: ...
     def held_at(self, target: _Floats) -> Equilibrium: ...
 
 @final

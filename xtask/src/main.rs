@@ -8,6 +8,7 @@ mod cutting;
 mod figures;
 mod fuzz;
 mod programs;
+mod python;
 mod test;
 
 use std::path::{Path, PathBuf};
@@ -19,8 +20,10 @@ use anyhow::{Context, Result, bail};
 const HELP: &str = "\
 Tasks of the project
 
-  cargo xtask test              format, lints, tests, documentation, book, instruction counts:
-                                what CI runs
+  cargo xtask test              format, lints, tests, documentation, book, instruction counts,
+                                the Python package: what CI runs
+  cargo xtask test --python     the Python package alone: oldest and newest CPython at hand
+  cargo xtask wheel             its wheel: size, description, installed beside numpy alone
   cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
@@ -41,6 +44,8 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["test"] => test::run(),
+        ["test", "--python"] => python::test(),
+        ["wheel"] => python::wheel(),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),

@@ -1,8 +1,8 @@
-//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction sets and counts.
+//! `cargo xtask test`: format, lints, tests, documentation, the Python package, the book, instruction sets and counts.
 
 use anyhow::Result;
 
-use crate::{book, cargo, counts, step};
+use crate::{book, cargo, counts, python, step};
 
 /// What CI runs and the README promises.
 pub fn run() -> Result<()> {
@@ -44,6 +44,7 @@ pub fn run() -> Result<()> {
         "examples in the documentation",
         cargo().args(["test", "--workspace", "--no-fail-fast", "--doc"]),
     )?;
+    python::test()?;
     book::check()?;
     counts::instruction_sets()?;
     counts::check()?;

@@ -5,15 +5,16 @@ use kinetostat::nalgebra::{
 };
 use kinetostat::{Pose, Wrench};
 use numpy::ndarray::IntoDimension;
-use numpy::{IntoPyArray, PyArray, PyArrayMethods, PyReadonlyArrayDyn};
+use numpy::{IntoPyArray, PyArray, PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
 
 use crate::errors::{Class, error};
 
 /// An array of float64, C-contiguous: what `numpy.ascontiguousarray(x, dtype=float)` gives.
 pub type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
 
-/// The numbers of an array whose rows have a given shape, with the number of rows.
+/// The numbers of an array whose rows have a given shape, with the number of rows; one row may come without the axis before it.
 ///
 /// # Errors
 /// An array of another shape, or with a number that is not finite; both shapes are said.
@@ -24,7 +25,8 @@ pub fn rows<'a>(
 ) -> PyResult<(usize, &'a [f64])> {
     use numpy::PyUntypedArrayMethods;
     let found = array.shape();
-    if found.len() != shape.len() + 1 || &found[1..] != shape {
+    let single = found == shape;
+    if !single && (found.len() != shape.len() + 1 || &found[1..] != shape) {
         let wanted: Vec<String> = shape.iter().map(usize::to_string).collect();
         let found: Vec<String> = found.iter().map(usize::to_string).collect();
         return Err(error(
@@ -36,7 +38,7 @@ pub fn rows<'a>(
             ),
         ));
     }
-    let count = found[0];
+    let count = if single { 1 } else { found[0] };
     let numbers = array.as_slice().map_err(|_| {
         error(
             Class::Argument,
@@ -89,16 +91,58 @@ pub fn pose(name: &str, row: usize, m: &[f64]) -> PyResult<Pose> {
     ))
 }
 
+/// Poses that are converted between two looks for signals.
+const OFTEN: usize = 1 << 16;
+
 /// Poses from an array (n, 4, 4).
 ///
 /// # Errors
-/// As [`rows`] and [`pose`].
+/// As [`rows`] and [`pose`]; `KeyboardInterrupt`.
 pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
     let (_, numbers) = rows(name, array, &[4, 4])?;
     let (each, _) = numbers.as_chunks::<16>();
-    (each.iter().enumerate())
-        .map(|(row, m)| pose(name, row, m))
-        .collect()
+    let mut all = Vec::with_capacity(each.len());
+    for (row, m) in each.iter().enumerate() {
+        // Millions take seconds, and Ctrl-C is not to wait for them.
+        if row % OFTEN == OFTEN - 1 {
+            array.py().check_signals()?;
+        }
+        all.push(pose(name, row, m)?);
+    }
+    Ok(all)
+}
+
+/// One pose from an array (4, 4) or (1, 4, 4).
+///
+/// # Errors
+/// As [`rows`] and [`pose`], and more than one pose.
+pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
+    let (count, numbers) = rows(name, array, &[4, 4])?;
+    match count {
+        1 => pose(name, 0, numbers),
+        _ => Err(error(
+            Class::Argument,
+            format!("{name}: give one pose, not {count}"),
+        )),
+    }
+}
+
+/// One wrench from anything that numpy takes for six finite numbers.
+///
+/// # Errors
+/// Another shape, complex numbers, text, NaN: what was expected and what was found.
+pub fn one_wrench(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Wrench> {
+    // The usual kinds at once. Arrays of other dtypes would lose imaginary parts on the way.
+    let usual = given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>();
+    if (usual || given.cast::<PyArray1<f64>>().is_ok())
+        && let Ok(numbers) = given.extract::<[f64; 6]>()
+        && numbers.iter().all(|x| x.is_finite())
+    {
+        return Ok(Wrench(Vector6::from(numbers)));
+    }
+    let arrays = given.py().import("kinetostat._arrays")?;
+    let fitted = arrays.call_method1("one", (name, given, (6,)))?;
+    Ok(Wrench(Vector6::from(fitted.extract::<[f64; 6]>()?)))
 }
 
 /// Wrenches from an array (n, 6): force, moment.

@@ -12,7 +12,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::arrays::{Numbers, array, matrix_of, pose, rows};
+use crate::arrays::{Numbers, array, matrix_of, one_pose};
 use crate::errors::{Class, error, of_core, of_model};
 use crate::posture::Posture;
 
@@ -56,15 +56,6 @@ fn kind(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Prismatic => "prismatic",
         MotionKind::Revolute => "revolute",
-    }
-}
-
-/// One pose from an array (1, 4, 4).
-fn one(name: &str, matrix: &Numbers<'_>) -> PyResult<Pose> {
-    let (count, numbers) = rows(name, matrix, &[4, 4])?;
-    match count {
-        1 => pose(name, 0, numbers),
-        _ => Err(error(Class::Argument, format!("{name}: give one pose"))),
     }
 }
 
@@ -147,7 +138,7 @@ impl Machine {
     }
 
     fn with_tool(&self, tool: Numbers<'_>) -> PyResult<Self> {
-        Ok(Self::new(self.model.clone(), one("tool", &tool)?))
+        Ok(Self::new(self.model.clone(), one_pose("tool", &tool)?))
     }
 
     /// Name, kind, home, limits (or none), rating (or none), m and rad, N and N m.
@@ -189,7 +180,7 @@ impl Machine {
     /// The machine commanded for a pose (1, 4, 4), near the joints of another posture.
     #[pyo3(signature = (target, near=None))]
     fn posture_at_pose(&self, target: Numbers<'_>, near: Option<&Posture>) -> PyResult<Posture> {
-        let target = one("pose", &target)?;
+        let target = one_pose("pose", &target)?;
         let mut request = PostureRequest::pose(&target);
         if let Some(near) = near {
             request = request.near(&near.0);

@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use kinetostat::nalgebra::Vector6;
-use kinetostat::{Pose, Wrench};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, array, matrix_of, pose, rows};
+use crate::arrays::{Numbers, array, matrix_of, one_pose, one_wrench};
 use crate::equilibrium::Equilibrium;
 use crate::errors::of_core;
 use crate::stiffness::Stiffness;
@@ -45,16 +43,16 @@ impl Posture {
     }
 
     /// Equilibrium under a wrench (6,) on the tool: force (N), moment (N m), base axes, about its reference point.
-    fn deflected_by(&self, py: Python<'_>, wrench: [f64; 6]) -> PyResult<Equilibrium> {
-        let wrench = Wrench(Vector6::from(wrench));
+    fn deflected_by(&self, wrench: &Bound<'_, PyAny>) -> PyResult<Equilibrium> {
+        let py = wrench.py();
+        let wrench = one_wrench("wrench", wrench)?;
         let found = py.detach(|| self.0.deflected_by(&wrench));
         Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
     }
 
-    /// Equilibrium with the tool held at a pose (1, 4, 4): the wrench that holds it is part of the answer.
+    /// Equilibrium with the tool held at a pose (4, 4): the wrench that holds it is part of the answer.
     fn held_at(&self, py: Python<'_>, target: Numbers<'_>) -> PyResult<Equilibrium> {
-        let (_, numbers) = rows("pose", &target, &[4, 4])?;
-        let held: Pose = pose("pose", 0, numbers)?;
+        let held = one_pose("pose", &target)?;
         let found = py.detach(|| self.0.wrench_at(&held));
         Ok(Equilibrium(found.map_err(|e| of_core(&e))?))
     }
