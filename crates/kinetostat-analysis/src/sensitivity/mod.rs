@@ -185,7 +185,9 @@ impl Tangent<'_> {
             let one = |posture: &Posture, h: f64| {
                 let state = self.state.moved_by(&motion, h);
                 let found = posture.as_if_in_equilibrium(&state, &self.task.wrench);
-                found.map(|e| Values::of(&e, &self.task.direction)).map_err(|e| e.to_string())
+                found
+                    .map(|e| Values::of(&e, &self.task.direction))
+                    .map_err(|e| e.to_string())
             };
             let (a, b) = (one(plus, h)?, one(minus, -h)?);
             sides.push(a.combined(&b, |x, y| 0.5 * (x - y) / h));

@@ -40,7 +40,9 @@ impl Values {
     pub fn combined(&self, other: &Self, with: impl Fn(f64, f64) -> f64) -> Self {
         let pair = self.share_to_buckling.zip(other.share_to_buckling);
         Self {
-            displacement: std::array::from_fn(|k| with(self.displacement[k], other.displacement[k])),
+            displacement: std::array::from_fn(|k| {
+                with(self.displacement[k], other.displacement[k])
+            }),
             deflection: with(self.deflection, other.deflection),
             compliance: with(self.compliance, other.compliance),
             stiffness: with(self.stiffness, other.stiffness),

@@ -216,18 +216,12 @@ fn passive_joints(m: &Mechanism) -> Vec<(String, String)> {
     joints.collect()
 }
 
-fn parts(
-    m: &Mechanism,
-    tangent: &LinearisedMachine<'_>,
-    motion: &MachineMotion,
-) -> Vec<Part> {
+fn parts(m: &Mechanism, tangent: &LinearisedMachine<'_>, motion: &MachineMotion) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for term in tangent.work(motion, motion) {
         let (limb, name, kind, spring) = described(m, term.of);
         let loads = matches!(kind, PartKind::LoadsOfLimb);
-        let same = |p: &&mut Part| {
-            p.limb == limb && p.kind == kind && (p.name == name || loads)
-        };
+        let same = |p: &&mut Part| p.limb == limb && p.kind == kind && (p.name == name || loads);
         let at = match parts.iter_mut().find(same) {
             Some(part) => part,
             None => {
@@ -273,9 +267,12 @@ fn described(
             };
             (limb_named(i), name, kind, Some((i, k)))
         }
-        WorkOf::LimbLoads(i) | WorkOf::SpringLoad(i, _) => {
-            (limb_named(i), "loads".to_owned(), PartKind::LoadsOfLimb, None)
-        }
+        WorkOf::LimbLoads(i) | WorkOf::SpringLoad(i, _) => (
+            limb_named(i),
+            "loads".to_owned(),
+            PartKind::LoadsOfLimb,
+            None,
+        ),
         WorkOf::PlatformLoad(k) => {
             let name = format!("load {}", k + 1);
             (None, name, PartKind::PlatformLoad, None)

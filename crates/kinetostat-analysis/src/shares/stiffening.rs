@@ -86,7 +86,12 @@ pub fn stiffen(
 ) -> Result<Option<Stiffening>, SharesError> {
     let before = Shares::unloaded(posture, direction)?;
     let wanted = before.compliance * target;
-    let parts: Vec<Part> = before.parts.iter().filter(|p| p.kind.is_elastic()).cloned().collect();
+    let parts: Vec<Part> = before
+        .parts
+        .iter()
+        .filter(|p| p.kind.is_elastic())
+        .cloned()
+        .collect();
     let weights: Vec<f64> = parts.iter().map(&weight).collect();
     let mut effective: Vec<f64> = parts.iter().map(|p| p.compliance).collect();
     let mut promised = None;

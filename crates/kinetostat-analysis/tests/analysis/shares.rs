@@ -11,7 +11,10 @@ use nalgebra::Vector3;
 
 /// A direction along no axis, force and moment.
 pub(crate) fn off_axis() -> Wrench {
-    Wrench::new(Vector3::new(0.53, -0.41, 0.74), Vector3::new(0.021, 0.034, -0.017))
+    Wrench::new(
+        Vector3::new(0.53, -0.41, 0.74),
+        Vector3::new(0.021, 0.034, -0.017),
+    )
 }
 
 /// Off the home, if the machine can go there.
@@ -24,9 +27,13 @@ pub(crate) fn posture(model: &Model) -> Posture {
     );
     if m.turns_as_it_moves() {
         let request = PostureRequest::position(&beside.translation.vector, &home.rotation);
-        m.posture(request).or_else(|_| m.posture(&home)).expect("home")
+        m.posture(request)
+            .or_else(|_| m.posture(&home))
+            .expect("home")
     } else {
-        m.posture(&beside).or_else(|_| m.posture(&home)).expect("home")
+        m.posture(&beside)
+            .or_else(|_| m.posture(&home))
+            .expect("home")
     }
 }
 
@@ -50,25 +57,54 @@ fn shares_of_every_preset_add_to_one_and_agree_with_the_stiffness() {
             let stiffness = posture.stiffness().expect(name);
             match Shares::unloaded(&posture, &direction) {
                 Ok(shares) => {
-                    assert!((sum(&shares) - 1.0).abs() < 1e-12, "{name}: {:e}", sum(&shares) - 1.0);
-                    assert!(shares.rounding.abs() < 1e-12, "{name}: {:e}", shares.rounding);
+                    assert!(
+                        (sum(&shares) - 1.0).abs() < 1e-12,
+                        "{name}: {:e}",
+                        sum(&shares) - 1.0
+                    );
+                    assert!(
+                        shares.rounding.abs() < 1e-12,
+                        "{name}: {:e}",
+                        shares.rounding
+                    );
                     assert!(shares.parts.iter().all(|p| p.share > -1e-15), "{name}");
                     assert!(shares.geometric() == 0.0, "{name}: nothing acts");
                     let unit = direction.0.normalize();
                     let own = unit.dot(&(stiffness.compliance().springs * unit));
-                    assert!((shares.compliance / own - 1.0).abs() < 1e-9, "{name}: {} {own}", shares.compliance);
+                    assert!(
+                        (shares.compliance / own - 1.0).abs() < 1e-9,
+                        "{name}: {} {own}",
+                        shares.compliance
+                    );
                     unloaded += 1;
                 }
                 Err(error) => refused.push(format!("{name}: {error}")),
             }
-            let load = Wrench::new(Vector3::new(61.0, -83.0, -47.0), Vector3::new(1.1, 0.7, -1.9));
-            let Ok(found) = posture.deflected_by(&(0.3 * load)) else { continue };
+            let load = Wrench::new(
+                Vector3::new(61.0, -83.0, -47.0),
+                Vector3::new(1.1, 0.7, -1.9),
+            );
+            let Ok(found) = posture.deflected_by(&(0.3 * load)) else {
+                continue;
+            };
             if let Ok(shares) = Shares::at(&posture, &found, &direction) {
-                assert!((sum(&shares) - 1.0).abs() < 1e-12, "{name} loaded: {:e}", sum(&shares) - 1.0);
-                assert!(shares.rounding.abs() < 1e-10, "{name} loaded: {:e}", shares.rounding);
+                assert!(
+                    (sum(&shares) - 1.0).abs() < 1e-12,
+                    "{name} loaded: {:e}",
+                    sum(&shares) - 1.0
+                );
+                assert!(
+                    shares.rounding.abs() < 1e-10,
+                    "{name} loaded: {:e}",
+                    shares.rounding
+                );
                 let unit = direction.0.normalize();
                 let own = unit.dot(&(found.compliance().springs * unit));
-                assert!((shares.compliance / own - 1.0).abs() < 1e-8, "{name}: {} {own}", shares.compliance);
+                assert!(
+                    (shares.compliance / own - 1.0).abs() < 1e-8,
+                    "{name}: {} {own}",
+                    shares.compliance
+                );
                 loaded += 1;
                 turned += usize::from(shares.geometric().abs() > 1e-9);
             }
@@ -95,7 +131,8 @@ fn springs_in_series_and_a_cantilever_give_what_the_formulas_say() {
     let home = Pose::translation(length + arm, 0.0, 0.0);
     let crane = Mechanism::serial(chain, home, Vector3::zeros()).expect("a machine");
     let posture = crane.posture(&home).expect("home");
-    let shares = Shares::unloaded(&posture, &Wrench::new(Vector3::y(), Vector3::zeros())).expect("shares");
+    let shares =
+        Shares::unloaded(&posture, &Wrench::new(Vector3::y(), Vector3::zeros())).expect("shares");
     let bending = ((length + arm).powi(3) - arm.powi(3)) / (3.0 * e * section.second_moment_z);
     let parts = [1.0 / k, (length + arm).powi(2) / turn, bending];
     let all: f64 = parts.iter().sum();
@@ -103,14 +140,28 @@ fn springs_in_series_and_a_cantilever_give_what_the_formulas_say() {
         assert!((part.share - expected / all).abs() < 1e-12, "{part:?}");
         assert!((part.compliance / expected - 1.0).abs() < 1e-10, "{part:?}");
     }
-    let kinds: Vec<_> = shares.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
-    let expected = [("slide", PartKind::Drive), ("hinge", PartKind::Drive), ("boom", PartKind::Link)];
+    let kinds: Vec<_> = shares
+        .parts
+        .iter()
+        .map(|p| (p.name.as_str(), p.kind))
+        .collect();
+    let expected = [
+        ("slide", PartKind::Drive),
+        ("hinge", PartKind::Drive),
+        ("boom", PartKind::Link),
+    ];
     assert_eq!(kinds, expected);
 }
 
 #[test]
 fn a_spring_that_is_changed_changes_the_compliance_by_its_share() {
-    for name in ["orthoglide", "heavy_6r", "hexapod", "gantry_with_tripod", "arm_with_parallel_wrist"] {
+    for name in [
+        "orthoglide",
+        "heavy_6r",
+        "hexapod",
+        "gantry_with_tripod",
+        "arm_with_parallel_wrist",
+    ] {
         let model = Model::preset(name).expect(name);
         let posture = posture(&model);
         let direction = off_axis();
@@ -127,7 +178,11 @@ fn a_spring_that_is_changed_changes_the_compliance_by_its_share() {
         for part in shares.parts.iter().filter(|p| p.share > 1e-3) {
             // By the flexibility 1/k: its derivative is the share, exactly.
             let at = |flexibility: f64| {
-                let factors: Vec<_> = part.springs.iter().map(|&(l, s)| (l, s, 1.0 / flexibility)).collect();
+                let factors: Vec<_> = part
+                    .springs
+                    .iter()
+                    .map(|&(l, s)| (l, s, 1.0 / flexibility))
+                    .collect();
                 compliance(&factors)
             };
             let d = |h: f64| (at(1.0 + h) - at(1.0 - h)) / (2.0 * h);
@@ -151,9 +206,15 @@ fn a_spring_that_is_changed_changes_the_compliance_by_its_share() {
 fn absurd_directions_are_refused_by_name() {
     let model = Model::preset("orthoglide").expect("a preset");
     let posture = posture(&model);
-    assert_eq!(Shares::unloaded(&posture, &Wrench::zero()), Err(SharesError::NoDirection));
+    assert_eq!(
+        Shares::unloaded(&posture, &Wrench::zero()),
+        Err(SharesError::NoDirection)
+    );
     let chain = Chain::builder("table")
-        .actuator("x", ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 1e6))
+        .actuator(
+            "x",
+            ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 1e6),
+        )
         .passive("y", MotionKind::Prismatic, Vector3::y(), 0.0)
         .build()
         .expect("a chain");
@@ -163,7 +224,10 @@ fn absurd_directions_are_refused_by_name() {
     assert_eq!(along(Vector3::y()), Err(SharesError::Free));
     assert_eq!(along(Vector3::z()), Err(SharesError::Rigid));
     let shares = along(Vector3::x()).expect("the drive yields");
-    assert_eq!(shares.passive_joints, [("table".to_owned(), "y".to_owned())]);
+    assert_eq!(
+        shares.passive_joints,
+        [("table".to_owned(), "y".to_owned())]
+    );
     assert!((shares.parts[0].share - 1.0).abs() < 1e-14);
     assert!(MachineResidual::combined(&[]).is_none());
 }

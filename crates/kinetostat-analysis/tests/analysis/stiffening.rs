@@ -33,16 +33,29 @@ fn no_other_factors_are_cheaper() {
     }
     assert_eq!(factors(&c, &w, 20.0), Some(vec![1.0; 5]), "nothing to do");
     let fixed = [f64::INFINITY, 1.0, 1.0, 1.0, 1.0];
-    assert_eq!(factors(&c, &fixed, 4.9), None, "the part that cannot be changed gives 5");
+    assert_eq!(
+        factors(&c, &fixed, 4.9),
+        None,
+        "the part that cannot be changed gives 5"
+    );
 }
 
 #[test]
 fn the_stiffened_machine_meets_the_target() {
     for name in ["heavy_6r", "orthoglide", "hexapod"] {
         let posture = posture(&Model::preset(name).expect(name));
-        let found = stiffen(&posture, &off_axis(), 0.7, |_| 1.0).expect(name).expect(name);
-        assert!((found.after / found.before - 0.7).abs() < 1e-8, "{name}: {}", found.after / found.before);
+        let found = stiffen(&posture, &off_axis(), 0.7, |_| 1.0)
+            .expect(name)
+            .expect(name);
+        assert!(
+            (found.after / found.before - 0.7).abs() < 1e-8,
+            "{name}: {}",
+            found.after / found.before
+        );
         assert!(found.cost > 0.0 && !found.parts.is_empty(), "{name}");
-        assert!((found.promised / found.before - 0.7).abs() < 1e-12, "{name}");
+        assert!(
+            (found.promised / found.before - 0.7).abs() < 1e-12,
+            "{name}"
+        );
     }
 }

@@ -175,7 +175,11 @@ impl SensitivitiesAnswer {
             match &s.derivatives {
                 Err(reason) => answer.not_differentiated.push((path, reason.clone())),
                 Ok(d) => {
-                    let size = s.parameter.value.abs().max(1.0 / s.parameter.in_si.max(1.0));
+                    let size = s
+                        .parameter
+                        .value
+                        .abs()
+                        .max(1.0 / s.parameter.in_si.max(1.0));
                     // Below rounding of what is differentiated.
                     let nothing = d.deflection.abs() * size <= 1e-9 * deflection
                         && d.stiffness.abs() * size <= 1e-9 * now.abs();
@@ -187,10 +191,13 @@ impl SensitivitiesAnswer {
             }
         }
         let effect = |s: &SensitivityAnswer| {
-            (s.deflection_by_percent_m_or_rad / found.values.deflection).abs()
+            (s.deflection_by_percent_m_or_rad / found.values.deflection)
+                .abs()
                 .max(s.stiffness_by_percent_relative.abs())
         };
-        answer.numbers.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
+        answer
+            .numbers
+            .sort_by(|a, b| effect(b).total_cmp(&effect(a)));
         answer
     }
 }
@@ -207,9 +214,12 @@ pub(crate) fn parts(shares: &Shares) -> (Vec<PartAnswer>, Vec<LimbAnswer>) {
         })
         .collect();
     parts.sort_by(|a, b| b.share.total_cmp(&a.share));
-    let limbs = shares.by_limb().into_iter().map(|(name, share)| LimbAnswer {
-        name: name.map(str::to_owned),
-        share,
-    });
+    let limbs = shares
+        .by_limb()
+        .into_iter()
+        .map(|(name, share)| LimbAnswer {
+            name: name.map(str::to_owned),
+            share,
+        });
     (parts, limbs.collect())
 }

@@ -134,9 +134,7 @@ fn derivatives(
     let home = query.mechanism.platforms()[query.mechanism.tool()].home;
     let place = match (&query.joints, &query.followed) {
         (Some(joints), _) => CommandedPlace::Commands(joints.clone()),
-        (None, Some(_)) => {
-            CommandedPlace::Position(query.target.translation.vector, home.rotation)
-        }
+        (None, Some(_)) => CommandedPlace::Position(query.target.translation.vector, home.rotation),
         (None, None) => CommandedPlace::Pose(query.target),
     };
     let task = SensitivityTask {

@@ -43,7 +43,11 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &SharesAnswer) -> String {
     ));
     out.push('\n');
     let several = a.limbs.iter().filter(|l| l.name.is_some()).count() > 1;
-    let mut rows = vec![["part", "kind", "share, %", unit].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        ["part", "kind", "share, %", unit]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
     for part in &a.parts {
         rows.push(vec![
             part.full_name(several),
@@ -52,13 +56,21 @@ pub(crate) fn answer_text(query: &PlaceQuery, a: &SharesAnswer) -> String {
             number(1e6 * part.compliance_m_or_rad_per_n_or_n_m, 4),
         ]);
     }
-    rows.push(vec!["all".into(), String::new(), "100.00".into(), number(1e6 * a.compliance_m_or_rad_per_n_or_n_m, 4)]);
+    rows.push(vec![
+        "all".into(),
+        String::new(),
+        "100.00".into(),
+        number(1e6 * a.compliance_m_or_rad_per_n_or_n_m, 4),
+    ]);
     out.push_str(&columns(&rows, 1));
     if several {
         out.push_str("\nLimbs\n");
         for limb in &a.limbs {
             let name = limb.name.as_deref().unwrap_or("what acts on platforms");
-            out.push_str(&item(&format!("{name}: {} %", fixed(100.0 * limb.share, 2))));
+            out.push_str(&item(&format!(
+                "{name}: {} %",
+                fixed(100.0 * limb.share, 2)
+            )));
         }
     }
     if let Some(stiffening) = &a.stiffening {
@@ -82,7 +94,10 @@ fn stiffening_text(s: &StiffeningAnswer, several: bool) -> String {
         return out;
     }
     out.push_str(&wrapped(
-        &format!("Cheapest stiffening for {less} % less deflection ({}):", s.assumption),
+        &format!(
+            "Cheapest stiffening for {less} % less deflection ({}):",
+            s.assumption
+        ),
         0,
     ));
     for part in &s.parts {
@@ -90,7 +105,10 @@ fn stiffening_text(s: &StiffeningAnswer, several: bool) -> String {
             (Some(limb), true) => format!("{limb}: {}", part.name),
             _ => part.name.clone(),
         };
-        out.push_str(&item(&format!("{name}: {} times as stiff", number(part.factor, 4))));
+        out.push_str(&item(&format!(
+            "{name}: {} times as stiff",
+            number(part.factor, 4)
+        )));
     }
     out
 }
@@ -104,30 +122,48 @@ fn sensitivities_text(s: &SensitivitiesAnswer) -> String {
     ));
     out.push('\n');
     let mut rows = vec![
-        ["number", "value", "deflection, %", "stiffness, %"].map(str::to_owned).to_vec(),
+        ["number", "value", "deflection, %", "stiffness, %"]
+            .map(str::to_owned)
+            .to_vec(),
     ];
     for n in s.numbers.iter().take(SHOWN) {
         let relative = 100.0 * n.deflection_by_percent_m_or_rad / s.deflection_m_or_rad;
         rows.push(vec![
             n.path.clone(),
             format!("{} {}", number(n.value, 4), n.unit),
-            if without_load { "-".into() } else { fixed(relative, 4) },
+            if without_load {
+                "-".into()
+            } else {
+                fixed(relative, 4)
+            },
             fixed(100.0 * n.stiffness_by_percent_relative, 4),
         ]);
     }
     out.push_str(&columns(&rows, 1));
     if s.numbers.len() > SHOWN {
-        out.push_str(&wrapped(&format!("and {} more: see --json", s.numbers.len() - SHOWN), 1));
+        out.push_str(&wrapped(
+            &format!("and {} more: see --json", s.numbers.len() - SHOWN),
+            1,
+        ));
     }
     if !s.not_differentiated.is_empty() {
         let count = s.not_differentiated.len();
-        out.push_str(&wrapped(&format!("Not differentiated: {count} numbers, with the reasons in --json."), 0));
+        out.push_str(&wrapped(
+            &format!("Not differentiated: {count} numbers, with the reasons in --json."),
+            0,
+        ));
     }
     out
 }
 
 pub(crate) fn table(a: &SharesAnswer) -> Answer<Vec<u8>> {
-    let header = ["limb", "part", "kind", "share", "compliance_m_or_rad_per_n_or_n_m"];
+    let header = [
+        "limb",
+        "part",
+        "kind",
+        "share",
+        "compliance_m_or_rad_per_n_or_n_m",
+    ];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for part in &a.parts {
         rows.push(vec![
@@ -149,7 +185,10 @@ pub(crate) fn bars(a: &SharesAnswer) -> Bars {
         figure: format!("{} %", fixed(100.0 * part.share, 1)),
     });
     Bars {
-        title: format!("{}: shares of the deflection under {}", a.model, a.direction),
+        title: format!(
+            "{}: shares of the deflection under {}",
+            a.model, a.direction
+        ),
         bars: bars.collect(),
     }
 }

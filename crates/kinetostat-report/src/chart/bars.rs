@@ -49,7 +49,12 @@ impl Bars {
         for (k, line) in titles.iter().enumerate() {
             svg.text("title", (18.0, 28.0 + 18.0 * k as f64), Anchor::Start, line);
         }
-        let values = || self.bars.iter().map(|bar| bar.value).filter(|v| v.is_finite());
+        let values = || {
+            self.bars
+                .iter()
+                .map(|bar| bar.value)
+                .filter(|v| v.is_finite())
+        };
         let low = values().fold(0.0_f64, f64::min);
         let high = values().fold(0.0_f64, f64::max);
         let room = WIDTH - NAMES - FIGURES;
@@ -59,7 +64,11 @@ impl Bars {
             let y = top + ROW * k as f64;
             let name = text::shorten(&bar.name, 34);
             svg.text("name", (NAMES - 10.0, y + 14.0), Anchor::End, &name);
-            let length = if bar.value.is_finite() { bar.value * unit } else { 0.0 };
+            let length = if bar.value.is_finite() {
+                bar.value * unit
+            } else {
+                0.0
+            };
             let (class, from) = match length < 0.0 {
                 true => ("negative", zero + length),
                 false => ("share", zero),

@@ -176,12 +176,7 @@ impl Posture {
     }
 
     /// Everything evaluated at a state, with dense matrices, platforms where the state says.
-    fn evaluated(
-        &self,
-        state: MechanismState,
-        wrench: &Wrench,
-        share: f64,
-    ) -> PlatformSolver<'_> {
+    fn evaluated(&self, state: MechanismState, wrench: &Wrench, share: f64) -> PlatformSolver<'_> {
         let mut solver = self.solver(state, Unknowns::Pose);
         solver.wrench = *wrench;
         solver.share = share;
@@ -294,7 +289,9 @@ impl LinearisedMachine<'_> {
         let limbs = solver.limb_steps(&step, &solver.state);
         let mut platforms = vec![Twist::zero()];
         platforms.extend(step.motions);
-        let coordinates = limbs.iter().map(|l| l.rows(6, l.len() - 6).iter().copied().collect());
+        let coordinates = limbs
+            .iter()
+            .map(|l| l.rows(6, l.len() - 6).iter().copied().collect());
         let finite = limbs.iter().flat_map(|l| l.iter()).all(|x| x.is_finite());
         finite.then(|| MachineMotion {
             platforms,
@@ -332,8 +329,9 @@ impl LinearisedMachine<'_> {
             let first = block.first;
             let mut all = 0.0;
             let mut geometric = Vec::new();
-            let mut entry =
-                |row: usize, column: usize, value: f64| all += v[first + row] * value * u[first + column];
+            let mut entry = |row: usize, column: usize, value: f64| {
+                all += v[first + row] * value * u[first + column]
+            };
             block.add(
                 &solver.state.coordinates[i],
                 &solver.posture[i].coordinates,
@@ -373,7 +371,10 @@ impl LinearisedMachine<'_> {
         let hessian: &DMatrix<f64> = &system.hessian;
         let along = velocities(virtual_motion).dot(&(hessian * velocities(motion)));
         let turned = solver.turned_force(i, &solver.state);
-        let (a, b) = (&virtual_motion.platforms[limb.to].0, &motion.platforms[limb.to].0);
+        let (a, b) = (
+            &virtual_motion.platforms[limb.to].0,
+            &motion.platforms[limb.to].0,
+        );
         terms.push(WorkTerm {
             of: WorkOf::LimbLoads(i),
             work: a.dot(&(turned * b)) - along,
