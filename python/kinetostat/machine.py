@@ -19,6 +19,7 @@ from kinetostat.results import Equilibria, Stiffnesses, Targets
 
 if TYPE_CHECKING:
     from kinetostat._core import Posture
+    from kinetostat.shares import Shares
 
 __all__ = ["Actuator", "Machine", "preset_names"]
 
@@ -417,6 +418,34 @@ class Machine:
         places, commands, leading = self._places(poses, joints)
         found = _core.stiffness_of_many(self._native, places, commands, threads, progress)
         return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def shares(
+        self,
+        position: ArrayLike | None = None,
+        *,
+        joints: ArrayLike | None = None,
+        direction: Literal["x", "y", "z", "rx", "ry", "rz"] | Sequence[float] = "z",
+        wrench: ArrayLike | None = None,
+    ) -> Shares:
+        """Which part gives how much of the deflection in a direction: :func:`kinetostat.shares.shares`.
+
+        Parameters
+        ----------
+        position, joints, direction, wrench
+            As for :func:`kinetostat.shares.shares`, m, rad, N, N m, base axes.
+
+        Returns
+        -------
+        Shares
+
+        Examples
+        --------
+        >>> Machine.preset("heavy_6r").shares(direction="z").parts[0].share > 0.1
+        True
+        """
+        from kinetostat.shares import shares
+
+        return shares(self, position, joints=joints, direction=direction, wrench=wrench)
 
     def _places(self, poses: ArrayLike | None, joints: ArrayLike | None) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
         if (poses is None) == (joints is None):

@@ -7,6 +7,9 @@
 //! | which sign, offset or frame explains measured poses? | [`measured_poses::explain`] |
 //! | what do deviations lock in? | [`assembled::AssembledMachine`] |
 //! | how near is a load to instability? | [`instability::InstabilityShares`] |
+//! | which spring, link, joint gives how much of a deflection? | [`shares::Shares`] |
+//! | what would stiffen it most cheaply? | [`shares::stiffening::stiffen`] |
+//! | what does every number of the model file change? | [`sensitivity::sensitivities`] |
 //! | are deflections under a load small? | [`reference_load::under_forces`], [`push_stiffness::PushStiffnesses`] |
 //! | what do single limbs and actuators do? | [`limb_motions`], [`joint_motion`] |
 //! | a machine of one limb as a chain whose end is held | [`serial_chain::SerialChain`], [`movable`], [`degenerate`] |
@@ -29,4 +32,6 @@ pub mod push_stiffness;
 pub mod reach;
 pub mod reference_load;
 pub mod rotation;
+pub mod sensitivity;
 pub mod serial_chain;
+pub mod shares;

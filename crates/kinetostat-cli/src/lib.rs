@@ -11,6 +11,7 @@
 mod assemble;
 mod check;
 mod command_line;
+mod compare;
 mod compensate;
 mod convert;
 mod curve;
@@ -32,6 +33,7 @@ mod options;
 mod place;
 mod program;
 mod reproduce;
+mod shares;
 mod shell;
 mod stiffness;
 mod ui;
@@ -151,6 +153,8 @@ fn run(command: Command) -> Answer<()> {
         Command::Compensate(args) => compensate::run(*args),
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
+        Command::Shares(args) => shares::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),

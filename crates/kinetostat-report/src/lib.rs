@@ -45,6 +45,7 @@ use kinetostat_machining::{CuttingResult, Run, RunResult, TurnChoice};
 use run::shown::Shown;
 use run::{page, preview};
 
+pub use chart::bars::{Bar, Bars};
 pub use chart::plot::{Plot, PlotLine, PlotMark};
 pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};

@@ -1,3 +1,6 @@
 //! Analyses by themselves; with models and machines the command line tests them.
 
 mod rotation;
+mod sensitivity;
+mod shares;
+mod stiffening;

@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand};
 
 use crate::assemble::arguments::AssembleArgs;
 use crate::check::arguments::CheckArgs;
+use crate::compare::arguments::CompareArgs;
 use crate::compensate::arguments::CompensateArgs;
 use crate::convert::arguments::ConvertArgs;
 use crate::curve::arguments::CurveArgs;
@@ -23,6 +24,7 @@ use crate::map::arguments::MapArgs;
 use crate::model::arguments::ModelArgs;
 use crate::options::EXIT_CODES;
 use crate::reproduce::arguments::ReproduceArgs;
+use crate::shares::arguments::SharesArgs;
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
 
@@ -71,6 +73,8 @@ pub(crate) enum Command {
     Compensate(Box<CompensateArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
+    Shares(Box<SharesArgs>),
+    Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),

@@ -58,6 +58,7 @@ mod robot_oracle;
 mod robot_programs;
 mod same_figures;
 mod sensible_numbers;
+mod shares;
 mod smallest_stiffness;
 mod stability;
 mod tables;

@@ -4,6 +4,7 @@
 
 pub(crate) mod area;
 pub(crate) mod axis;
+pub(crate) mod bars;
 pub(crate) mod dashes;
 pub(crate) mod label;
 pub(crate) mod outline;

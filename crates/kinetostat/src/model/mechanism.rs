@@ -415,6 +415,36 @@ impl Mechanism {
         parts.into()
     }
 
+    /// The same machine with springs so many times as stiff: limb, index among [`Chain::springs`], factor. Nominal and actual
+    /// chains change alike; what does not exist is left out.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis, stiffness| ActuatorSpec::new(MotionKind::Prismatic, axis, stiffness);
+    /// # let chain = Chain::builder("table").actuator("long", slide(Vector3::x(), 8e7)).build()?; // N/m
+    /// let table = Mechanism::serial(chain, Pose::identity(), Vector3::zeros())?;
+    /// let stiffer = table.with_springs_scaled(&[(0, 0, 2.0)]);
+    /// assert_eq!(stiffer.limbs()[0].actual.springs()[0].stiffness_at(&[0.0])[(0, 0)], 1.6e8);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_springs_scaled(&self, factors: &[(usize, usize, f64)]) -> Self {
+        let mut scaled = self.clone();
+        let limbs = &mut scaled.parts_mut().limbs;
+        for &(limb, spring, factor) in factors {
+            let Some(limb) = limbs.get_mut(limb) else {
+                continue;
+            };
+            for chain in [&mut limb.nominal, &mut limb.actual] {
+                if let Some(block) = chain.springs.get_mut(spring) {
+                    block.law = block.law.scaled(factor);
+                }
+            }
+        }
+        scaled
+    }
+
     /// Loads on platforms, those between limbs included, in the order in which they were added.
     #[must_use]
     pub fn platform_loads(&self) -> &[PlatformLoad] {

@@ -352,6 +352,12 @@ impl<'m> PlatformSolver<'m> {
     pub fn finish(&mut self) -> (Sparse, Vec<Wrench>) {
         self.share = 1.0;
         let (_, unbalanced) = self.evaluate();
+        self.linearise_exactly();
+        (self.tangents(&self.state).0, unbalanced)
+    }
+
+    /// Exact tangents of all limbs at the state evaluated last.
+    pub fn linearise_exactly(&mut self) {
         self.linearise(Hessian::Kept);
         for (linear, (limb, scales)) in self
             .linear
@@ -366,7 +372,6 @@ impl<'m> PlatformSolver<'m> {
                 linear.solution.columns_mut(1, 6).copy_from(&answer);
             }
         }
-        (self.tangents(&self.state).0, unbalanced)
     }
 
     /// The moment of the wrench on the tool without the reactions of what guides it.

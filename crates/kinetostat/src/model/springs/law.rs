@@ -56,6 +56,22 @@ macro_rules! if_single {
 pub(crate) use if_single;
 
 impl SpringLaw {
+    /// The same law, so many times as stiff.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Self::Linear(matrix) => *matrix *= factor,
+            Self::Parallelogram(law) => law.bar *= factor,
+            Self::Bowing(law) => law.matrix *= factor,
+            Self::Logarithm(law) => law.matrix *= factor,
+            Self::Bilinear(law) => {
+                law.stiffness *= factor;
+                law.beyond *= factor;
+            }
+        }
+        scaled
+    }
+
     /// What is wrong with its numbers, if anything but its stiffness at rest.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         if_curved!(

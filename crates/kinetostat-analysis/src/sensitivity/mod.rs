@@ -1,0 +1,233 @@
+//! What every number of a model file changes: derivatives of deflection, compliance, stiffness and margin.
+//!
+//! By the implicit function theorem at the equilibrium `R(z, p) = 0`: the state moves by `dz/dp = -A^-1 dR/dp`, with the machine's
+//! own tangent `A`, factorised once for all parameters; nothing is solved anew, and no iteration is differentiated. What is explicit - the
+//! residual at a fixed state, stiffness and margin at the state that goes along - is differentiated by central differences of three
+//! steps, extrapolated (sixth order), whose disagreement is given as the error. Commands follow the parameter: the tool
+//! is commanded for the same place, as a controller that knows the machine does.
+
+mod place;
+mod values;
+
+use kinetostat::machine::{LinearisedMachine, MachineResidual, MechanismState};
+use kinetostat::{Error, Mechanism, Pose, Posture, Wrench};
+use kinetostat_model::{Model, ModelError, Parameter, ParameterKind, ParametricModel};
+use rayon::prelude::*;
+
+pub use self::place::CommandedPlace;
+pub use self::values::Values;
+
+/// What is differentiated.
+#[derive(Clone, Debug)]
+pub struct SensitivityTask<'a> {
+    /// The model whose numbers are changed.
+    pub model: &'a Model,
+    /// Flange from tool.
+    pub tool: Pose,
+    /// Where the tool is commanded.
+    pub place: CommandedPlace,
+    /// Load on the tool, about its origin, base axes.
+    pub wrench: Wrench,
+    /// Unit force or moment: the direction in which deflection and compliance are counted.
+    pub direction: Wrench,
+}
+
+/// Derivatives by one number of the file, per its unit.
+#[derive(Clone, Debug)]
+pub struct Sensitivity {
+    /// The number.
+    pub parameter: Parameter,
+    /// Derivatives, none where there are none.
+    pub derivatives: Result<Values, String>,
+    /// How far the extrapolated differences of what is explicit disagree, of the same quantities.
+    pub errors: Option<Values>,
+}
+
+impl Sensitivity {
+    /// Change of the deflection (m or rad) by 1 % more of the number.
+    #[must_use]
+    pub fn deflection_by_percent(&self) -> f64 {
+        self.of_percent(|d| d.deflection)
+    }
+
+    /// Relative change of the stiffness along the direction by 1 % more of the number, of a stiffness `now`.
+    #[must_use]
+    pub fn stiffness_by_percent(&self, now: f64) -> f64 {
+        self.of_percent(|d| d.stiffness) / now
+    }
+
+    fn of_percent(&self, what: impl Fn(&Values) -> f64) -> f64 {
+        let own = self.derivatives.as_ref().map_or(f64::NAN, what);
+        0.01 * self.parameter.value * own
+    }
+}
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Sensitivities {
+    /// At the equilibrium.
+    pub values: Values,
+    /// Of every number, in the order of the file.
+    pub list: Vec<Sensitivity>,
+}
+
+/// Derivatives by the numbers of these paths; by all of the file where there are none.
+///
+/// # Errors
+/// Where the machine has no equilibrium there, and for paths that name nothing. A number that cannot be differentiated (an
+/// integer-like choice, one beyond which the file would be refused) is in the list with the reason.
+pub fn sensitivities(
+    task: &SensitivityTask<'_>,
+    paths: &[&str],
+) -> Result<Sensitivities, SensitivityError> {
+    let all = task.model.parameters();
+    let named: Vec<&str> = match paths {
+        [] => all.iter().map(|p| p.path.as_str()).collect(),
+        some => some.to_vec(),
+    };
+    let mechanism = task.model.mechanism.with_tool(&task.tool);
+    let posture = task.place.posture(&mechanism, None)?;
+    let found = posture.deflected_by(&task.wrench)?;
+    let values = Values::of(&found, &task.direction);
+    // Every thread has the tangent of its own, for all of its parameters.
+    let tangent = || {
+        Ok(Tangent {
+            task,
+            posture: &posture,
+            state: &found.state,
+            tangent: posture.linearised(&found)?,
+        })
+    };
+    let list = named
+        .par_iter()
+        .map_init(tangent, |tangent, path| match tangent {
+            Ok(tangent) => tangent.by(path),
+            Err(error) => Err(SensitivityError::Machine(Error::clone(error))),
+        })
+        .collect::<Result<Vec<_>, SensitivityError>>()?;
+    Ok(Sensitivities { values, list })
+}
+
+/// Why there are no derivatives at all.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensitivityError {
+    /// No equilibrium.
+    #[error(transparent)]
+    Machine(#[from] Error),
+    /// A path names nothing.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+struct Tangent<'a> {
+    task: &'a SensitivityTask<'a>,
+    posture: &'a Posture,
+    state: &'a MechanismState,
+    tangent: LinearisedMachine<'a>,
+}
+
+impl Tangent<'_> {
+    fn by(&mut self, path: &str) -> Result<Sensitivity, SensitivityError> {
+        let parametric = self.task.model.parametric(&[path])?;
+        let parameter = parametric.parameters()[0].clone();
+        let (derivatives, errors) = match self.derivatives(&parametric, &parameter) {
+            Ok((values, errors)) => (Ok(values), Some(errors)),
+            Err(reason) => (Err(reason), None),
+        };
+        Ok(Sensitivity {
+            parameter,
+            derivatives,
+            errors,
+        })
+    }
+
+    fn derivatives(
+        &mut self,
+        parametric: &ParametricModel,
+        parameter: &Parameter,
+    ) -> Result<(Values, Values), String> {
+        let step = step_of(parameter);
+        // The machine with the number changed, commanded for the same place.
+        let at = |h: f64| -> Result<Posture, String> {
+            let mechanism: Mechanism = parametric
+                .mechanism(&[parameter.value + h])
+                .map_err(|e| e.to_string())?
+                .with_tool(&self.task.tool);
+            self.task
+                .place
+                .posture(&mechanism, Some(self.posture))
+                .map_err(|e| e.to_string())
+        };
+        let steps = STEPS.map(|share| share * step);
+        let mut postures = Vec::with_capacity(steps.len());
+        for h in steps {
+            postures.push((at(h)?, at(-h)?));
+        }
+        let mut residuals = Vec::new();
+        for (plus, minus) in &postures {
+            for posture in [plus, minus] {
+                let own = posture.residual_at(self.state, &self.task.wrench);
+                residuals.push(own.map_err(|e| e.to_string())?);
+            }
+        }
+        let weights = WEIGHTS.iter().zip(steps);
+        let parts: Vec<(f64, &MachineResidual)> = weights
+            .flat_map(|(w, h)| [0.5 * w / h, -0.5 * w / h])
+            .zip(&residuals)
+            .collect();
+        let residual = MachineResidual::combined(&parts).ok_or("no residual")?;
+        let motion = self.tangent.removing(&residual);
+        let motion = motion.ok_or("the tangent of the machine is singular here")?;
+        // Along the tangent of the path of equilibria.
+        let mut sides = Vec::new();
+        for ((plus, minus), h) in postures.iter().zip(steps) {
+            let one = |posture: &Posture, h: f64| {
+                let state = self.state.moved_by(&motion, h);
+                let found = posture.as_if_in_equilibrium(&state, &self.task.wrench);
+                found
+                    .map(|e| Values::of(&e, &self.task.direction))
+                    .map_err(|e| e.to_string())
+            };
+            let (a, b) = (one(plus, h)?, one(minus, -h)?);
+            sides.push(a.combined(&b, |x, y| 0.5 * (x - y) / h));
+        }
+        Ok(extrapolated(&sides))
+    }
+}
+
+/// Shares of the largest step.
+const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
+/// Of central differences with these steps in the derivative of sixth order.
+const WEIGHTS: [f64; 3] = [1.0 / 45.0, -20.0 / 45.0, 64.0 / 45.0];
+
+/// The derivative of sixth order, and how far that of fourth order is from it.
+fn extrapolated(sides: &[Values]) -> (Values, Values) {
+    let sum = |weights: [f64; 3]| {
+        let mut sum = sides[0].combined(&sides[0], |x, _| weights[0] * x);
+        for (side, w) in sides.iter().zip(weights).skip(1) {
+            sum = sum.combined(side, |x, y| x + w * y);
+        }
+        sum
+    };
+    let best = sum(WEIGHTS);
+    let fourth = sum([0.0, -1.0 / 3.0, 4.0 / 3.0]);
+    let error = best.combined(&fourth, |x, y| (x - y).abs());
+    (best, error)
+}
+
+/// A step that is small beside what the number does, in its unit.
+fn step_of(parameter: &Parameter) -> f64 {
+    let least = match parameter.kind {
+        ParameterKind::Length => 1e-3,
+        ParameterKind::Angle | ParameterKind::Direction => 4e-3,
+        ParameterKind::Mass | ParameterKind::Inertia | ParameterKind::Acceleration => 1e-2,
+        ParameterKind::Force | ParameterKind::Moment => 1.0,
+        ParameterKind::Ratio | ParameterKind::PoissonsRatio | ParameterKind::Factor => 1e-3,
+        _ => 0.0,
+    };
+    let least = least / parameter.in_si;
+    let step = (4e-3 * parameter.value.abs()).max(least);
+    // An entry of a matrix that is zero: as one of its unit.
+    if step > 0.0 { step } else { 1.0 }
+}

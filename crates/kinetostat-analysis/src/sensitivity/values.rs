@@ -1,0 +1,56 @@
+//! What is differentiated.
+
+use kinetostat::{MechanismEquilibrium, Wrench};
+
+/// Figures of an equilibrium, or their derivatives by a number, or their errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Values {
+    /// From the commanded to the loaded pose of the tool: m and rad, base axes.
+    pub displacement: [f64; 6],
+    /// Its component in the direction, m or rad.
+    pub deflection: f64,
+    /// Tangent compliance in the direction, m/N or rad/(N m).
+    pub compliance: f64,
+    /// Its inverse, N/m or N m/rad.
+    pub stiffness: f64,
+    /// Against a force in the softest direction, the tool free to turn, N/m.
+    pub stiffness_against_force: f64,
+    /// Largest share of the way to buckling of all limbs, 1 is buckling; none where nothing is on it.
+    pub share_to_buckling: Option<f64>,
+}
+
+impl Values {
+    /// At an equilibrium; `direction` is a unit force or moment.
+    #[must_use]
+    pub fn of(found: &MechanismEquilibrium, direction: &Wrench) -> Self {
+        let compliance = direction.0.dot(&(found.compliance().springs * direction.0));
+        Self {
+            displacement: found.displacement.0.into(),
+            deflection: direction.0.dot(&found.displacement.0),
+            compliance,
+            stiffness: 1.0 / compliance,
+            stiffness_against_force: found.stiffness_against_force(),
+            share_to_buckling: found.share_to_buckling(),
+        }
+    }
+
+    /// Both, figure by figure.
+    #[must_use]
+    pub fn combined(&self, other: &Self, with: impl Fn(f64, f64) -> f64) -> Self {
+        let pair = self.share_to_buckling.zip(other.share_to_buckling);
+        Self {
+            displacement: std::array::from_fn(|k| {
+                with(self.displacement[k], other.displacement[k])
+            }),
+            deflection: with(self.deflection, other.deflection),
+            compliance: with(self.compliance, other.compliance),
+            stiffness: with(self.stiffness, other.stiffness),
+            stiffness_against_force: with(
+                self.stiffness_against_force,
+                other.stiffness_against_force,
+            ),
+            share_to_buckling: pair.map(|(a, b)| with(a, b)),
+        }
+    }
+}

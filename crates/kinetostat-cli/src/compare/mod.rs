@@ -1,0 +1,154 @@
+//! `kinetostat compare`: two designs side by side, at places and over a grid.
+//!
+//! It takes two models and places, and gives stiffness and shares of both, and the difference where both reach.
+
+mod answer;
+pub(crate) mod arguments;
+mod grid;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
+use kinetostat_analysis::shares::Shares;
+use kinetostat_machining::{Warning, straight_tool};
+use kinetostat_model::Model;
+use nalgebra::Vector3;
+
+use crate::compare::answer::{AtPlace, Compared, Figures, Share};
+use crate::compare::arguments::CompareArgs;
+use crate::files::answer_files::{ClaimedFiles, Shown};
+use crate::files::input_files::InputFiles;
+use crate::machine::model_warnings::of_model;
+use crate::options::vector;
+use crate::ui::failure::{Answer, Failure};
+
+/// One of the two.
+pub(crate) struct Design {
+    pub(crate) model: Model,
+    pub(crate) mechanism: Mechanism,
+    path: Option<PathBuf>,
+    pub(crate) named: String,
+}
+
+impl Design {
+    fn read(named: &str, tool_length_mm: f64) -> Answer<Self> {
+        let (model, path) = InputFiles::default().model(named, Path::new(""))?;
+        Ok(Self {
+            mechanism: model
+                .mechanism
+                .with_tool(&straight_tool(1e-3 * tool_length_mm)),
+            model,
+            path,
+            named: named.to_owned(),
+        })
+    }
+
+    pub(crate) fn home(&self) -> Pose {
+        self.mechanism.platforms()[self.mechanism.tool()].home
+    }
+
+    fn posture(&self, at: Option<Vector3<f64>>) -> kinetostat::Result<Posture> {
+        let home = self.home();
+        let position = at.unwrap_or(home.translation.vector);
+        if self.mechanism.turns_as_it_moves() {
+            let request = PostureRequest::position(&position, &home.rotation);
+            return self.mechanism.posture(request);
+        }
+        self.mechanism
+            .posture(&Pose::from_parts(position.into(), home.rotation))
+    }
+
+    /// Stiffness and shares at a place.
+    fn figures(&self, at: Option<Vector3<f64>>) -> Answer<Figures> {
+        let failed = |e: &kinetostat::Error| Failure::unanswered(format!("{}: {e}", self.named));
+        let posture = self.posture(at).map_err(|e| failed(&e))?;
+        let stiffness = posture.stiffness().map_err(|e| failed(&e))?;
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let mut along = [None; 3];
+        let mut shares: [Vec<Share>; 3] = Default::default();
+        for (k, axis) in axes.into_iter().enumerate() {
+            let Ok(found) = Shares::unloaded(&posture, &Wrench::new(axis, Vector3::zeros())) else {
+                continue;
+            };
+            along[k] = Some(1e-3 / found.compliance);
+            shares[k] = found
+                .elastic()
+                .into_iter()
+                .map(|part| Share {
+                    limb: part.limb.clone(),
+                    name: part.name.clone(),
+                    share: part.share,
+                })
+                .collect();
+        }
+        Ok(Figures {
+            position_mm: (posture.target().translation.vector * 1e3).into(),
+            smallest_stiffness_n_per_mm: 1e-3 * stiffness.stiffness_against_force(),
+            stiffness_n_per_mm: along,
+            shares_x: std::mem::take(&mut shares[0]),
+            shares_y: std::mem::take(&mut shares[1]),
+            shares_z: std::mem::take(&mut shares[2]),
+        })
+    }
+}
+
+pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
+    let length = args.tool_length_mm.unwrap_or(0.0);
+    if length.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
+    }
+    let (a, b) = (
+        Design::read(&args.a, length)?,
+        Design::read(&args.b, length)?,
+    );
+    let grid = grid::grid(args, (a.home().translation.vector * 1e3).into())?;
+    if grid.is_none() && (args.outputs.csv.is_some() || args.outputs.plot.is_some()) {
+        return Err(Failure::input(
+            "--csv and --plot show the difference over a grid; give at least one of --x, --y and --z",
+        ));
+    }
+    let inputs: Vec<PathBuf> = a.path.iter().chain(&b.path).cloned().collect();
+    let files = ClaimedFiles::claim(&args.outputs, &inputs)?;
+    let mut places = Vec::new();
+    if args.at.is_empty() {
+        places.push(None);
+    }
+    for at in args.at.chunks(3) {
+        places.push(Some(vector("--at", at)? * 1e-3));
+    }
+    let places = places.into_iter().map(|at| {
+        Ok(AtPlace {
+            a: a.figures(at)?,
+            b: b.figures(at)?,
+        })
+    });
+    let places = places.collect::<Answer<Vec<_>>>()?;
+    let difference = match grid {
+        Some(grid) => Some(grid::difference(&a, &b, grid)?),
+        None => None,
+    };
+    let warnings: Vec<Warning> = of_model(&a.model).chain(of_model(&b.model)).collect();
+    let answer = Compared {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        a: a.named.clone(),
+        b: b.named.clone(),
+        places,
+        difference: difference.as_ref().map(|d| d.summary.clone()),
+        warnings,
+    };
+    let shown = Shown {
+        text: text::answer_text(&answer),
+        csv: difference
+            .as_ref()
+            .map_or_else(|| Ok(Vec::new()), grid::Difference::csv)?,
+        svg: difference
+            .as_ref()
+            .map_or_else(String::new, |d| d.svg(&answer)),
+        failure: None,
+    };
+    files.finish(&shown, &answer)
+}
