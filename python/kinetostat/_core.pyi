@@ -111,6 +111,15 @@ def equilibrium_of_many(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, NDArray[Any]]: ...
+def map_variables() -> list[tuple[str, str, int | None, str]]: ...
+def evaluate_many(
+    machine: Machine,
+    poses: _Floats,
+    wrenches: _Floats | None,
+    variables: Sequence[str],
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> dict[str, NDArray[Any]]: ...
 def targets_of_many(
     machine: Machine,
     poses: _Floats,
