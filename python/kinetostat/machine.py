@@ -18,6 +18,8 @@ from kinetostat.errors import ArgumentError
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
 if TYPE_CHECKING:
+    import xarray
+
     from kinetostat._core import Posture
 
 __all__ = ["Actuator", "Machine", "preset_names"]
@@ -526,6 +528,31 @@ class Machine:
         wanted = [name in names for name in _DIRECTIONS]
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def map(self, **question: Any) -> xarray.Dataset:
+        """What the machine is like at every place of a grid; the arguments are those of :func:`kinetostat.maps.evaluate`.
+
+        Parameters
+        ----------
+        **question
+            ``x``, ``y``, ``z`` (positions, m), ``orientations``, ``over_orientations``, ``loads``, ``variables``, and how it is computed:
+            ``folder``, ``executor``, ``chunk``, ``threads``, ``progress``.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units, coordinates in m, and ``status``.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("orthoglide")
+        >>> found = machine.map(x=[-0.05, 0.0, 0.05], loads=[100, 0, 0, 0, 0, 0])
+        >>> found.deflection.dims
+        ('x',)
+        """
+        from kinetostat import maps
+
+        return maps.evaluate(self, **question)
 
     # As a value ----------------------------------------------------------------------------------------------------
 
