@@ -266,6 +266,21 @@ def test_pictures(tmp_path: Path) -> None:
     matplotlib.pyplot.close("all")
 
 
+def test_limbs_as_lines_end_at_the_tool_and_have_the_lengths_of_their_links() -> None:
+    place = np.array([0.03, -0.02, 0.05])
+    lines = MACHINE.posture(position=place).limb_lines()
+    assert len(lines) == 3
+    for k, line in enumerate(lines):
+        np.testing.assert_allclose(line[-1], place, atol=1e-12)
+        lengths = np.linalg.norm(np.diff(line, axis=0), axis=1)
+        # The bars of 310 mm, and the arm of the platform of 40.5 mm behind them, along the leg's own axis.
+        assert np.isclose(lengths, 0.31, atol=1e-12).sum() == 1
+        np.testing.assert_allclose(line[-1] - line[-2], 0.0405 * np.eye(3)[k], atol=1e-12)
+    # An arm of rigid and elastic links, closed by hand: shoulder, elbow and wrist at home.
+    arm = ks.Machine.preset("two_link").posture().limb_lines()[0]
+    np.testing.assert_allclose(arm[-1], ks.Machine.preset("two_link").home[:3, 3], atol=1e-9)
+
+
 MEMORY = """
 import sys
 import numpy as np

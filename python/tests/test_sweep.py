@@ -213,6 +213,7 @@ def test_progress_counts_rows(tmp_path: Path) -> None:
 
 
 STOPPED = """
+import signal
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -220,6 +221,7 @@ from kinetostat import sweep
 import sweep_functions
 executor = partial(ProcessPoolExecutor, 2) if sys.argv[3] == "pool" else None
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
     print("begins", flush=True)
     sweep.to_folder(sys.argv[1], sweep_functions.counted, 400, {"log": sys.argv[2], "wait": 0.05}, chunk=10, executor=executor)
 """

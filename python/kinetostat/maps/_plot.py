@@ -79,7 +79,7 @@ def plot(
     variable : str
         A variable with one number for each place.
     machine : Machine, optional
-        Its stated workspace and its limbs at home are drawn, too.
+        Its limbs at home and its stated workspace are drawn, too.
     levels : int
         Number of isolines.
     ax : matplotlib Axes, optional
@@ -145,6 +145,7 @@ def _plane(ax: Any, found: xarray.Dataset, values: Any, outside: Any, levels: in
         ax.clabel(lines, fontsize="x-small", fmt="%.4g")
     if outside.any() and min(outside.shape) > 1:
         ax.contourf(x, y, outside.astype(float), levels=[0.5, 1.5], colors="none", hatches=["///"])
+        ax.fill([], [], facecolor="none", edgecolor="black", hatch="///", label="outside limits")
     ax.set(xlabel=f"{across}, mm", ylabel=f"{down}, mm", aspect="equal")
 
 
@@ -157,15 +158,27 @@ def _ends(ax: Any, found: xarray.Dataset, variable: str, dims: list[str], scale:
         value = end["value"] * scale
         at = (end[dims[0]] * 1e3, end[dims[1]] * 1e3 if len(dims) == 2 else value)
         text = f"{name}: {value:.4g}" + ("" if unit == "1" else f" {unit}")
-        ax.plot(*at, marker, markersize=12, markerfacecolor="white", markeredgecolor="black", linestyle="none", label=text, zorder=5)
+        ax.plot(
+            *at,
+            marker,
+            markersize=12,
+            markerfacecolor="white",
+            markeredgecolor="black",
+            linestyle="none",
+            label=text,
+            zorder=5,
+            clip_on=False,
+        )
     ax.figure.legend(loc="outside lower center", ncols=3, fontsize="small", frameon=False)
 
 
 def _outline(ax: Any, machine: Machine, dims: list[str]) -> None:
-    """The stated workspace, and where the tool is at home."""
+    """The limbs at home, cut where the picture ends, and the stated workspace."""
     k = ["xyz".index(dim) for dim in dims]
-    home = machine.home[:3, 3] * 1e3
-    ax.plot(home[k[0]], home[k[1]], "k+", markersize=10, label="home")
+    ax.set(xlim=ax.get_xlim(), ylim=ax.get_ylim())
+    for index, line in enumerate(machine.posture().limb_lines()):
+        label = "limbs at home" if index == 0 else None
+        ax.plot(line[:, k[0]] * 1e3, line[:, k[1]] * 1e3, "o-", color="0.2", linewidth=2, markersize=4, alpha=0.6, label=label)
     if machine.workspace is not None:
         a, b = (corner[k] * 1e3 for corner in machine.workspace)
         ax.plot([a[0], b[0], b[0], a[0], a[0]], [a[1], a[1], b[1], b[1], a[1]], "k--", linewidth=1, label="stated workspace")

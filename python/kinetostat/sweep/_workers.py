@@ -42,9 +42,18 @@ def compute(plan: Plan, todo: Iterable[int], executor: Workers, under_way: int |
     try:
         pool.work()
     except BaseException:
-        pool.executor.shutdown(wait=False, cancel_futures=True)
+        _give_up(pool.executor)
         raise
     pool.executor.shutdown()
+
+
+def _give_up(executor: Executor) -> None:
+    """Ends an executor of our own without waiting for chunks under way: they can be computed again."""
+    # Python 3.14 has terminate_workers(); without it the exit of this process would wait for them.
+    processes = list((getattr(executor, "_processes", None) or {}).values())
+    executor.shutdown(wait=False, cancel_futures=True)
+    for process in processes:
+        process.terminate()
 
 
 class _Pool:
@@ -120,7 +129,7 @@ class _Pool:
                 f"workers were lost {_ATTEMPTS} times without a finished chunk between ({type(lost).__name__}: {lost}); "
                 f"under way: {indices}"
             ) from lost
-        self.executor.shutdown(wait=False, cancel_futures=True)
+        _give_up(self.executor)
         self.executor = self.make()
 
     def _keep_finished(self) -> None:
