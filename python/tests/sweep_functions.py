@@ -49,3 +49,19 @@ def short(first: int, last: int, *, threads: int | None) -> dict[str, Any]:
 
 def texts(first: int, last: int, *, threads: int | None) -> dict[str, Any]:
     return {"row": np.array(["a"] * (last - first))}
+
+
+def programs(first: int, last: int, *, threads: int | None, folder: str, names: list[str]) -> dict[str, Any]:
+    """Compensates programs and tells the largest error of each before, mm."""
+    errors = []
+    for name in names[first:last]:
+        done = ks.commands.compensate(
+            model="orthoglide",
+            program=os.path.join(folder, name),
+            force=[100, -20, -30],
+            out=os.path.join(folder, f"out-{name}"),
+            force_overwrite=True,
+            threads=threads,
+        )
+        errors.append(done["summary"]["max_position_error_before_mm"])
+    return {"error_before_mm": np.array(errors)}

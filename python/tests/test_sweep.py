@@ -21,6 +21,9 @@ import sweep_functions as functions
 import kinetostat as ks
 from kinetostat import sweep
 
+# Processes that are forked: Python warns where this one has threads; ours are made anew in a child.
+pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+
 MACHINE = ks.Machine.preset("orthoglide")
 PLACES = np.random.default_rng(3).uniform(-0.12, 0.12, (600, 3))
 SETTINGS = {"machine": MACHINE, "places": PLACES}
@@ -210,6 +213,28 @@ def test_progress_counts_rows(tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
     sweep.run(functions.counted, 95, {"log": str(tmp_path / "log")}, chunk=10, progress=lambda done, of, _: seen.append((done, of)))
     assert seen == [(min(10 * i, 95), 95) for i in range(1, 11)]
+
+
+@pytest.mark.filterwarnings("ignore::kinetostat.ToleranceMissedWarning")
+def test_a_set_of_programs(tmp_path: Path) -> None:
+    names = [f"{k}.ngc" for k in range(4)]
+    for k, name in enumerate(names):
+        text = f"G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F500\nG1 X{10 + 10 * k} Y10 F1000\nG1 X0\nM2\n"
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    settings = {"folder": str(tmp_path), "names": names}
+    found = sweep.run(functions.programs, 4, settings, chunk=1, executor=partial(ProcessPoolExecutor, 2))
+    assert all((tmp_path / f"out-{name}").exists() for name in names)
+    # The largest error is at least what the machine gives way at the first place of the cut.
+    gives_way = np.linalg.norm(MACHINE.equilibrium([[0.0, 0, 0]], [100, -20, -30, 0, 0, 0]).displacement[0, :3]) * 1e3
+    assert (found["error_before_mm"] >= 0.99 * gives_way).all()
+    assert (np.diff(found["error_before_mm"]) >= 0).all()
+
+
+def test_the_bar_of_tqdm(tmp_path: Path) -> None:
+    pytest.importorskip("tqdm")
+    with open(tmp_path / "shown", "w", encoding="utf-8") as shown, ks.bar(file=shown) as progress:
+        sweep.run(functions.counted, 95, {"log": str(tmp_path / "log")}, chunk=10, progress=progress)
+    assert "95/95" in (tmp_path / "shown").read_text(encoding="utf-8")
 
 
 STOPPED = """

@@ -97,6 +97,8 @@ def evaluate(
     """
     _xarray()
     question = asked(machine, x, y, z, orientations, over_orientations, loads, variables)
+    # What makes no sense of one place is said here, not by a worker.
+    rows(0, 1, threads=1, **question.settings(places=False))
     if folder is None:
         how: dict[str, Any] = {"chunk": chunk, "executor": executor, "threads": threads, "progress": progress}
         found = sweep.run(rows, question.count, question.settings(places=False), **how)

@@ -28,6 +28,8 @@ def table(columns: Columns, notes: Mapping[str, str] | None = None) -> Any:
     arrays, fields = [], []
     for name, array in columns.items():
         width = int(np.prod(array.shape[1:], dtype=np.int64))
+        if array.ndim > 1 and width == 0:
+            continue  # no numbers, and Arrow has no lists of none
         flat = arrow.array(array.reshape(-1))
         if array.ndim > 1:
             flat = arrow.FixedSizeListArray.from_arrays(flat, width)
@@ -49,13 +51,17 @@ def read(path: Path, fields: list[dict[str, Any]]) -> Columns:
     _, parquet = library()
     with parquet.ParquetFile(path) as file:
         found = file.read(columns=[field["name"] for field in fields])
+        rows = file.metadata.num_rows
     columns: Columns = {}
     for field in fields:
+        if 0 in field["shape"]:
+            columns[field["name"]] = np.empty((rows, *field["shape"]), field["dtype"])
+            continue
         column = found.column(field["name"]).combine_chunks()
         if field["shape"]:
             column = column.flatten()
         flat = column.to_numpy(zero_copy_only=False)
-        columns[field["name"]] = flat.astype(field["dtype"], copy=False).reshape(found.num_rows, *field["shape"])
+        columns[field["name"]] = flat.astype(field["dtype"], copy=False).reshape(rows, *field["shape"])
     return columns
 
 
