@@ -139,6 +139,7 @@ class _Pool:
                 continue
             self.keep(index, checked(self.plan, index, future.result()))
             del self.under_way[future]
+            self.broken_since_progress = 0
 
 
 def _limit(executor: Executor) -> int:
