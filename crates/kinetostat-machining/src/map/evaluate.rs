@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details};
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 
+use crate::map::nearness::{Nearness, NearnessRoom};
 use crate::map::place::PlaceState;
 use crate::map::solved::Solved;
 use crate::map::variable::{Needs, Variable};
@@ -17,7 +18,7 @@ pub struct Evaluator {
     ratings: Vec<Option<f64>>,
     variables: Vec<Variable>,
     details: Details,
-    singularity: bool,
+    nearness: Option<Nearness>,
 }
 
 /// What became of a posture.
@@ -35,6 +36,7 @@ pub struct EvaluationRoom {
     stiffness: BatchStiffness,
     equilibrium: BatchEquilibrium,
     place: Option<Solved>,
+    nearness: NearnessRoom,
 }
 
 impl Evaluator {
@@ -57,8 +59,22 @@ impl Evaluator {
                 true => Details::Stability,
                 false => Details::Rest,
             },
-            singularity: variables.contains(&Variable::SingularityDistance),
+            nearness: variables
+                .contains(&Variable::SingularityDistance)
+                .then(|| Nearness::of(mechanism)),
         }
+    }
+
+    /// For a map, whose usual figures are the stiffness and, under a load, its stability.
+    pub(crate) fn of_map(
+        mechanism: &Mechanism,
+        batch: Arc<Batch>,
+        ratings: Vec<Option<f64>>,
+        variables: &[Variable],
+    ) -> Self {
+        let mut own = Self::new(mechanism, batch, ratings, variables);
+        own.details = Details::Stability;
+        own
     }
 
     /// Columns of each variable.
@@ -105,6 +121,7 @@ impl Evaluator {
             stiffness,
             equilibrium,
             place,
+            nearness,
         } = room;
         let place = place.get_or_insert_with(|| Solved::new(&self.mechanism));
         let solved = match loads {
@@ -138,10 +155,9 @@ impl Evaluator {
                 place.forget();
                 let load = loads.map(|loads| &loads[i]);
                 self.by_itself(place, machine.posture(pose), load);
-            } else if self.singularity
-                && let Ok(posture) = machine.posture(pose)
-            {
-                place.take_singularity(&posture);
+            }
+            if let (Some(own), true) = (&self.nearness, place.found) {
+                place.singularity_distance = own.at(&self.batch, pose, &place.commands, nearness);
             }
             each(i, place);
         }
@@ -154,11 +170,22 @@ impl Evaluator {
         posture: kinetostat::Result<Posture>,
         load: Option<&Wrench>,
     ) -> Option<Posture> {
-        let posture = place.take_posture(posture, load, &self.ratings)?;
-        if self.singularity && place.found {
-            place.take_singularity(&posture);
+        place.take_posture(posture, load, &self.ratings)
+    }
+
+    /// Values of all variables at a place, one after the other.
+    pub(crate) fn values(&self, place: &Solved) -> Box<[f64]> {
+        let widths = self.widths();
+        let mut all = vec![f64::NAN; widths.iter().sum()].into_boxed_slice();
+        let mut rest = &mut all[..];
+        for (variable, width) in self.variables.iter().zip(widths) {
+            let (own, after) = std::mem::take(&mut rest).split_at_mut(width);
+            if place.state.has_figures() {
+                variable.write(place, own);
+            }
+            rest = after;
         }
-        Some(posture)
+        all
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod evaluate;
 mod grid;
+mod nearness;
 mod place;
 mod solved;
 mod variable;
@@ -11,6 +12,7 @@ use std::sync::Arc;
 
 use kinetostat::batch::Batch;
 use kinetostat::chain::FoundBy;
+use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -43,6 +45,14 @@ pub struct MapTask<'a> {
     /// the machine as it is under this load, its own weight, preloads and deviations; without it, of
     /// the unloaded machine as drawn.
     pub load: Option<Wrench>,
+    /// Further orientations and loads: what counts at a place is the worst of all. Not where the orientation follows.
+    pub further: Vec<(UnitQuaternion<f64>, Option<Wrench>)>,
+    /// What is asked for beside the usual figures; they come in [`MapPlace::values`].
+    pub variables: Vec<Variable>,
+    /// Ratings of the actuators, as far as they are stated.
+    pub ratings: Vec<Option<f64>>,
+    /// Places before this one are known already.
+    pub first: usize,
 }
 
 impl MapTask<'_> {
@@ -72,12 +82,11 @@ pub fn map<R: Send, E: From<RunError>>(
     mut put: impl FnMut(R) -> Result<(), E>,
 ) -> Result<(), E> {
     let batch = Arc::new(Batch::new(task.mechanism));
-    // Figures of every map: stiffness, and what the load does.
-    let usual = [Variable::StiffnessSoftest, Variable::Stable];
-    let evaluator = Evaluator::new(task.mechanism, batch, Vec::new(), &usual);
+    let ratings = task.ratings.clone();
+    let evaluator = Evaluator::of_map(task.mechanism, batch, ratings, &task.variables);
     let total = task.grid.len();
     watch.stage("map", total);
-    for first in (0..total).step_by(BLOCK * BLOCKS) {
+    for first in (task.first..total).step_by(BLOCK * BLOCKS) {
         if watch.cancelled() {
             return Err(RunError::Cancelled.into());
         }
@@ -102,26 +111,43 @@ fn solved(
     room: &mut EvaluationRoom,
     places: std::ops::Range<usize>,
 ) -> Vec<MapPlace> {
-    let (mut out, mut poses) = (Vec::new(), Vec::new());
+    let mut out = Vec::new();
     for place in places {
         let index = task.grid.index(place);
         let position_mm = [0, 1, 2].map(|axis| task.grid.position_mm(axis, index[axis]));
         out.push(MapPlace::unknown(index, position_mm));
-        let position = Vector3::from(position_mm) * 1e-3;
-        poses.push(Pose::from_parts(position.into(), task.orientation));
     }
     if task.orientation_follows {
+        let poses = poses_of(&out, &task.orientation);
         following(task, evaluator, &poses, &mut out);
         return out;
     }
-    let loads = task.load.map(|load| vec![load; poses.len()]);
-    evaluator.solve(&poses, loads.as_deref(), room, |i, solved| {
-        out[i].take(solved);
-        if out[i].state.has_figures() {
-            out[i].tool_turn_deg = 0.0;
-        }
-    });
+    let first = (task.orientation, task.load);
+    let cases: Vec<_> = std::iter::once(&first).chain(&task.further).collect();
+    for (k, (orientation, load)) in cases.into_iter().enumerate() {
+        let poses = poses_of(&out, orientation);
+        let loads = load.map(|load| vec![load; poses.len()]);
+        evaluator.solve(&poses, loads.as_deref(), room, |i, solved| {
+            let mut own = MapPlace::unknown(out[i].index, out[i].position_mm);
+            own.take(evaluator, solved);
+            if own.state.has_figures() {
+                own.tool_turn_deg = 0.0;
+            }
+            match k {
+                0 => out[i] = own,
+                _ => out[i].worsen(own, &task.variables, evaluator),
+            }
+        });
+    }
     out
+}
+
+/// The tool at every place with an orientation.
+fn poses_of(places: &[MapPlace], orientation: &UnitQuaternion<f64>) -> Vec<Pose> {
+    let at = |place: &MapPlace| Vector3::from(place.position_mm) * 1e-3;
+    let each = places.iter().map(at);
+    each.map(|at| Pose::from_parts(at.into(), *orientation))
+        .collect()
 }
 
 /// Places by their positions only, one after the other: each followed from the one before where that
@@ -142,7 +168,7 @@ fn following(task: &MapTask<'_>, evaluator: &Evaluator, poses: &[Pose], out: &mu
         let posture = requested.posture(task.mechanism, pose, close);
         solved.forget();
         last = evaluator.by_itself(&mut solved, posture, task.load.as_ref());
-        place.take(&solved);
+        place.take(evaluator, &solved);
         last = last.filter(|p| p.within_limits().is_ok());
         if let (Some(posture), true) = (&last, place.state.has_figures()) {
             let turned = posture.target().rotation.angle_to(&pose.rotation);
@@ -163,12 +189,14 @@ impl MapPlace {
             displacement_mm: [f64::NAN; 3],
             rotation_deg: [f64::NAN; 3],
             found_by: FoundBy::Directly,
+            values: Box::default(),
         }
     }
 
-    fn take(&mut self, solved: &Solved) {
+    fn take(&mut self, evaluator: &Evaluator, solved: &Solved) {
         self.state = solved.state;
         self.found_by = solved.found_by;
+        self.values = evaluator.values(solved);
         if !solved.state.has_figures() {
             return;
         }
@@ -176,5 +204,37 @@ impl MapPlace {
         self.stiffness_n_per_mm = [0, 1, 2].map(|k| 1e-3 * solved.along(k));
         self.displacement_mm = (solved.displacement.linear() * 1e3).into();
         self.rotation_deg = solved.displacement.angular().map(f64::to_degrees).into();
+    }
+
+    /// Takes what is worse of another orientation or load at the same place.
+    fn worsen(&mut self, other: Self, variables: &[Variable], evaluator: &Evaluator) {
+        let worse = |own: f64, other: f64| smaller(own, other);
+        let softest = self.smallest_stiffness_n_per_mm;
+        self.smallest_stiffness_n_per_mm = worse(softest, other.smallest_stiffness_n_per_mm);
+        for k in 0..3 {
+            let own = &mut self.stiffness_n_per_mm[k];
+            *own = worse(*own, other.stiffness_n_per_mm[k]);
+        }
+        let farther = |own: &[f64; 3], other: &[f64; 3]| {
+            let size = |v: &[f64; 3]| Vector3::from(*v).norm();
+            size(other) > size(own) || size(other).is_nan()
+        };
+        if farther(&self.displacement_mm, &other.displacement_mm) {
+            self.displacement_mm = other.displacement_mm;
+        }
+        if farther(&self.rotation_deg, &other.rotation_deg) {
+            self.rotation_deg = other.rotation_deg;
+        }
+        self.tool_turn_deg = larger(self.tool_turn_deg, other.tool_turn_deg);
+        if other.state as u8 > self.state as u8 {
+            self.state = other.state;
+            self.found_by = other.found_by;
+        }
+        let mut at = 0;
+        for (variable, width) in variables.iter().zip(evaluator.widths()) {
+            let own = &mut self.values[at..at + width];
+            variable.worsen(own, &other.values[at..at + width]);
+            at += width;
+        }
     }
 }

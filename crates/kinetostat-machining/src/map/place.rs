@@ -38,7 +38,7 @@ impl PlaceState {
 }
 
 /// One place of the map. Numbers that do not exist are NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MapPlace {
     /// Number along x, y and z.
     pub index: [usize; 3],
@@ -60,4 +60,6 @@ pub struct MapPlace {
     pub rotation_deg: [f64; 3],
     /// How the equilibrium under the load was found.
     pub found_by: FoundBy,
+    /// Values of the further variables that were asked for, SI, one after the other.
+    pub values: Box<[f64]>,
 }

@@ -300,15 +300,6 @@ impl Solved {
         self.compliance = compliance.springs;
         self.free = compliance.free;
     }
-
-    /// How far the nearest singular posture is, at most the natural length.
-    pub fn take_singularity(&mut self, posture: &Posture) {
-        let Ok(list) = posture.near_singularities(self.length) else {
-            return;
-        };
-        let nearest = list.iter().map(|n| n.distance_m);
-        self.singularity_distance = nearest.fold(self.length, kinetostat::number::smaller);
-    }
 }
 
 fn principal_compliance(compliance: &Matrix6<f64>) -> f64 {
