@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os as _os
 
-from kinetostat import _core, commands, errors, spatial
+from kinetostat import _core, commands, errors, maps, spatial, sweep
 from kinetostat._core import Equilibrium, Posture, Stiffness
 from kinetostat.errors import (
     ArgumentError,
@@ -46,11 +46,13 @@ __all__ = [
     "bar",
     "commands",
     "errors",
+    "maps",
     "pose",
     "preset_names",
     "rotation_from_vector",
     "rotation_vector",
     "spatial",
+    "sweep",
     "wrench",
 ]
 

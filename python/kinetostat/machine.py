@@ -18,6 +18,10 @@ from kinetostat.errors import ArgumentError
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import xarray
+
     from kinetostat._core import Posture
     from kinetostat.shares import Shares
 
@@ -556,6 +560,69 @@ class Machine:
         wanted = [name in names for name in _DIRECTIONS]
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def map(
+        self,
+        *,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        z: ArrayLike | None = None,
+        orientations: ArrayLike | Mapping[str, ArrayLike] | None = None,
+        over_orientations: Literal["worst"] | None = None,
+        loads: ArrayLike | Mapping[str, ArrayLike] | None = None,
+        variables: str | Sequence[str] | None = None,
+        folder: str | os.PathLike[str] | None = None,
+        executor: Executor | Callable[[], Executor] | None = None,
+        chunk: int = 16384,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> xarray.Dataset:
+        """What the machine is like at every place of a grid: :func:`kinetostat.maps.evaluate`, where the arguments are explained.
+
+        Parameters
+        ----------
+        x, y, z : array_like, shape () or (n,)
+            Positions, m, base axes; as at home where none is given.
+        orientations : array_like, shape (3, 3) or (k, 3, 3), or mapping of str to (3, 3), optional
+            Rotation matrices, base from tool.
+        over_orientations : {"worst"}, optional
+            The worst value of all orientations instead of all.
+        loads : array_like, shape (6,) or (m, 6), or mapping of str to (6,), optional
+            Wrenches on the tool (N, N m), base axes, about its reference point; unloaded and as drawn without any.
+        variables : str or sequence of str, optional
+            Names of :func:`kinetostat.maps.variables`.
+        folder, executor, chunk, threads, progress
+            Where it is kept, where and how it is computed.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables with units, coordinates in m, and ``status``.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("orthoglide")
+        >>> found = machine.map(x=[-0.05, 0.0, 0.05], loads=[100, 0, 0, 0, 0, 0])
+        >>> found.deflection.dims
+        ('x',)
+        """
+        from kinetostat import maps
+
+        return maps.evaluate(
+            self,
+            x=x,
+            y=y,
+            z=z,
+            orientations=orientations,
+            over_orientations=over_orientations,
+            loads=loads,
+            variables=variables,
+            folder=folder,
+            executor=executor,
+            chunk=chunk,
+            threads=threads,
+            progress=progress,
+        )
 
     # As a value ----------------------------------------------------------------------------------------------------
 

@@ -65,7 +65,10 @@ pub use load::along_path::LoadAlongPath;
 pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
 pub use load::ramp_findings::{LoadBegins, LoadRamp};
 pub use load::tool::{Tool, straight_tool};
-pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
+pub use map::{
+    Entry, EvaluationRoom, Evaluator, Grid, MapPlace, MapTask, Outcome, PlaceState, VARIABLES,
+    Variable, Width, Worse, map,
+};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::cutting::{CutPlace, CuttingResult};

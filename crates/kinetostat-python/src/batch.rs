@@ -34,14 +34,14 @@ fn number(status: Status, outside: bool) -> u8 {
 type Rows<'a> = (usize, Vec<&'a mut [f64]>, &'a mut [u8]);
 
 /// Columns of many rows, each with its own width, written block by block by all threads.
-struct Columns {
+pub(crate) struct Columns {
     widths: Vec<usize>,
-    numbers: Vec<Vec<f64>>,
-    status: Vec<u8>,
+    pub(crate) numbers: Vec<Vec<f64>>,
+    pub(crate) status: Vec<u8>,
 }
 
 impl Columns {
-    fn new(count: usize, widths: &[usize]) -> Self {
+    pub(crate) fn new(count: usize, widths: &[usize]) -> Self {
         Self {
             widths: widths.to_vec(),
             numbers: widths.iter().map(|w| vec![0.0; count * w]).collect(),
@@ -62,7 +62,7 @@ impl Columns {
     }
 
     /// Solves block after block on all threads; false where it was stopped before the end.
-    fn fill<T: Default + Send>(
+    pub(crate) fn fill<T: Default + Send>(
         &mut self,
         course: &Course,
         solve: impl Fn(&mut T, usize, &mut [&mut [f64]], &mut [u8]) + Sync,
@@ -117,7 +117,7 @@ fn put_poses(table: &Table, to: &mut [f64]) {
 }
 
 /// Does the work here if it is little, else away from the interpreter.
-fn done<R: Send + 'static>(
+pub(crate) fn done<R: Send + 'static>(
     py: Python<'_>,
     count: usize,
     manner: &Manner<'_>,
@@ -203,7 +203,7 @@ impl Places {
 }
 
 /// One wrench for all postures, or one for each.
-fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
+pub(crate) fn each_wrench(count: usize, numbers: &Numbers<'_>) -> PyResult<Vec<Wrench>> {
     let found = wrenches("wrenches", numbers)?;
     match found.len() {
         1 => Ok(vec![found[0]; count]),

@@ -14,6 +14,7 @@ mod command;
 mod equilibrium;
 mod errors;
 mod machine;
+mod map;
 mod posture;
 mod stiffness;
 mod work;
@@ -30,6 +31,8 @@ mod _core {
     use crate::equilibrium::Equilibrium;
     #[pymodule_export]
     use crate::machine::{Machine, preset_names, urdf_to_toml};
+    #[pymodule_export]
+    use crate::map::{evaluate_many, map_variables};
     #[pymodule_export]
     use crate::posture::Posture;
     #[pymodule_export]

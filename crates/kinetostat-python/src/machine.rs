@@ -47,6 +47,11 @@ impl Machine {
             .clone()
     }
 
+    /// Rated forces (N) or torques (N m) of the actuators, as far as they are stated.
+    pub(crate) fn ratings(&self) -> Vec<Option<f64>> {
+        self.model.ratings()
+    }
+
     fn home(&self) -> Pose {
         self.mechanism.platforms()[self.mechanism.tool()].home
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use kinetostat_report::Placed;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -35,6 +36,16 @@ impl Posture {
         found
             .map(|(name, at, (low, high))| (name, at, low, high))
             .collect()
+    }
+
+    /// Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m.
+    fn limb_lines<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let lines = Placed::at(&self.0).limb_lines(self.0.mechanism());
+        let rows = lines.into_iter().map(|line| {
+            let numbers: Vec<f64> = line.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
+            array(py, numbers, [line.len(), 3])
+        });
+        rows.collect()
     }
 
     /// Cartesian stiffness of the unloaded machine as drawn.

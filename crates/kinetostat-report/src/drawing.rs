@@ -5,6 +5,7 @@
 
 mod applied;
 mod limb;
+mod lines;
 mod order;
 mod paint;
 mod parts;

@@ -134,6 +134,10 @@ fn every_place_is_what_the_general_engine_says() {
                 orientation: tilted(turn.into()) * home.rotation,
                 orientation_follows: false,
                 load,
+                further: Vec::new(),
+                variables: Vec::new(),
+                ratings: Vec::new(),
+                first: 0,
             };
             let states = same_as_scalar(&task);
             assert!(states.contains(&PlaceState::Regular), "{name}: {states:?}");
@@ -156,6 +160,10 @@ fn a_singular_machine_has_no_stiffness_in_its_free_direction() {
         orientation: home.rotation,
         orientation_follows: false,
         load: None,
+        further: Vec::new(),
+        variables: Vec::new(),
+        ratings: Vec::new(),
+        first: 0,
     };
     assert_eq!(same_as_scalar(&task), [PlaceState::Singular]);
 }
@@ -181,6 +189,10 @@ fn threads_change_nothing_and_a_watch_stops_it() {
         orientation: UnitQuaternion::identity(),
         orientation_follows: false,
         load: None,
+        further: Vec::new(),
+        variables: Vec::new(),
+        ratings: Vec::new(),
+        first: 0,
     };
     let bits = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

@@ -199,6 +199,10 @@ fn a_map_of_positions_turns_the_same_way() {
             orientation: home.rotation,
             orientation_follows: true,
             load,
+            further: Vec::new(),
+            variables: Vec::new(),
+            ratings: Vec::new(),
+            first: 0,
         };
         let mut places: Vec<MapPlace> = Vec::new();
         map(&task, &Unwatched, <[MapPlace]>::to_vec, |own| {

@@ -36,6 +36,22 @@ const MOTOR: f64 = 12.0;
 const CARRIAGE: f64 = 12.0;
 const RAIL: f64 = 48.0;
 
+/// How far a motion goes, m or rad, and the step from the frame before it to that behind it.
+pub(super) fn step(motion: &Motion, coordinates: &[f64], commands: &[f64]) -> (f64, Pose) {
+    let coordinate = motion.coordinate.map(|d| d.ratio * coordinates[d.index]);
+    let command = motion.command.map(|d| d.ratio * commands[d.index]);
+    let displacement = coordinate.unwrap_or(0.0) + command.unwrap_or(0.0);
+    let along = motion.axis.into_inner() * displacement;
+    let pose = match motion.kind {
+        MotionKind::Prismatic => Pose::from_parts(along.into(), UnitQuaternion::identity()),
+        MotionKind::Revolute => Pose::from_parts(
+            Vector3::zeros().into(),
+            UnitQuaternion::from_axis_angle(&motion.axis, displacement),
+        ),
+    };
+    (displacement, pose)
+}
+
 /// How far a limb has been traced.
 struct Trace<'a, 'b> {
     run: &'b Run<'a>,
@@ -229,12 +245,7 @@ impl Trace<'_, '_> {
 
     fn motion(&mut self, motion: &Motion) {
         let chain = self.run.chain;
-        let displacement = motion
-            .coordinate
-            .map_or(0.0, |d| d.ratio * self.run.coordinates[d.index])
-            + motion
-                .command
-                .map_or(0.0, |d| d.ratio * self.run.commands[d.index]);
+        let (displacement, step) = step(motion, self.run.coordinates, self.run.commands);
         let axis = self.pose.rotation * motion.axis.into_inner();
         let coordinate = motion.coordinate.map(|d| d.index);
         let new = coordinate.is_none_or(|i| !std::mem::replace(&mut self.seen[i], true));
@@ -296,16 +307,6 @@ impl Trace<'_, '_> {
                 }
             }
         }
-        let step = match motion.kind {
-            MotionKind::Prismatic => Pose::from_parts(
-                (motion.axis.into_inner() * displacement).into(),
-                UnitQuaternion::identity(),
-            ),
-            MotionKind::Revolute => Pose::from_parts(
-                Vector3::zeros().into(),
-                UnitQuaternion::from_axis_angle(&motion.axis, displacement),
-            ),
-        };
         self.pose *= step;
         if let Some((index, width, from)) = self.parallelogram
             && coordinate == Some(index)

@@ -1,0 +1,199 @@
+//! Variables of many postures, block by block: the one engine of maps on the command line and in Python.
+
+use std::sync::Arc;
+
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
+
+use crate::map::nearness::{Nearness, NearnessRoom};
+use crate::map::place::PlaceState;
+use crate::map::solved::Solved;
+use crate::map::variable::{Needs, Variable};
+
+/// A machine, and which of its variables are asked for.
+#[derive(Clone, Debug)]
+pub struct Evaluator {
+    mechanism: Mechanism,
+    batch: Arc<Batch>,
+    ratings: Vec<Option<f64>>,
+    variables: Vec<Variable>,
+    details: Details,
+    nearness: Option<Nearness>,
+}
+
+/// What became of a posture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Which kind of answer there is.
+    pub state: PlaceState,
+    /// There are numbers, be it outside the limits of an actuator.
+    pub found: bool,
+}
+
+/// What is kept from block to block, one for each thread.
+#[derive(Debug, Default)]
+pub struct EvaluationRoom {
+    stiffness: BatchStiffness,
+    equilibrium: BatchEquilibrium,
+    place: Option<Solved>,
+    nearness: NearnessRoom,
+}
+
+impl Evaluator {
+    /// For a machine compiled for many postures; `ratings` are those of its actuators as far as they are stated (N or N m).
+    #[must_use]
+    pub fn new(
+        mechanism: &Mechanism,
+        batch: Arc<Batch>,
+        ratings: Vec<Option<f64>>,
+        variables: &[Variable],
+    ) -> Self {
+        let asks = |needs: Needs| variables.iter().any(|v| v.needs() == needs);
+        Self {
+            mechanism: mechanism.clone(),
+            batch,
+            ratings,
+            variables: variables.to_vec(),
+            // The kernels tell with the stability whether the stiffness has a free direction.
+            details: match asks(Needs::Stiffness) || asks(Needs::Stability) {
+                true => Details::Stability,
+                false => Details::Rest,
+            },
+            nearness: variables
+                .contains(&Variable::SingularityDistance)
+                .then(|| Nearness::of(mechanism)),
+        }
+    }
+
+    /// For a map, whose usual figures are the stiffness and, under a load, its stability.
+    pub(crate) fn of_map(
+        mechanism: &Mechanism,
+        batch: Arc<Batch>,
+        ratings: Vec<Option<f64>>,
+        variables: &[Variable],
+    ) -> Self {
+        let mut own = Self::new(mechanism, batch, ratings, variables);
+        own.details = Details::Stability;
+        own
+    }
+
+    /// Columns of each variable.
+    #[must_use]
+    pub fn widths(&self) -> Vec<usize> {
+        let actuators = self.mechanism.actuator_count();
+        self.variables.iter().map(|v| v.width(actuators)).collect()
+    }
+
+    /// Variables of some postures into rows of `columns`, one of each variable, each with its own width. Under loads (one for
+    /// each posture, base axes, about the tool's reference point) the machine is as it is, with its weight, preloads and
+    /// deviations; without them unloaded and as drawn, and what needs a load is NaN.
+    pub fn evaluate(
+        &self,
+        poses: &[Pose],
+        loads: Option<&[Wrench]>,
+        room: &mut EvaluationRoom,
+        columns: &mut [&mut [f64]],
+        outcomes: &mut [Outcome],
+    ) {
+        let widths = self.widths();
+        self.solve(poses, loads, room, |i, place| {
+            outcomes[i] = place.outcome();
+            let each = self.variables.iter().zip(&widths).zip(&mut *columns);
+            for ((variable, width), column) in each {
+                let out = &mut column[i * width..(i + 1) * width];
+                match place.found {
+                    true => variable.write(place, out),
+                    false => out.fill(f64::NAN),
+                }
+            }
+        });
+    }
+
+    /// Solves some postures, and calls `each` with every one in turn.
+    pub(crate) fn solve(
+        &self,
+        poses: &[Pose],
+        loads: Option<&[Wrench]>,
+        room: &mut EvaluationRoom,
+        mut each: impl FnMut(usize, &Solved),
+    ) {
+        let EvaluationRoom {
+            stiffness,
+            equilibrium,
+            place,
+            nearness,
+        } = room;
+        let place = place.get_or_insert_with(|| Solved::new(&self.mechanism));
+        let solved = match loads {
+            None => {
+                self.batch.stiffness_into(poses, stiffness);
+                true
+            }
+            Some(loads) => {
+                let found = self
+                    .batch
+                    .equilibrium_into(poses, loads, self.details, equilibrium);
+                found.is_ok()
+            }
+        };
+        for (i, pose) in poses.iter().enumerate() {
+            place.forget();
+            let machine = &self.mechanism;
+            let status = match loads {
+                None => stiffness.status[i],
+                Some(_) if solved => equilibrium.status[i],
+                Some(_) => kinetostat::batch::Status::Unsolved,
+            };
+            let taken = match (status.is_solved(), loads) {
+                (false, _) => false,
+                (true, None) => place.take_stiffness(machine, stiffness, i),
+                (true, Some(_)) => {
+                    place.take_equilibrium(machine, &self.ratings, equilibrium, i, pose)
+                }
+            };
+            if !taken {
+                place.forget();
+                let load = loads.map(|loads| &loads[i]);
+                self.by_itself(place, machine.posture(pose), load);
+            }
+            if let (Some(own), true) = (&self.nearness, place.found) {
+                place.singularity_distance = own.at(&self.batch, pose, &place.commands, nearness);
+            }
+            each(i, place);
+        }
+    }
+
+    /// A posture by itself, perhaps none.
+    pub(crate) fn by_itself(
+        &self,
+        place: &mut Solved,
+        posture: kinetostat::Result<Posture>,
+        load: Option<&Wrench>,
+    ) -> Option<Posture> {
+        place.take_posture(posture, load, &self.ratings)
+    }
+
+    /// Values of all variables at a place, one after the other.
+    pub(crate) fn values(&self, place: &Solved) -> Box<[f64]> {
+        let widths = self.widths();
+        let mut all = vec![f64::NAN; widths.iter().sum()].into_boxed_slice();
+        let mut rest = &mut all[..];
+        for (variable, width) in self.variables.iter().zip(widths) {
+            let (own, after) = std::mem::take(&mut rest).split_at_mut(width);
+            if place.state.has_figures() {
+                variable.write(place, own);
+            }
+            rest = after;
+        }
+        all
+    }
+}
+
+impl Solved {
+    pub(crate) fn outcome(&self) -> Outcome {
+        Outcome {
+            state: self.state,
+            found: self.found,
+        }
+    }
+}

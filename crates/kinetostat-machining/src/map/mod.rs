@@ -1,0 +1,240 @@
+//! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
+//! at once, in constant memory.
+
+mod evaluate;
+mod grid;
+mod nearness;
+mod place;
+mod solved;
+mod variable;
+
+use std::sync::Arc;
+
+use kinetostat::batch::Batch;
+use kinetostat::chain::FoundBy;
+use kinetostat::number::{larger, smaller};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use nalgebra::{UnitQuaternion, Vector3};
+use rayon::prelude::*;
+
+pub use evaluate::{EvaluationRoom, Evaluator, Outcome};
+pub use grid::Grid;
+pub use place::{MapPlace, PlaceState};
+use solved::Solved;
+pub use variable::{Entry, VARIABLES, Variable, Width, Worse};
+
+use crate::postures::neighbour::NEAR;
+use crate::postures::orientation::Orientation;
+use crate::result::solving::one_by_one_because;
+use crate::task::RunError;
+use crate::watch::Watch;
+
+/// The query.
+#[derive(Clone, Debug)]
+pub struct MapTask<'a> {
+    /// Machine with its tool.
+    pub mechanism: &'a Mechanism,
+    /// Where the tool's reference point is put.
+    pub grid: Grid,
+    /// Orientation of the tool everywhere, base from tool.
+    pub orientation: UnitQuaternion<f64>,
+    /// The machine turns its tool as it moves: at every place it takes the orientation nearest to
+    /// `orientation` that it can have there, instead of that one.
+    pub orientation_follows: bool,
+    /// Dead wrench on the tool, base axes, about its reference point. With it, figures are those of
+    /// the machine as it is under this load, its own weight, preloads and deviations; without it, of
+    /// the unloaded machine as drawn.
+    pub load: Option<Wrench>,
+    /// Further orientations and loads: what counts at a place is the worst of all. Not where the orientation follows.
+    pub further: Vec<(UnitQuaternion<f64>, Option<Wrench>)>,
+    /// What is asked for beside the usual figures; they come in [`MapPlace::values`].
+    pub variables: Vec<Variable>,
+    /// Ratings of the actuators, as far as they are stated.
+    pub ratings: Vec<Option<f64>>,
+    /// Places before this one are known already.
+    pub first: usize,
+}
+
+impl MapTask<'_> {
+    /// Why every place is solved by itself; `None` where kernels take many at once.
+    #[must_use]
+    pub fn one_by_one_because(&self) -> Option<String> {
+        let loaded = self.load.is_some();
+        one_by_one_because(self.mechanism, self.orientation_follows, loaded)
+    }
+}
+
+/// Places that one thread takes at a time.
+const BLOCK: usize = 256;
+/// Blocks between two looks at the watch; what is in memory at a time.
+const BLOCKS: usize = 64;
+
+/// Solves all places of a grid in their order. Each block of places is turned into something by
+/// `block`, on any thread; `put` takes these one after the other. No more than a fixed number of
+/// places is kept, whatever the size of the grid, and answers do not depend on the number of threads.
+///
+/// # Errors
+/// [`RunError::Cancelled`], and what `put` returns.
+pub fn map<R: Send, E: From<RunError>>(
+    task: &MapTask<'_>,
+    watch: &dyn Watch,
+    block: impl Fn(&[MapPlace]) -> R + Sync,
+    mut put: impl FnMut(R) -> Result<(), E>,
+) -> Result<(), E> {
+    let batch = Arc::new(Batch::new(task.mechanism));
+    let ratings = task.ratings.clone();
+    let evaluator = Evaluator::of_map(task.mechanism, batch, ratings, &task.variables);
+    let total = task.grid.len();
+    watch.stage("map", total);
+    for first in (task.first..total).step_by(BLOCK * BLOCKS) {
+        if watch.cancelled() {
+            return Err(RunError::Cancelled.into());
+        }
+        let end = total.min(first + BLOCK * BLOCKS);
+        let starts: Vec<usize> = (first..end).step_by(BLOCK).collect();
+        let done: Vec<R> = starts
+            .into_par_iter()
+            .map_init(EvaluationRoom::default, |room, start| {
+                let places = start..end.min(start + BLOCK);
+                block(&solved(task, &evaluator, room, places))
+            })
+            .collect();
+        done.into_iter().try_for_each(&mut put)?;
+        watch.advance(end);
+    }
+    Ok(())
+}
+
+fn solved(
+    task: &MapTask<'_>,
+    evaluator: &Evaluator,
+    room: &mut EvaluationRoom,
+    places: std::ops::Range<usize>,
+) -> Vec<MapPlace> {
+    let mut out = Vec::new();
+    for place in places {
+        let index = task.grid.index(place);
+        let position_mm = [0, 1, 2].map(|axis| task.grid.position_mm(axis, index[axis]));
+        out.push(MapPlace::unknown(index, position_mm));
+    }
+    if task.orientation_follows {
+        let poses = poses_of(&out, &task.orientation);
+        following(task, evaluator, &poses, &mut out);
+        return out;
+    }
+    let first = (task.orientation, task.load);
+    let cases: Vec<_> = std::iter::once(&first).chain(&task.further).collect();
+    for (k, (orientation, load)) in cases.into_iter().enumerate() {
+        let poses = poses_of(&out, orientation);
+        let loads = load.map(|load| vec![load; poses.len()]);
+        evaluator.solve(&poses, loads.as_deref(), room, |i, solved| {
+            let mut own = MapPlace::unknown(out[i].index, out[i].position_mm);
+            own.take(evaluator, solved);
+            if own.state.has_figures() {
+                own.tool_turn_deg = 0.0;
+            }
+            match k {
+                0 => out[i] = own,
+                _ => out[i].worsen(own, &task.variables, evaluator),
+            }
+        });
+    }
+    out
+}
+
+/// The tool at every place with an orientation.
+fn poses_of(places: &[MapPlace], orientation: &UnitQuaternion<f64>) -> Vec<Pose> {
+    let at = |place: &MapPlace| Vector3::from(place.position_mm) * 1e-3;
+    let each = places.iter().map(at);
+    each.map(|at| Pose::from_parts(at.into(), *orientation))
+        .collect()
+}
+
+/// Places by their positions only, one after the other: each followed from the one before where that
+/// is near.
+fn following(task: &MapTask<'_>, evaluator: &Evaluator, poses: &[Pose], out: &mut [MapPlace]) {
+    let requested = Orientation {
+        follows: true,
+        load_turns: false,
+    };
+    let near = NEAR * task.mechanism.size();
+    let mut solved = Solved::new(task.mechanism);
+    let mut last: Option<Posture> = None;
+    for (place, pose) in out.iter_mut().zip(poses) {
+        let close = last.as_ref().filter(|posture| {
+            let at = posture.target().translation.vector;
+            (at - pose.translation.vector).norm() < near
+        });
+        let posture = requested.posture(task.mechanism, pose, close);
+        solved.forget();
+        last = evaluator.by_itself(&mut solved, posture, task.load.as_ref());
+        place.take(evaluator, &solved);
+        last = last.filter(|p| p.within_limits().is_ok());
+        if let (Some(posture), true) = (&last, place.state.has_figures()) {
+            let turned = posture.target().rotation.angle_to(&pose.rotation);
+            place.tool_turn_deg = turned.to_degrees();
+        }
+    }
+}
+
+impl MapPlace {
+    fn unknown(index: [usize; 3], position_mm: [f64; 3]) -> Self {
+        Self {
+            index,
+            position_mm,
+            state: PlaceState::Unanswered,
+            smallest_stiffness_n_per_mm: f64::NAN,
+            stiffness_n_per_mm: [f64::NAN; 3],
+            tool_turn_deg: f64::NAN,
+            displacement_mm: [f64::NAN; 3],
+            rotation_deg: [f64::NAN; 3],
+            found_by: FoundBy::Directly,
+            values: Box::default(),
+        }
+    }
+
+    fn take(&mut self, evaluator: &Evaluator, solved: &Solved) {
+        self.state = solved.state;
+        self.found_by = solved.found_by;
+        self.values = evaluator.values(solved);
+        if !solved.state.has_figures() {
+            return;
+        }
+        self.smallest_stiffness_n_per_mm = 1e-3 * solved.softest();
+        self.stiffness_n_per_mm = [0, 1, 2].map(|k| 1e-3 * solved.along(k));
+        self.displacement_mm = (solved.displacement.linear() * 1e3).into();
+        self.rotation_deg = solved.displacement.angular().map(f64::to_degrees).into();
+    }
+
+    /// Takes what is worse of another orientation or load at the same place.
+    fn worsen(&mut self, other: Self, variables: &[Variable], evaluator: &Evaluator) {
+        let worse = |own: f64, other: f64| smaller(own, other);
+        let softest = self.smallest_stiffness_n_per_mm;
+        self.smallest_stiffness_n_per_mm = worse(softest, other.smallest_stiffness_n_per_mm);
+        for k in 0..3 {
+            let own = &mut self.stiffness_n_per_mm[k];
+            *own = worse(*own, other.stiffness_n_per_mm[k]);
+        }
+        let farther = |own: &[f64; 3], other: &[f64; 3]| {
+            let size = |v: &[f64; 3]| Vector3::from(*v).norm();
+            size(other) > size(own) || size(other).is_nan()
+        };
+        if farther(&self.displacement_mm, &other.displacement_mm) {
+            self.displacement_mm = other.displacement_mm;
+        }
+        if farther(&self.rotation_deg, &other.rotation_deg) {
+            self.rotation_deg = other.rotation_deg;
+        }
+        self.tool_turn_deg = larger(self.tool_turn_deg, other.tool_turn_deg);
+        if other.state as u8 > self.state as u8 {
+            self.state = other.state;
+            self.found_by = other.found_by;
+        }
+        let mut at = 0;
+        for (variable, width) in variables.iter().zip(evaluator.widths()) {
+            let own = &mut self.values[at..at + width];
+            variable.worsen(own, &other.values[at..at + width]);
+            at += width;
+        }
+    }
+}

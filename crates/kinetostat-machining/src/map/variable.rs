@@ -1,0 +1,264 @@
+//! What can be asked of a place: one table of names, units, columns and meanings.
+
+use kinetostat::number::{larger, smaller};
+use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3};
+
+use crate::map::solved::Solved;
+
+/// A quantity of a place, in SI units. Numbers that do not exist are NaN.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the table says what each is")]
+pub enum Variable {
+    StiffnessX,
+    StiffnessY,
+    StiffnessZ,
+    StiffnessSoftest,
+    StiffnessStiffest,
+    RotationalStiffnessX,
+    RotationalStiffnessY,
+    RotationalStiffnessZ,
+    RotationalStiffnessSoftest,
+    RotationalStiffnessStiffest,
+    PrincipalStiffness,
+    PrincipalCompliance,
+    PrincipalDirections,
+    Deflection,
+    DeflectionXyz,
+    Rotation,
+    RotationXyz,
+    Commands,
+    JointEfforts,
+    EffortShare,
+    ShareToBuckling,
+    Margin,
+    SingularityDistance,
+    Stable,
+}
+
+/// Which of two values is the worse one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Worse {
+    /// The smaller.
+    Smaller,
+    /// The larger.
+    Larger,
+    /// The one of the larger size: it may have either sign.
+    LargerSize,
+    /// Neither.
+    Neither,
+}
+
+/// How many columns a variable has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// So many.
+    Fixed(usize),
+    /// One for each actuator.
+    Actuators,
+}
+
+/// What has to be known of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Needs {
+    Posture,
+    Stiffness,
+    Rest,
+    Stability,
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The variable.
+    pub variable: Variable,
+    /// Name in files, options and Python.
+    pub name: &'static str,
+    /// Unit; `1` without one. That of an actuator's effort is its own.
+    pub unit: &'static str,
+    /// How many columns it has.
+    pub width: Width,
+    /// Which value of several orientations or loads counts.
+    pub worse: Worse,
+    needs: Needs,
+    /// One sentence.
+    pub description: &'static str,
+}
+
+macro_rules! table {
+    ($($variable:ident, $name:literal, $unit:literal, $width:expr, $worse:ident, $needs:ident, $description:literal;)*) => {
+        &[$(Entry {
+            variable: Variable::$variable,
+            name: $name,
+            unit: $unit,
+            width: $width,
+            worse: Worse::$worse,
+            needs: Needs::$needs,
+            description: $description,
+        }),*]
+    };
+}
+
+const ONE: Width = Width::Fixed(1);
+const THREE: Width = Width::Fixed(3);
+
+/// All variables. Stiffness is force per motion along it while the tool may turn (or moment per rotation about it while it
+/// may move): the reciprocal of an entry of the compliance [R 3.13]. Axes are those of the base, the reference point is the tool's.
+#[rustfmt::skip]
+pub const VARIABLES: &[Entry] = table![
+    StiffnessX, "stiffness_x", "N/m", ONE, Smaller, Stiffness, "force per motion along x of the base, the tool free to turn";
+    StiffnessY, "stiffness_y", "N/m", ONE, Smaller, Stiffness, "force per motion along y of the base, the tool free to turn";
+    StiffnessZ, "stiffness_z", "N/m", ONE, Smaller, Stiffness, "force per motion along z of the base, the tool free to turn";
+    StiffnessSoftest, "stiffness_softest", "N/m", ONE, Smaller, Stiffness, "force per motion along the softest direction, the tool free to turn; 0 where a direction is free";
+    StiffnessStiffest, "stiffness_stiffest", "N/m", ONE, Smaller, Stiffness, "force per motion along the stiffest direction, the tool free to turn; infinite where a direction is rigid";
+    RotationalStiffnessX, "rotational_stiffness_x", "N m/rad", ONE, Smaller, Stiffness, "moment per rotation about x of the base, the tool free to move";
+    RotationalStiffnessY, "rotational_stiffness_y", "N m/rad", ONE, Smaller, Stiffness, "moment per rotation about y of the base, the tool free to move";
+    RotationalStiffnessZ, "rotational_stiffness_z", "N m/rad", ONE, Smaller, Stiffness, "moment per rotation about z of the base, the tool free to move";
+    RotationalStiffnessSoftest, "rotational_stiffness_softest", "N m/rad", ONE, Smaller, Stiffness, "moment per rotation about the softest axis, the tool free to move; 0 where one is free";
+    RotationalStiffnessStiffest, "rotational_stiffness_stiffest", "N m/rad", ONE, Smaller, Stiffness, "moment per rotation about the stiffest axis, the tool free to move";
+    PrincipalStiffness, "principal_stiffness", "N/m", THREE, Smaller, Stiffness, "stiffness against a force along each principal direction, the softest first";
+    PrincipalCompliance, "principal_compliance", "m/N", THREE, Larger, Stiffness, "motion per force along each principal direction, the softest first";
+    PrincipalDirections, "principal_directions", "1", Width::Fixed(9), Neither, Stiffness, "unit vectors of the principal directions, base axes, one after the other, the softest first, the largest part of each positive";
+    Deflection, "deflection", "m", ONE, Larger, Rest, "how far the tool goes from where it is commanded under the load";
+    DeflectionXyz, "deflection_xyz", "m", THREE, LargerSize, Rest, "from where the tool is commanded to where it goes under the load, base axes";
+    Rotation, "rotation", "rad", ONE, Larger, Rest, "how far the tool turns under the load";
+    RotationXyz, "rotation_xyz", "rad", THREE, LargerSize, Rest, "rotation vector of the tool under the load, base axes";
+    Commands, "commands", "m or rad", Width::Actuators, Neither, Posture, "commands of the actuators";
+    JointEfforts, "joint_efforts", "N or N m", Width::Actuators, LargerSize, Rest, "forces or torques of the loads on the actuators";
+    EffortShare, "effort_share", "1", ONE, Larger, Rest, "largest share of an actuator's effort in its rated one, of those that state a rating";
+    ShareToBuckling, "share_to_buckling", "1", ONE, Larger, Stability, "largest share of the way to buckling of all limbs; below 1 their shapes hold";
+    Margin, "margin", "1", ONE, Smaller, Stability, "what is left to buckling, 1 - share_to_buckling, and no more than 0 where the equilibrium is not stable";
+    SingularityDistance, "singularity_distance", "1", ONE, Smaller, Posture, "smallest singular value of the Jacobian between actuators and the motions that they drive, as a share of the largest; angles are multiplied with the natural length of the machine; 0 is singular";
+    Stable, "stable", "1", ONE, Smaller, Stability, "1 where the equilibrium under the load is stable, 0 where it is not";
+];
+
+impl Variable {
+    /// The variable of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let own = VARIABLES.iter().find(|entry| entry.name == name);
+        own.map(|entry| entry.variable)
+    }
+
+    /// Its row of the table, which has one for each in the order of their declaration.
+    #[must_use]
+    pub fn entry(self) -> &'static Entry {
+        &VARIABLES[self as usize]
+    }
+
+    /// Its columns in a machine of so many actuators.
+    #[must_use]
+    pub fn width(self, actuators: usize) -> usize {
+        match self.entry().width {
+            Width::Fixed(width) => width,
+            Width::Actuators => actuators,
+        }
+    }
+
+    pub(crate) fn needs(self) -> Needs {
+        self.entry().needs
+    }
+
+    /// It exists under a load only.
+    #[must_use]
+    pub fn needs_load(self) -> bool {
+        self.needs() >= Needs::Rest
+    }
+
+    /// Takes the worse of two values, column by column; what does not exist is the worst.
+    pub fn worsen(self, own: &mut [f64], other: &[f64]) {
+        for (own, other) in own.iter_mut().zip(other) {
+            if own.is_nan() || other.is_nan() {
+                *own = f64::NAN;
+                continue;
+            }
+            *own = match self.entry().worse {
+                Worse::Smaller => smaller(*own, *other),
+                Worse::Larger => larger(*own, *other),
+                Worse::LargerSize if other.abs() > own.abs() => *other,
+                Worse::LargerSize | Worse::Neither => *own,
+            };
+        }
+    }
+
+    /// Writes its columns at a place.
+    pub(crate) fn write(self, place: &Solved, out: &mut [f64]) {
+        match self {
+            Self::StiffnessX => out[0] = place.along(0),
+            Self::StiffnessY => out[0] = place.along(1),
+            Self::StiffnessZ => out[0] = place.along(2),
+            Self::StiffnessSoftest => out[0] = place.softest(),
+            Self::StiffnessStiffest => out[0] = 1.0 / principal(&place.compliance).0[2],
+            Self::RotationalStiffnessX => out[0] = place.along(3),
+            Self::RotationalStiffnessY => out[0] = place.along(4),
+            Self::RotationalStiffnessZ => out[0] = place.along(5),
+            Self::RotationalStiffnessSoftest => out[0] = place.softest_rotation(),
+            Self::RotationalStiffnessStiffest => {
+                out[0] = 1.0 / rotational(&place.compliance, place.length)[2];
+            }
+            Self::PrincipalStiffness => {
+                let compliances = place.principal().0;
+                out.copy_from_slice(compliances.map(|c| 1.0 / c).as_slice());
+            }
+            Self::PrincipalCompliance => out.copy_from_slice(place.principal().0.as_slice()),
+            Self::PrincipalDirections => out.copy_from_slice(place.principal().1.as_slice()),
+            Self::Deflection => out[0] = place.displacement.linear().norm(),
+            Self::DeflectionXyz => out.copy_from_slice(place.displacement.linear().as_slice()),
+            Self::Rotation => out[0] = place.displacement.angular().norm(),
+            Self::RotationXyz => out.copy_from_slice(place.displacement.angular().as_slice()),
+            Self::Commands => out.copy_from_slice(&place.commands),
+            Self::JointEfforts => out.copy_from_slice(&place.efforts),
+            Self::EffortShare => out[0] = place.effort_share,
+            Self::ShareToBuckling => out[0] = place.share_to_buckling,
+            Self::Margin => {
+                let left = 1.0 - place.share_to_buckling;
+                out[0] = if place.stable == 0.0 {
+                    smaller(left, 0.0)
+                } else {
+                    left
+                };
+            }
+            Self::SingularityDistance => out[0] = place.singularity_distance,
+            Self::Stable => out[0] = place.stable,
+        }
+    }
+}
+
+/// Compliances below this share of the largest are rounding.
+pub(crate) const NO_MOTION: f64 = 1e-12;
+
+/// Eigenvalues of the symmetric part of a block, falling; below the rounding of the largest they are zero.
+fn eigen(block: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    // Along the push acts the symmetric part alone; loads without a potential leave another.
+    let eigen = SymmetricEigen::new(0.5 * (block + block.transpose()));
+    let most = eigen.eigenvalues.amax();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let values = Vector3::from_fn(|k, _| {
+        let own = eigen.eigenvalues[order[k]];
+        if own.abs() <= NO_MOTION * most {
+            0.0
+        } else {
+            own
+        }
+    });
+    let vectors = Matrix3::from_fn(|i, k| eigen.eigenvectors[(i, order[k])]);
+    (values, vectors)
+}
+
+/// Compliances along the principal directions of forces, falling, and these as columns, the largest part positive.
+pub(crate) fn principal(compliance: &Matrix6<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let (values, mut vectors) = eigen(&compliance.fixed_view::<3, 3>(0, 0).into_owned());
+    for mut column in vectors.column_iter_mut() {
+        if column[column.iamax()] < 0.0 {
+            column.neg_mut();
+        }
+    }
+    (values, vectors)
+}
+
+/// The same of moments, without directions; what is rounding beside the forces' is zero.
+pub(crate) fn rotational(compliance: &Matrix6<f64>, length: f64) -> Vector3<f64> {
+    let nothing = NO_MOTION * compliance.fixed_view::<3, 3>(0, 0).amax() / (length * length);
+    let (values, _) = eigen(&compliance.fixed_view::<3, 3>(3, 3).into_owned());
+    values.map(|c| if c.abs() <= nothing { 0.0 } else { c })
+}

@@ -1,0 +1,140 @@
+//! Variables of maps for many postures.
+
+use kinetostat::Wrench;
+use kinetostat_machining::{
+    EvaluationRoom, Evaluator, Outcome, PlaceState, VARIABLES, Variable, Width,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Numbers, array, poses as read_poses};
+use crate::batch::{Columns, done, each_wrench};
+use crate::errors::{Class, error};
+use crate::machine::Machine;
+use crate::work::Manner;
+
+/// What became of a posture, as `kinetostat.Status` counts.
+fn number(outcome: &Outcome) -> u8 {
+    match (outcome.found, outcome.state) {
+        (false, _) => 2,
+        (true, PlaceState::OutsideLimits) => 1,
+        (true, _) => 0,
+    }
+}
+
+/// Name, unit, columns (none: one for each actuator) and description of all variables.
+#[pyfunction]
+pub fn map_variables() -> Vec<(&'static str, &'static str, Option<usize>, &'static str)> {
+    let row = |entry: &kinetostat_machining::Entry| {
+        let columns = match entry.width {
+            Width::Fixed(columns) => Some(columns),
+            Width::Actuators => None,
+        };
+        (entry.name, entry.unit, columns, entry.description)
+    };
+    VARIABLES.iter().map(row).collect()
+}
+
+/// The variables of these names, each once.
+fn named(names: &[String], loaded: bool) -> PyResult<Vec<Variable>> {
+    let mut chosen = Vec::new();
+    for name in names {
+        let Some(variable) = Variable::named(name) else {
+            let known: Vec<&str> = VARIABLES.iter().map(|entry| entry.name).collect();
+            return Err(error(
+                Class::Argument,
+                format!(
+                    "variables: no map has '{name}'; there are {}",
+                    known.join(", ")
+                ),
+            ));
+        };
+        if variable.needs_load() && !loaded {
+            return Err(error(
+                Class::Argument,
+                format!("variables: '{name}' needs a load; give wrenches (zeros are one, too)"),
+            ));
+        }
+        if chosen.contains(&variable) {
+            return Err(error(
+                Class::Argument,
+                format!("variables: '{name}' is asked for twice"),
+            ));
+        }
+        chosen.push(variable);
+    }
+    Ok(chosen)
+}
+
+/// Variables of many postures (n, 4, 4) under wrenches (n, 6) or (1, 6); without wrenches of the unloaded machine as drawn.
+/// `status` (n,) as `kinetostat.Status`, and for each variable an array (n,) or (n, columns).
+#[pyfunction]
+#[pyo3(signature = (machine, poses, wrenches, variables, threads=None, progress=None))]
+pub fn evaluate_many<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    poses: Numbers<'py>,
+    wrenches: Option<Numbers<'py>>,
+    variables: Vec<String>,
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let places = read_poses("poses", &poses)?;
+    let count = places.len();
+    let wrenches = wrenches
+        .map(|wrenches| each_wrench(count, &wrenches))
+        .transpose()?;
+    let chosen = named(&variables, wrenches.is_some())?;
+    let evaluator = Evaluator::new(
+        &machine.mechanism,
+        machine.batch(),
+        machine.ratings(),
+        &chosen,
+    );
+    let widths = evaluator.widths();
+    let own = widths.clone();
+    let manner = Manner { threads, progress };
+    let columns = done(py, count, &manner, move |course| {
+        let mut columns = Columns::new(count, &own);
+        columns.fill(course, |room: &mut Room, first, out, status| {
+            let end = first + status.len();
+            let loads: Option<&[Wrench]> = wrenches.as_deref().map(|all| &all[first..end]);
+            room.outcomes.resize(status.len(), UNKNOWN);
+            evaluator.evaluate(
+                &places[first..end],
+                loads,
+                &mut room.own,
+                out,
+                &mut room.outcomes,
+            );
+            for (status, outcome) in status.iter_mut().zip(&room.outcomes) {
+                *status = number(outcome);
+            }
+        });
+        columns
+    })?;
+    let answer = PyDict::new(py);
+    answer.set_item("status", PyArray1::from_vec(py, columns.status))?;
+    let found = columns.numbers.into_iter().zip(widths).zip(chosen);
+    for ((numbers, width), variable) in found {
+        let entry = variable.entry();
+        match entry.width {
+            Width::Fixed(1) => answer.set_item(entry.name, PyArray1::from_vec(py, numbers))?,
+            _ => answer.set_item(entry.name, array(py, numbers, [count, width])?)?,
+        }
+    }
+    Ok(answer)
+}
+
+const UNKNOWN: Outcome = Outcome {
+    state: PlaceState::Unanswered,
+    found: false,
+};
+
+/// What a thread keeps from block to block.
+#[derive(Default)]
+struct Room {
+    own: EvaluationRoom,
+    outcomes: Vec<Outcome>,
+}

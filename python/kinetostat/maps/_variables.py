@@ -1,0 +1,78 @@
+"""What can be asked of a place."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Literal
+
+from kinetostat import _core
+from kinetostat.errors import ArgumentError
+
+__all__ = ["Variable", "variables"]
+
+Worse = Literal["smaller", "larger", "larger size", "neither"]
+
+AXES: dict[str, tuple[str, ...]] = {"axis": ("x", "y", "z"), "principal": ("softest", "middle", "stiffest")}
+"""Coordinates of the columns of variables."""
+
+_LARGER = ("principal_compliance", "deflection", "rotation", "effort_share", "share_to_buckling")
+_LARGER_SIZE = ("deflection_xyz", "rotation_xyz", "joint_efforts")
+_NEITHER = ("principal_directions", "commands")
+
+
+@dataclasses.dataclass(frozen=True)
+class Variable:
+    """A result of a place."""
+
+    name: str
+    unit: str
+    """SI; ``1`` without one."""
+    columns: int | None
+    """How many numbers it is; none: one for each actuator."""
+    description: str
+
+    @property
+    def worse(self) -> Worse:
+        """Which of two values is the worse one."""
+        if self.name in _NEITHER:
+            return "neither"
+        if self.name in _LARGER_SIZE:
+            return "larger size"
+        return "larger" if self.name in _LARGER else "smaller"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Dimensions of its columns in a map."""
+        if self.columns == 1:
+            return ()
+        if self.columns is None:
+            return ("actuator",)
+        if self.name == "principal_directions":
+            return ("principal", "axis")
+        if self.name.startswith("principal_"):
+            return ("principal",)
+        return ("axis",) if self.columns == 3 else (f"{self.name}_column",)
+
+
+def variables() -> dict[str, Variable]:
+    """Variables of a map by their names.
+
+    Examples
+    --------
+    >>> variables()["stiffness_softest"].unit
+    'N/m'
+    """
+    return {row[0]: Variable(*row) for row in _core.map_variables()}
+
+
+def chosen(names: str | Sequence[str]) -> list[Variable]:
+    """Variables by their names, each known and once."""
+    known = variables()
+    wanted = [names] if isinstance(names, str) else list(names)
+    for name in wanted:
+        if name not in known:
+            raise ArgumentError(f"variables has {name!r}, expected some of {', '.join(known)}")
+    if not wanted or len(set(wanted)) < len(wanted):
+        raise ArgumentError(f"variables is {wanted}, expected one or more names, each once")
+    return [known[name] for name in wanted]

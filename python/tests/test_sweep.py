@@ -1,0 +1,352 @@
+"""Sweeps: complete, resumed, and the same bits on any executor."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sweep_functions as functions
+
+import kinetostat as ks
+from kinetostat import sweep
+
+# Processes that are forked: Python warns where this one has threads; ours are made anew in a child.
+pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+
+MACHINE = ks.Machine.preset("orthoglide")
+PLACES = np.random.default_rng(3).uniform(-0.12, 0.12, (600, 3))
+SETTINGS = {"machine": MACHINE, "places": PLACES}
+
+
+def same_bits(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
+    assert list(one) == list(other)
+    for name in one:
+        assert one[name].dtype == other[name].dtype
+        assert one[name].shape == other[name].shape
+        assert one[name].tobytes() == other[name].tobytes(), name
+
+
+@pytest.fixture(scope="module")
+def serial() -> dict[str, np.ndarray]:
+    whole = sweep.run(functions.stiff, len(PLACES), SETTINGS, chunk=len(PLACES))
+    # Not the code with itself alone: the vectorised call gives the same.
+    direct = MACHINE.equilibrium(PLACES, [100, -20, -30, 1, 2, 3])
+    assert np.array_equal(whole["displacement"], direct.displacement, equal_nan=True)
+    assert direct.solved.sum() > 500
+    return whole
+
+
+def test_any_chunk_gives_the_same_bits(serial: dict[str, np.ndarray]) -> None:
+    same_bits(serial, sweep.run(functions.stiff, len(PLACES), SETTINGS, chunk=7))
+
+
+def test_threads_as_executor_and_bounded_under_way(serial: dict[str, np.ndarray]) -> None:
+    most = 0
+    now = 0
+    lock = threading.Lock()
+
+    class Counting(ThreadPoolExecutor):
+        def submit(self, *args, **kwargs):  # type: ignore[no-untyped-def]
+            nonlocal most, now
+            with lock:
+                now += 1
+                most = max(most, now)
+            future = super().submit(*args, **kwargs)
+            future.add_done_callback(self.one_less)
+            return future
+
+        def one_less(self, _: object) -> None:
+            nonlocal now
+            with lock:
+                now -= 1
+
+    with Counting(2) as pool:
+        same_bits(serial, sweep.run(functions.stiff, len(PLACES), SETTINGS, chunk=20, executor=pool, under_way=3))
+    assert 2 <= most <= 3
+
+
+def test_a_killed_process_costs_its_chunk(serial: dict[str, np.ndarray], tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    mark = tmp_path / "killed"
+    settings = {**SETTINGS, "kill": str(mark), "at": 300, "wait": 0.01}
+    done = sweep.to_folder(tmp_path / "out", functions.stiff, 600, settings, chunk=25, executor=partial(ProcessPoolExecutor, 2))
+    assert mark.exists()
+    assert done == sweep.Done(24, 24, 0)
+    assert sweep.verify(tmp_path / "out").complete
+    same_bits(serial, sweep.read(tmp_path / "out"))
+
+
+def test_a_pool_without_a_factory_keeps_what_is_done(serial: dict[str, np.ndarray], tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    settings = {**SETTINGS, "kill": str(tmp_path / "killed"), "at": 400}
+    out = tmp_path / "out"
+    with ProcessPoolExecutor(1) as pool, pytest.raises(sweep.SweepError, match="Give a function that makes the executor"):
+        sweep.to_folder(out, functions.stiff, 600, settings, chunk=25, executor=pool, under_way=1)
+    found = sweep.verify(out)
+    assert found.sound == tuple(range(16))
+    assert found.damaged == ()
+    with pytest.raises(ks.ArgumentError, match="16 of 24 chunks"):
+        sweep.read(out)
+    assert sweep.to_folder(out, functions.stiff, 600, settings, chunk=25).computed == 8
+    same_bits(serial, sweep.read(out))
+
+
+def test_workers_that_always_die_end_the_sweep() -> None:
+    with pytest.raises(sweep.SweepError, match="3 times without a finished chunk"):
+        sweep.run(functions.always_killed, 10, chunk=5, executor=partial(ProcessPoolExecutor, 1))
+
+
+def test_a_failing_chunk_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    settings = {"log": str(tmp_path / "log"), "fail": 60}
+    with ThreadPoolExecutor(1) as pool, pytest.raises(sweep.SweepError, match=r"chunk 6 \(rows 60 to 69\).*ZeroDivisionError"):
+        sweep.to_folder(tmp_path / "out", functions.counted, 100, settings, chunk=10, executor=pool, under_way=1)
+    assert sweep.verify(tmp_path / "out").sound == tuple(range(6))
+
+
+@pytest.mark.parametrize("harm", ["cut", "altered", "gone"])
+def test_damaged_chunks_are_found_and_computed_again(tmp_path: Path, harm: str) -> None:
+    pytest.importorskip("pyarrow")
+    log = tmp_path / "log"
+    out = tmp_path / "out"
+    go = partial(sweep.to_folder, out, functions.counted, 95, {"log": str(log)}, chunk=10)
+    assert go() == sweep.Done(10, 10, 0)
+    whole = sweep.read(out)
+    assert whole["row"].tolist() == list(range(95))
+    log.unlink()
+    assert go() == sweep.Done(10, 0, 0)
+    assert not log.exists()
+    file = out / "chunks" / "00000004.parquet"
+    content = bytearray(file.read_bytes())
+    if harm == "cut":
+        file.write_bytes(content[:-20])
+    elif harm == "altered":
+        content[len(content) // 3] ^= 1
+        file.write_bytes(content)
+    else:
+        file.unlink()
+    found = sweep.verify(out)
+    assert (found.damaged, found.missing, found.complete) == ((4,), (4,), False)
+    with pytest.raises(ks.ArgumentError, match="1 damaged"):
+        sweep.read(out)
+    assert go() == sweep.Done(10, 1, 1)
+    assert log.read_text().split() == ["40"]
+    same_bits(whole, sweep.read(out))
+
+
+def test_another_sweep_in_the_folder_is_an_error_that_names_the_field(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    out = tmp_path / "out"
+    part = {"machine": MACHINE, "places": PLACES[:20]}
+    sweep.to_folder(out, functions.stiff, 20, part, chunk=10)
+    with pytest.raises(ks.ArgumentError, match="count is 20 there and 19 here"):
+        sweep.to_folder(out, functions.stiff, 19, part, chunk=10)
+    with pytest.raises(ks.ArgumentError, match="chunk is 10 there and 5 here"):
+        sweep.to_folder(out, functions.stiff, 20, part, chunk=5)
+    with pytest.raises(ks.ArgumentError, match=r"settings\.places\.sha256"):
+        sweep.to_folder(out, functions.stiff, 20, {**part, "places": PLACES[1:21]}, chunk=10)
+    other = {**part, "machine": ks.Machine.preset("two_link")}
+    with pytest.raises(ks.ArgumentError, match=r"settings\.machine\.machine is \"orthoglide\" there and \"two_link\" here"):
+        sweep.to_folder(out, functions.stiff, 20, other, chunk=10)
+    longer = {**part, "machine": MACHINE.with_tool(length=0.1)}
+    with pytest.raises(ks.ArgumentError, match=r"settings\.machine\.sha256"):
+        sweep.to_folder(out, functions.stiff, 20, longer, chunk=10)
+    with pytest.raises(ks.ArgumentError, match=r"settings\.wait is \"nothing\" there and 0\.0 here"):
+        sweep.to_folder(out, functions.stiff, 20, {**part, "wait": 0.0}, chunk=10)
+    manifest = json.loads((out / "manifest.json").read_text())
+    manifest["version"] = "0.0.1"
+    (out / "manifest.json").write_text(json.dumps(manifest))
+    with pytest.raises(ks.ArgumentError, match=r"version is \"0\.0\.1\" there"):
+        sweep.to_folder(out, functions.stiff, 20, part, chunk=10)
+    # Nothing of this touched what is there.
+    assert sweep.verify(out).complete
+
+
+def test_what_is_no_sweep_is_said(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    with pytest.raises(ks.ArgumentError, match=r"no manifest\.json"):
+        sweep.verify(tmp_path)
+    (tmp_path / "manifest.json").write_text("[1, 2")
+    with pytest.raises(ks.ArgumentError, match="is no manifest"):
+        sweep.verify(tmp_path)
+    with pytest.raises(ks.ArgumentError, match="count is -1"):
+        sweep.run(functions.short, -1)
+    with pytest.raises(ks.ArgumentError, match="chunk is 0"):
+        sweep.run(functions.short, 5, chunk=0)
+    with pytest.raises(ks.ArgumentError, match="under_way is 0"):
+        sweep.run(functions.short, 5, under_way=0)
+    with pytest.raises(ks.ArgumentError, match="expected 5 rows"):
+        sweep.run(functions.short, 5)
+    with pytest.raises(ks.ArgumentError, match="dtype <U1"):
+        sweep.run(functions.texts, 5)
+    with pytest.raises(ks.ArgumentError, match="top of a module"):
+        sweep.run(lambda first, last, threads: {}, 5)
+    with pytest.raises(ks.ArgumentError, match=r"settings\['log'\] is a PosixPath"):
+        sweep.to_folder(tmp_path / "out", functions.counted, 5, {"log": tmp_path})
+    assert sweep.run(functions.counted, 0, {"log": ""}) == {}
+
+
+def test_two_runs_do_not_write_one_folder(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    settings = {"log": str(tmp_path / "log"), "wait": 0.3}
+    first = threading.Thread(target=sweep.to_folder, args=(tmp_path / "out", functions.counted, 10, settings), kwargs={"chunk": 5})
+    first.start()
+    time.sleep(0.2)
+    with pytest.raises(ks.ArgumentError, match="written by another run"):
+        sweep.to_folder(tmp_path / "out", functions.counted, 10, settings, chunk=5)
+    first.join()
+    assert sweep.verify(tmp_path / "out").complete
+
+
+def test_progress_counts_rows(tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    sweep.run(functions.counted, 95, {"log": str(tmp_path / "log")}, chunk=10, progress=lambda done, of, _: seen.append((done, of)))
+    assert seen == [(min(10 * i, 95), 95) for i in range(1, 11)]
+
+
+@pytest.mark.filterwarnings("ignore::kinetostat.ToleranceMissedWarning")
+def test_a_set_of_programs(tmp_path: Path) -> None:
+    names = [f"{k}.ngc" for k in range(4)]
+    for k, name in enumerate(names):
+        text = f"G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F500\nG1 X{10 + 10 * k} Y10 F1000\nG1 X0\nM2\n"
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    settings = {"folder": str(tmp_path), "names": names}
+    found = sweep.run(functions.programs, 4, settings, chunk=1, executor=partial(ProcessPoolExecutor, 2))
+    assert all((tmp_path / f"out-{name}").exists() for name in names)
+    # The largest error is at least what the machine gives way at the first place of the cut.
+    gives_way = np.linalg.norm(MACHINE.equilibrium([[0.0, 0, 0]], [100, -20, -30, 0, 0, 0]).displacement[0, :3]) * 1e3
+    assert (found["error_before_mm"] >= 0.99 * gives_way).all()
+    assert (np.diff(found["error_before_mm"]) >= 0).all()
+
+
+def test_the_bar_of_tqdm(tmp_path: Path) -> None:
+    pytest.importorskip("tqdm")
+    with open(tmp_path / "shown", "w", encoding="utf-8") as shown, ks.bar(file=shown) as progress:
+        sweep.run(functions.counted, 95, {"log": str(tmp_path / "log")}, chunk=10, progress=progress)
+    assert "95/95" in (tmp_path / "shown").read_text(encoding="utf-8")
+
+
+STOPPED = """
+import signal
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from kinetostat import sweep
+import sweep_functions
+executor = partial(ProcessPoolExecutor, 2) if sys.argv[3] == "pool" else None
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+    print("begins", flush=True)
+    sweep.to_folder(sys.argv[1], sweep_functions.counted, 400, {"log": sys.argv[2], "wait": 0.05}, chunk=10, executor=executor)
+"""
+
+
+@pytest.mark.parametrize("where", ["serial", "pool"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_a_stopped_run_loses_no_finished_chunk(tmp_path: Path, where: str, number: int) -> None:
+    pytest.importorskip("pyarrow")
+    out, log = tmp_path / "out", tmp_path / "log"
+    words = [sys.executable, "-c", STOPPED, str(out), str(log), where]
+    here = Path(functions.__file__).parent
+    paths = ":".join([str(here), str(Path(ks.__file__).parents[1])])
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={"PYTHONPATH": paths}, start_new_session=True) as run:
+        assert run.stdout is not None
+        run.stdout.readline()
+        while not (out / "chunks").exists() or len(list((out / "chunks").iterdir())) < 6:
+            time.sleep(0.01)
+        at = time.monotonic()
+        run.send_signal(number)
+        run.wait()
+        assert time.monotonic() - at < 0.5
+        assert run.stderr is not None
+        if number == signal.SIGINT:
+            assert b"KeyboardInterrupt" in run.stderr.read()
+    time.sleep(0.3)  # workers of a killed process end their chunk
+    kept = len(sweep.verify(out).sound)
+    assert 6 <= kept < 40
+    begun = len(log.read_text().split())
+    assert begun - kept <= 5
+    # With workers of a killed process still there: they hold no lock.
+    done = sweep.to_folder(out, functions.counted, 400, {"log": str(log), "wait": 0.05}, chunk=10)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(run.pid, signal.SIGKILL)
+    assert done.computed == 40 - kept
+    assert sweep.verify(out).complete
+    assert sweep.read(out)["row"].tolist() == list(range(400))
+
+
+def test_read_by_pyarrow_and_polars(tmp_path: Path, serial: dict[str, np.ndarray]) -> None:
+    pyarrow = pytest.importorskip("pyarrow.dataset")
+    sweep.to_folder(tmp_path, functions.stiff, 600, SETTINGS, chunk=100, units={"displacement": "m and rad"})
+    table = pyarrow.dataset(tmp_path / "chunks").to_table()
+    assert table.schema.field("displacement").metadata[b"unit"] == b"m and rad"
+    rows = np.array(table["displacement"].to_pylist())
+    assert np.array_equal(rows, serial["displacement"], equal_nan=True)
+    polars = pytest.importorskip("polars")
+    frame = polars.read_parquet(tmp_path / "chunks")
+    assert np.array_equal(frame["displacement"].to_numpy(), serial["displacement"], equal_nan=True)
+    assert np.array_equal(frame["force"].to_numpy(), serial["force"], equal_nan=True)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_dask_with_four_workers_and_one_killed(tmp_path: Path, serial: dict[str, np.ndarray]) -> None:
+    distributed = pytest.importorskip("distributed")
+    pytest.importorskip("pyarrow")
+    mark = tmp_path / "killed"
+    settings = {**SETTINGS, "kill": str(mark), "at": 300, "wait": 0.02}
+    with (
+        distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        done = sweep.to_folder(tmp_path / "out", functions.stiff, 600, settings, chunk=15, executor=client.get_executor())
+    assert mark.exists()
+    assert done == sweep.Done(40, 40, 0)
+    assert sweep.verify(tmp_path / "out").complete
+    same_bits(serial, sweep.read(tmp_path / "out"))
+
+
+MPI = """
+import sys
+import numpy as np
+from mpi4py.futures import MPIPoolExecutor
+import kinetostat as ks
+from kinetostat import sweep
+import sweep_functions
+if __name__ == "__main__":
+    places = np.load(sys.argv[2])
+    settings = {"machine": ks.Machine.preset("orthoglide"), "places": places}
+    with MPIPoolExecutor() as pool:
+        print("ranks that work", pool.num_workers)
+        sweep.to_folder(sys.argv[1], sweep_functions.stiff, len(places), settings, chunk=25, executor=pool)
+"""
+
+
+def test_mpi_with_three_ranks(tmp_path: Path, serial: dict[str, np.ndarray]) -> None:
+    mpi4py = pytest.importorskip("mpi4py")
+    pytest.importorskip("pyarrow")
+    beside = [Path(sys.executable).parent, Path(mpi4py.__file__).parents[4] / "bin"]
+    mpiexec = next((folder / "mpiexec" for folder in beside if (folder / "mpiexec").exists()), None)
+    if mpiexec is None:
+        pytest.skip("no mpiexec beside mpi4py (pip install mpich)")
+    np.save(tmp_path / "places.npy", PLACES)
+    (tmp_path / "job.py").write_text(MPI)
+    here = Path(functions.__file__).parent
+    paths = ":".join([str(here), str(Path(ks.__file__).parents[1])])
+    words = [mpiexec, "-n", "3", sys.executable, "-m", "mpi4py.futures", tmp_path / "job.py", tmp_path / "out", tmp_path / "places.npy"]
+    env = {"PYTHONPATH": paths, "PATH": "/usr/bin:/bin", "LD_LIBRARY_PATH": str(mpiexec.parents[1] / "lib")}
+    run = subprocess.run([str(word) for word in words], capture_output=True, text=True, env=env, timeout=60, check=False)
+    assert run.returncode == 0, run.stderr
+    assert "ranks that work 2" in run.stdout
+    assert sweep.verify(tmp_path / "out").complete
+    same_bits(serial, sweep.read(tmp_path / "out"))
