@@ -1,0 +1,89 @@
+//! How near a posture is to a singular one: the condition of the Jacobian between the actuators and the motions that they drive.
+//!
+//! Rates of the commands by motions of the tool are differences of the inverse kinematics, which the kernels solve for many
+//! poses at once. Rotations of tool and of actuators are multiplied with the natural length, so that all are lengths.
+
+use kinetostat::batch::{Batch, BatchStiffness};
+use kinetostat::spatial::moved;
+use kinetostat::{Mechanism, MotionKind, Pose, Twist};
+use nalgebra::{DMatrix, DVector, Vector6};
+
+/// Motions for differences, as a share of the natural length.
+const STEP: f64 = 1e-4;
+/// Joints that go farther (share of the natural length) in a step have changed their branch.
+const JUMP: f64 = 0.1;
+
+/// The motions that a machine drives, and units of its actuators.
+#[derive(Clone, Debug)]
+pub(crate) struct Nearness {
+    /// Motions of the tool for a step, base axes.
+    steps: Vec<Twist>,
+    /// What a command is multiplied with to be a length.
+    units: Vec<f64>,
+    step: f64,
+}
+
+/// Poses beside one, and what is found there.
+#[derive(Debug, Default)]
+pub(crate) struct NearnessRoom {
+    poses: Vec<Pose>,
+    found: BatchStiffness,
+}
+
+impl Nearness {
+    /// Of the motions that the actuators drive at home.
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let length = mechanism.natural_length();
+        let step = STEP * length;
+        let home = &mechanism.platforms()[mechanism.tool()].home;
+        let basis = mechanism.posture(home).map(|p| p.commanded_motions());
+        let basis = basis.unwrap_or_else(|_| DMatrix::zeros(6, 0));
+        let unit = |k: usize| if k < 3 { 1.0 } else { length };
+        let columns = basis.column_iter();
+        let steps = columns
+            .map(|c| Twist(Vector6::from_fn(|k, _| step * c[k] / unit(k))))
+            .collect();
+        let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
+        let units = actuators.map(|a| match a.kind {
+            MotionKind::Prismatic => 1.0,
+            MotionKind::Revolute => length,
+        });
+        Self {
+            steps,
+            units: units.collect(),
+            step,
+        }
+    }
+
+    /// The smallest singular value of the rates as a share of the largest; NaN where the machine cannot go to either side.
+    pub fn at(&self, batch: &Batch, pose: &Pose, commands: &[f64], room: &mut NearnessRoom) -> f64 {
+        if self.steps.is_empty() || self.units.len() < self.steps.len() {
+            return f64::NAN;
+        }
+        room.poses.clear();
+        for step in &self.steps {
+            room.poses.push(moved(pose, step));
+            room.poses.push(moved(pose, &Twist(-step.0)));
+        }
+        batch.stiffness_into(&room.poses, &mut room.found);
+        let here = DVector::from_fn(self.units.len(), |k, _| commands[k] * self.units[k]);
+        let there = |i: usize| -> Option<DVector<f64>> {
+            let row = DVector::from_iterator(self.units.len(), room.found.commands.row(i));
+            let row = row.component_mul(&DVector::from_column_slice(&self.units));
+            let gone = (&row - &here).amax();
+            (gone <= JUMP * self.step / STEP).then_some(row)
+        };
+        let mut rates = DMatrix::zeros(self.units.len(), self.steps.len());
+        for k in 0..self.steps.len() {
+            let difference = match (there(2 * k), there(2 * k + 1)) {
+                (Some(a), Some(b)) => (a - b) / (2.0 * self.step),
+                (Some(a), None) => (a - &here) / self.step,
+                (None, Some(b)) => (&here - b) / self.step,
+                (None, None) => return f64::NAN,
+            };
+            rates.set_column(k, &difference);
+        }
+        let values = rates.singular_values();
+        values.min() / values.max()
+    }
+}
