@@ -71,9 +71,7 @@ def test_an_interrupted_map_goes_on_and_is_the_same(tmp_path: Path) -> None:
     run("--csv", again, "--resume", rows)
     assert again.read_bytes() == whole.read_bytes()
     assert file.read_bytes() == complete
-    code, _, said = _core.run_command(
-        ["map", "orthoglide", "--x", "-60", "60", "9", "--force", "1", "0", "0", "--resume", rows]
-    )
+    code, _, said = _core.run_command(["map", "orthoglide", "--x", "-60", "60", "9", "--force", "1", "0", "0", "--resume", str(rows)])
     assert code == 1
     assert "grid_" in said
 
