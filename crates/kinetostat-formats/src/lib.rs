@@ -42,6 +42,7 @@ mod axis_count;
 mod corner;
 mod document;
 mod error;
+pub mod fields;
 mod file_form;
 mod heidenhain;
 #[doc(hidden)]

@@ -66,8 +66,8 @@ pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
 pub use load::ramp_findings::{LoadBegins, LoadRamp};
 pub use load::tool::{Tool, straight_tool};
 pub use map::{
-    Entry, EvaluationRoom, Evaluator, Grid, MapPlace, MapTask, Outcome, PlaceState, VARIABLES,
-    Variable, Width, Worse, map,
+    Entry, EvaluationRoom, Evaluator, Grid, MAP_BLOCK, MapPlace, MapTask, Outcome, PlaceState,
+    VARIABLES, Variable, Width, Worse, map,
 };
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::machine::displacement_warnings::{folds_at, is_large, not_stable};
 use crate::map::arguments::Quantity;
+use crate::map::columns::Column;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -25,6 +26,9 @@ pub(crate) struct MapAnswer {
     pub(crate) loaded: bool,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
+    /// Orientations times loads; the first of them stand above, and figures are the worst of all.
+    #[serde(skip_serializing_if = "is_one")]
+    pub(crate) cases: usize,
     pub(crate) deviations: Vec<String>,
     pub(crate) places: Places,
     pub(crate) figures: Vec<FigureAnswer>,
@@ -32,6 +36,11 @@ pub(crate) struct MapAnswer {
     #[serde(flatten)]
     pub(crate) solving: Solving,
     pub(crate) warnings: Vec<Warning>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_one(count: &usize) -> bool {
+    *count == 1
 }
 
 #[derive(Serialize)]
@@ -96,7 +105,7 @@ impl Places {
 /// Extremes and mean of one figure over all places where it is a number.
 #[derive(Serialize)]
 pub(crate) struct FigureAnswer {
-    pub(crate) name: &'static str,
+    pub(crate) name: String,
     pub(crate) unit: &'static str,
     pub(crate) least: Option<Extreme>,
     pub(crate) most: Option<Extreme>,
@@ -215,12 +224,16 @@ pub(crate) struct Figures {
     /// Places where the displacement is no deflection any more.
     folded: usize,
     figures: [Gathered; Quantity::LOADED.len()],
+    further: Vec<Gathered>,
 }
 
 impl Figures {
     /// Of some places of a machine of this size, m.
-    pub(crate) fn of(places: &[MapPlace], size: f64) -> Self {
-        let mut own = Self::default();
+    pub(crate) fn of(places: &[MapPlace], size: f64, further: usize) -> Self {
+        let mut own = Self {
+            further: vec![Gathered::default(); further],
+            ..Self::default()
+        };
         for place in places {
             own.places.count(place.state);
             own.solving.note(place.found_by, 1);
@@ -230,6 +243,9 @@ impl Figures {
             own.largest_turn_deg = larger(own.largest_turn_deg, place.tool_turn_deg);
             for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
                 figure.take(quantity.of(place), place.position_mm);
+            }
+            for (figure, value) in own.further.iter_mut().zip(&place.values) {
+                figure.take(*value, place.position_mm);
             }
         }
         own
@@ -241,6 +257,11 @@ impl Figures {
         self.folded += other.folded;
         self.largest_turn_deg = larger(self.largest_turn_deg, other.largest_turn_deg);
         for (own, other) in self.figures.iter_mut().zip(&other.figures) {
+            own.add(other);
+        }
+        self.further
+            .resize(other.further.len(), Gathered::default());
+        for (own, other) in self.further.iter_mut().zip(&other.further) {
             own.add(other);
         }
     }
@@ -280,21 +301,24 @@ impl Figures {
         list
     }
 
-    pub(crate) fn answer(&self, loaded: bool) -> Vec<FigureAnswer> {
+    pub(crate) fn answer(&self, loaded: bool, further: &[Column]) -> Vec<FigureAnswer> {
         let shown = if loaded {
             &Quantity::LOADED[..]
         } else {
             &Quantity::UNLOADED[..]
         };
-        let figures = self.figures.iter().zip(shown);
-        figures
-            .map(|(own, quantity)| FigureAnswer {
-                name: quantity.name(),
-                unit: quantity.unit(),
-                least: own.least,
-                most: own.most,
-                mean: (own.count > 0).then(|| own.sum / own.count as f64),
-            })
+        let row = |own: &Gathered, name: &str, unit: &'static str| FigureAnswer {
+            name: name.to_owned(),
+            unit,
+            least: own.least,
+            most: own.most,
+            mean: (own.count > 0).then(|| own.sum / own.count as f64),
+        };
+        let usual = self.figures.iter().zip(shown);
+        let usual = usual.map(|(own, quantity)| row(own, quantity.name(), quantity.unit()));
+        let further = self.further.iter().zip(further);
+        usual
+            .chain(further.map(|(own, column)| row(own, &column.name, column.unit)))
             .collect()
     }
 }

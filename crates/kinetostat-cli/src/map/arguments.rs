@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::options::{number, whole};
 
@@ -29,24 +29,42 @@ pub(crate) struct MapArgs {
     pub(crate) z: Option<Vec<f64>>,
     /// Orientation of the tool everywhere by a named convention, as in a_b_c_kuka_deg=0,0,90, or the
     /// word follows: at every place the one nearest to that at home which the machine can have.
-    /// Without it, the orientation at home; it follows where the machine cannot hold one
+    /// Without it, the orientation at home; it follows where the machine cannot hold one. Several: the
+    /// worst of them counts at a place
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Grid")]
-    pub(crate) rotation: Option<String>,
+    pub(crate) rotation: Vec<String>,
     /// Distance of the tool's tip along z of the flange, mm
     #[arg(long, value_name = "L", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tool_length_mm: Option<f64>,
-    /// Force on the tool's tip, N, base axes
+    /// Force on the tool's tip, N, base axes. Several: the worst of them counts at a place
     #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) force: Option<Vec<f64>>,
-    /// Moment on the tool about its tip, N m, base axes
+    /// Moment on the tool about its tip, N m, base axes; one for all forces, or one for each
     #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) moment: Option<Vec<f64>>,
     /// Draw a section of the map (SVG)
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) plot: Option<PathBuf>,
-    /// What is drawn
-    #[arg(long, value_enum, value_name = "WHAT", default_value_t = Quantity::Softest, help_heading = "Outputs", requires = "plot")]
-    pub(crate) show: Quantity,
+    /// What is drawn: softest, x, y, z (stiffness), displacement, rotation, or a column of a variable of
+    /// --variables, as in margin or joint_efforts_2
+    #[arg(
+        long,
+        value_name = "WHAT",
+        default_value = "softest",
+        help_heading = "Outputs",
+        requires = "plot"
+    )]
+    pub(crate) show: String,
+    /// Further variables for the answer and the files, SI, with commas: stiffness_stiffest,
+    /// rotational_stiffness_z, principal_stiffness, principal_directions, joint_efforts, effort_share,
+    /// share_to_buckling, margin, singularity_distance, ...; a wrong name lists all
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_delimiter = ',',
+        help_heading = "Outputs"
+    )]
+    pub(crate) variables: Vec<String>,
     /// Where a grid in space is cut for the drawing, as in z=150 (the nearest places, mm); across z in
     /// its middle without it
     #[arg(
@@ -60,6 +78,18 @@ pub(crate) struct MapArgs {
     /// All places as a table (CSV), written as they are solved
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) csv: Option<PathBuf>,
+    /// All places for ParaView (legacy VTK, SI)
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) vtk: Option<PathBuf>,
+    /// All places as NetCDF-3, SI
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) netcdf: Option<PathBuf>,
+    /// All places as Parquet, SI
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) parquet: Option<PathBuf>,
+    /// Keep what is solved in this directory, and go on from there after a run that was stopped
+    #[arg(long, value_name = "DIR", help_heading = "Outputs")]
+    pub(crate) resume: Option<PathBuf>,
     /// Print the answer as JSON; the text goes to the standard error
     #[arg(long, help_heading = "Outputs")]
     pub(crate) json: bool,
@@ -72,7 +102,7 @@ pub(crate) struct MapArgs {
 }
 
 /// A figure of a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// Stiffness against a force in the softest direction
     Softest,
@@ -96,6 +126,9 @@ Examples:
       --csv map.csv
   kinetostat map my_robot.toml --x 800 1600 --z 400 1200 --force 300 0 -500 \\
       --plot displacement.svg --show displacement
+  kinetostat map orthoglide --x -60 60 --y -60 60 --z -60 60 \\
+      --force 100 0 0 --force 0 100 0 --variables margin,joint_efforts \\
+      --netcdf map.nc --vtk map.vtk --resume map_rows
 
 Stiffness is force per motion of the tip along it while the tool may turn, as a
 spring balance would show it. Without --force and --moment the machine is

@@ -4,7 +4,9 @@ use kinetostat_machining::{Grid, MapPlace, PlaceState};
 use kinetostat_report::{Cell, Plot, PlotLine, Section};
 
 use crate::map::answer::MapAnswer;
-use crate::map::arguments::{MapArgs, Quantity};
+use crate::map::arguments::MapArgs;
+use crate::map::columns::Shown;
+use crate::map::over;
 use crate::map::query::AXES;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short};
@@ -15,7 +17,7 @@ const MOST_CELLS: usize = 400;
 /// What is drawn: a section of the grid, or a curve along its only axis. Its size is bounded.
 #[derive(Clone)]
 pub(crate) struct Picture {
-    pub(crate) show: Quantity,
+    pub(crate) show: Shown,
     /// Horizontal and vertical axis.
     pub(crate) axes: [usize; 2],
     /// Every so many places along them.
@@ -31,7 +33,7 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    pub(crate) fn new(args: &MapArgs, grid: &Grid) -> Answer<Self> {
+    pub(crate) fn new(args: &MapArgs, grid: &Grid, show: Shown) -> Answer<Self> {
         let across = across(args.section.as_deref(), grid)?;
         let axes = match across.0 {
             0 => [1, 2],
@@ -45,7 +47,7 @@ impl Picture {
                 .collect::<Vec<_>>()
         });
         Ok(Self {
-            show: args.show,
+            show,
             axes,
             strides,
             cells: vec![Cell::Value(f64::NAN); places[0].len() * places[1].len()],
@@ -82,7 +84,7 @@ impl Picture {
         places.map(|i| self.grid.position_mm(axis, *i)).collect()
     }
 
-    pub(crate) fn svg(&self, a: &MapAnswer) -> String {
+    pub(crate) fn svg(&self, a: &MapAnswer, outline: Vec<PlotLine>) -> String {
         let fixed: Vec<String> = (0..3)
             .filter(|k| self.grid.counts[*k] == 1 || *k == self.across.0)
             .map(|k| {
@@ -92,6 +94,7 @@ impl Picture {
             })
             .collect();
         let under = match a.loaded {
+            _ if a.cases > 1 => format!("; worst of {} orientations and loads", a.cases),
             true => format!(
                 "; force {} N, moment {} N m on the tool",
                 load_triple(a.force_n),
@@ -130,6 +133,8 @@ impl Picture {
             }
             .svg();
         }
+        let mut lines = over::isolines(self);
+        lines.extend(outline);
         Section {
             title,
             x_label: label(0),
@@ -143,6 +148,8 @@ impl Picture {
                 "outside limits".into(),
                 "not stable".into(),
             ],
+            lines,
+            marks: over::extremes(self),
             ..Section::default()
         }
         .svg()

@@ -64,17 +64,27 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
     Ok(grid)
 }
 
-pub(crate) fn load(args: &MapArgs) -> Answer<Option<Wrench>> {
-    if args.force.is_none() && args.moment.is_none() {
-        return Ok(None);
-    }
-    let part = |name: &str, values: &Option<Vec<f64>>| match values {
-        Some(v) => vector(name, v),
-        None => Ok(Vector3::zeros()),
+/// All loads, none where nothing was said.
+pub(crate) fn loads(args: &MapArgs) -> Answer<Vec<Wrench>> {
+    let triples = |name: &str, values: &Option<Vec<f64>>| -> Answer<Vec<Vector3<f64>>> {
+        let values = values.as_deref().unwrap_or_default();
+        values.chunks(3).map(|v| vector(name, v)).collect()
     };
-    let (force, moment) = (
-        part("--force", &args.force)?,
-        part("--moment", &args.moment)?,
-    );
-    Ok(Some(Wrench::new(force, moment)))
+    let forces = triples("--force", &args.force)?;
+    let moments = triples("--moment", &args.moment)?;
+    let count = forces.len().max(moments.len());
+    let of = |list: &[Vector3<f64>], i: usize| match list.len() {
+        0 => Some(Vector3::zeros()),
+        1 => Some(list[0]),
+        _ => list.get(i).copied(),
+    };
+    let each = (0..count).map(|i| match (of(&forces, i), of(&moments, i)) {
+        (Some(force), Some(moment)) => Ok(Wrench::new(force, moment)),
+        _ => Err(Failure::input(format!(
+            "there are {} forces and {} moments; give one for all, or as many of both",
+            forces.len(),
+            moments.len()
+        ))),
+    });
+    each.collect()
 }

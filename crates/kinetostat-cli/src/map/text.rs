@@ -6,6 +6,7 @@ use kinetostat_machining::number::counted;
 use kinetostat_machining::{MapPlace, PlaceState};
 
 use crate::map::answer::{Extreme, FigureAnswer, MapAnswer};
+use crate::map::columns::Column;
 use crate::place::orientation;
 use crate::ui::csv_cell::{decimals, digits};
 use crate::ui::layout::{columns, wrapped};
@@ -20,7 +21,7 @@ pub(crate) struct Columns {
 }
 
 /// First line of the table.
-pub(crate) fn header(columns: Columns) -> String {
+pub(crate) fn header(columns: Columns, further: &[Column]) -> String {
     let mut out = String::from(
         "x_mm,y_mm,z_mm,smallest_stiffness_n_per_mm,stiffness_x_n_per_mm,stiffness_y_n_per_mm,stiffness_z_n_per_mm",
     );
@@ -29,6 +30,9 @@ pub(crate) fn header(columns: Columns) -> String {
     }
     if columns.loaded {
         out.push_str(",dx_mm,dy_mm,dz_mm,rx_deg,ry_deg,rz_deg");
+    }
+    for column in further {
+        let _ = write!(out, ",{}", column.name);
     }
     out.push_str(",status\n");
     out
@@ -59,6 +63,15 @@ pub(crate) fn lines(places: &[MapPlace], columns: Columns) -> String {
                 .into_iter()
                 .for_each(&mut cell);
             all(&place.rotation_deg, 5).into_iter().for_each(&mut cell);
+        }
+        for value in &place.values {
+            match value.is_nan() {
+                true => out.push(','),
+                // All digits: it is read back as the same number.
+                false => {
+                    let _ = write!(out, "{value:?},");
+                }
+            }
         }
         out.push_str(status(place.state));
         out.push('\n');
@@ -111,7 +124,12 @@ pub(crate) fn answer_text(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64
         .for_each(|d| out.push_str(&wrapped(d, 0)));
     out.push('\n');
     out.push_str(&wrapped(
-        &if a.loaded {
+        &if a.cases > 1 {
+            format!(
+                "The worst of {} orientations and loads at every place; a place counts as what is worst there. Stiffness is what a further small force on the tip would meet while the tool may turn.",
+                a.cases
+            )
+        } else if a.loaded {
             format!(
                 "Under the force {} N and the moment {} N m on the tool, with weights, preloads and deviations. Stiffness is what a further small force on the tip would meet while the tool may turn; displacement is from where the tool is commanded.",
                 load_triple(a.force_n),
@@ -146,13 +164,14 @@ fn figures(a: &MapAnswer) -> String {
 }
 
 fn row(figure: &FigureAnswer) -> Vec<String> {
-    let name = match figure.name {
+    let name = match &*figure.name {
         "smallest_stiffness_n_per_mm" => "smallest, N/mm",
         "stiffness_x_n_per_mm" => "along x, N/mm",
         "stiffness_y_n_per_mm" => "along y, N/mm",
         "stiffness_z_n_per_mm" => "along z, N/mm",
         "displacement_mm" => "moved, mm",
-        _ => "turned, deg",
+        "rotation_deg" => "turned, deg",
+        other => &format!("{other}, {}", figure.unit),
     };
     let value = |e: &Option<Extreme>| {
         e.as_ref()

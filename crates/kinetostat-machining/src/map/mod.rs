@@ -64,8 +64,9 @@ impl MapTask<'_> {
     }
 }
 
-/// Places that one thread takes at a time.
-const BLOCK: usize = 256;
+/// Places that one thread takes at a time, and that `block` gets: a run that goes on begins with a whole one.
+pub const MAP_BLOCK: usize = 256;
+use MAP_BLOCK as BLOCK;
 /// Blocks between two looks at the watch; what is in memory at a time.
 const BLOCKS: usize = 64;
 
@@ -178,7 +179,9 @@ fn following(task: &MapTask<'_>, evaluator: &Evaluator, poses: &[Pose], out: &mu
 }
 
 impl MapPlace {
-    fn unknown(index: [usize; 3], position_mm: [f64; 3]) -> Self {
+    /// A place of which nothing is known yet.
+    #[must_use]
+    pub fn unknown(index: [usize; 3], position_mm: [f64; 3]) -> Self {
         Self {
             index,
             position_mm,

@@ -1,0 +1,177 @@
+//! Further variables of a map: which are asked for, and the names of their columns.
+
+use kinetostat_machining::{MapPlace, VARIABLES, Variable, Worse};
+
+use crate::map::arguments::{MapArgs, Quantity};
+use crate::ui::failure::{Answer, Failure};
+
+/// A column of a further variable, SI.
+#[derive(Clone, Debug)]
+pub(crate) struct Column {
+    /// Its number among the values of a place.
+    pub(crate) at: usize,
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    pub(crate) description: &'static str,
+}
+
+/// What is drawn: one of the usual figures, or a column.
+#[derive(Clone, Debug)]
+pub(crate) enum Shown {
+    Usual(Quantity),
+    Column(Column),
+}
+
+impl Shown {
+    pub(crate) fn of(&self, place: &MapPlace) -> f64 {
+        match self {
+            Self::Usual(quantity) => quantity.of(place),
+            Self::Column(column) => place.values.get(column.at).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    pub(crate) fn description(&self) -> String {
+        match self {
+            Self::Usual(quantity) => quantity.description().to_owned(),
+            Self::Column(column) => column.name.replace('_', " "),
+        }
+    }
+
+    pub(crate) fn unit(&self) -> &'static str {
+        match self {
+            Self::Usual(quantity) => quantity.unit(),
+            Self::Column(column) => column.unit,
+        }
+    }
+
+    /// A small value is a bad one.
+    pub(crate) fn small_is_bad(&self) -> Option<bool> {
+        match self {
+            Self::Usual(Quantity::Displacement | Quantity::Rotation) => Some(false),
+            Self::Usual(_) => Some(true),
+            Self::Column(column) => {
+                let own = VARIABLES.iter().find(|e| e.name == column.name)?;
+                match own.worse {
+                    Worse::Smaller => Some(true),
+                    Worse::Larger => Some(false),
+                    Worse::LargerSize | Worse::Neither => None,
+                }
+            }
+        }
+    }
+}
+
+fn words(name: &str) -> Option<Quantity> {
+    Some(match name {
+        "softest" => Quantity::Softest,
+        "x" => Quantity::X,
+        "y" => Quantity::Y,
+        "z" => Quantity::Z,
+        "displacement" => Quantity::Displacement,
+        "rotation" => Quantity::Rotation,
+        _ => return None,
+    })
+}
+
+/// Names of the columns of a variable.
+fn names(variable: Variable, actuators: usize) -> Vec<String> {
+    let entry = variable.entry();
+    match variable.width(actuators) {
+        1 => vec![entry.name.to_owned()],
+        n if entry.name.ends_with("_xyz") && n == 3 => {
+            let stem = entry.name.trim_end_matches("xyz");
+            ["x", "y", "z"].map(|k| format!("{stem}{k}")).to_vec()
+        }
+        n => (1..=n).map(|k| format!("{}_{k}", entry.name)).collect(),
+    }
+}
+
+/// All columns of some variables.
+pub(crate) fn columns(variables: &[Variable], actuators: usize) -> Vec<Column> {
+    let each = variables.iter().flat_map(|variable| {
+        let entry = variable.entry();
+        let own = names(*variable, actuators).into_iter();
+        own.map(|name| (name, entry.unit, entry.description))
+    });
+    each.enumerate()
+        .map(|(at, (name, unit, description))| Column {
+            at,
+            name,
+            unit,
+            description,
+        })
+        .collect()
+}
+
+/// The variables that are asked for with --variables and --show, and what is shown.
+pub(crate) fn asked(
+    args: &MapArgs,
+    actuators: usize,
+    loaded: bool,
+    cases: usize,
+    follows: bool,
+) -> Answer<(Vec<Variable>, Shown)> {
+    let known = || {
+        let all: Vec<&str> = VARIABLES.iter().map(|e| e.name).collect();
+        all.join(", ")
+    };
+    let mut variables = Vec::new();
+    for name in &args.variables {
+        let Some(variable) = Variable::named(name) else {
+            return Err(Failure::input(format!(
+                "--variables: there is no '{name}'; there are {}",
+                known()
+            )));
+        };
+        if !variables.contains(&variable) {
+            variables.push(variable);
+        }
+    }
+    let usual = words(&args.show);
+    if usual.is_none() {
+        let entries = VARIABLES.iter().map(|e| e.variable);
+        let own = entries
+            .clone()
+            .find(|v| names(*v, actuators).contains(&args.show));
+        let Some(own) = own else {
+            let several = entries.clone().find(|v| v.entry().name == args.show);
+            return Err(Failure::input(match several {
+                Some(several) => format!(
+                    "--show: '{}' has several columns; choose one of {}",
+                    args.show,
+                    names(several, actuators).join(", ")
+                ),
+                None => format!(
+                    "--show: there is no '{}'; there are softest, x, y, z, displacement, rotation, and columns of {}",
+                    args.show,
+                    known()
+                ),
+            }));
+        };
+        if !variables.contains(&own) {
+            variables.push(own);
+        }
+    }
+    for variable in &variables {
+        let name = variable.entry().name;
+        let refuse = |what: &str| Err(Failure::input(format!("'{name}' {what}")));
+        if variable.needs_load() && !loaded {
+            return refuse("needs a load; give --force or --moment (zeros are one, too)");
+        }
+        if cases > 1 && variable.entry().worse == Worse::Neither {
+            return refuse("has no worst value; give one orientation and one load");
+        }
+        if follows && *variable == Variable::SingularityDistance {
+            return refuse("is not known where the orientation follows");
+        }
+    }
+    let shown = match usual {
+        Some(quantity) => Shown::Usual(quantity),
+        None => {
+            let all = columns(&variables, actuators);
+            let own = all.into_iter().find(|c| c.name == args.show);
+            Shown::Column(own.ok_or_else(|| Failure::input("--show: nothing to show"))?)
+        }
+    };
+    Ok((variables, shown))
+}

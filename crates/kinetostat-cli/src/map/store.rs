@@ -1,0 +1,196 @@
+//! Places that are known already, kept in a directory while the rest is solved: a run that was stopped goes on from there.
+//!
+//! `manifest.json` says for which question the rows are; `rows.bin` holds rows of 64-bit numbers (least byte first), one for each
+//! place in the order of the grid. Rows of a block that is not whole are solved again.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use kinetostat::chain::FoundBy;
+use kinetostat_machining::{Grid, MapPlace, PlaceState};
+
+use crate::ui::failure::{Answer, Failure};
+
+/// Places that are kept together, as a map solves them.
+const BLOCK: usize = kinetostat_machining::MAP_BLOCK;
+/// Numbers of a place besides its further variables.
+const USUAL: usize = 13;
+const FOUND: [FoundBy; 5] = [
+    FoundBy::Directly,
+    FoundBy::OutOfLine,
+    FoundBy::GrowingLoad,
+    FoundBy::OtherStart,
+    FoundBy::Continuation,
+];
+
+/// What a map is of, each word of it by its name.
+pub(crate) type Manifest = BTreeMap<String, String>;
+
+/// The rows of a directory.
+pub(crate) struct Store {
+    path: PathBuf,
+    rows: File,
+    width: usize,
+    /// Places that are known.
+    pub(crate) known: usize,
+}
+
+impl Store {
+    /// Opens or begins the rows of a map.
+    pub(crate) fn open(
+        directory: &Path,
+        manifest: &Manifest,
+        values: usize,
+        places: usize,
+    ) -> Answer<Self> {
+        let refuse = |path: &Path, what: &dyn std::fmt::Display| {
+            Failure::input(format!("--resume: '{}': {what}", path.display()))
+        };
+        fs::create_dir_all(directory).map_err(|e| refuse(directory, &e))?;
+        let named = directory.join("manifest.json");
+        let path = directory.join("rows.bin");
+        match fs::read_to_string(&named) {
+            Ok(text) => {
+                let found: Manifest = serde_json::from_str(&text)
+                    .map_err(|e| refuse(&named, &format!("this is no manifest of a map ({e})")))?;
+                same(&found, manifest).map_err(|what| refuse(&named, &what))?;
+            }
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => {
+                if path.exists() {
+                    return Err(refuse(&path, &"there are rows without a manifest.json"));
+                }
+                let text = serde_json::to_string_pretty(manifest).map_err(Failure::input)?;
+                let mut part =
+                    tempfile::NamedTempFile::new_in(directory).map_err(|e| refuse(&named, &e))?;
+                part.write_all(text.as_bytes())
+                    .and_then(|()| part.as_file().sync_all())
+                    .map_err(|e| refuse(&named, &e))?;
+                part.persist(&named).map_err(|e| refuse(&named, &e))?;
+            }
+            Err(e) => return Err(refuse(&named, &e)),
+        }
+        let mut rows = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)
+            .map_err(|e| refuse(&path, &e))?;
+        let width = USUAL + values;
+        let bytes = rows.metadata().map_err(|e| refuse(&path, &e))?.len() as usize;
+        let whole = (bytes / (8 * width)).min(places);
+        let known = if whole == places {
+            whole
+        } else {
+            whole - whole % BLOCK
+        };
+        let end = (8 * width * known) as u64;
+        rows.set_len(end)
+            .and_then(|()| rows.seek(SeekFrom::Start(end)))
+            .map_err(|e| refuse(&path, &e))?;
+        Ok(Self {
+            path,
+            rows,
+            width,
+            known,
+        })
+    }
+
+    fn failed(&self, error: &std::io::Error) -> Failure {
+        Failure::input(format!("--resume: '{}': {error}", self.path.display()))
+    }
+
+    /// Known places, block by block.
+    pub(crate) fn replay(
+        &mut self,
+        grid: &Grid,
+        mut each: impl FnMut(&[MapPlace]) -> Answer<()>,
+    ) -> Answer<()> {
+        let file = File::open(&self.path).map_err(|e| self.failed(&e))?;
+        let mut reader = BufReader::new(file);
+        let mut bytes = vec![0; 8 * self.width];
+        for first in (0..self.known).step_by(BLOCK) {
+            let end = self.known.min(first + BLOCK);
+            let mut places = Vec::with_capacity(end - first);
+            for place in first..end {
+                reader.read_exact(&mut bytes).map_err(|e| self.failed(&e))?;
+                let (numbers, _) = bytes.as_chunks::<8>();
+                let row: Vec<f64> = numbers.iter().map(|b| f64::from_le_bytes(*b)).collect();
+                places.push(self.place(grid, place, &row)?);
+            }
+            each(&places)?;
+        }
+        Ok(())
+    }
+
+    fn place(&self, grid: &Grid, place: usize, row: &[f64]) -> Answer<MapPlace> {
+        let index = grid.index(place);
+        let position_mm = [0, 1, 2].map(|axis| grid.position_mm(axis, index[axis]));
+        let mut own = MapPlace::unknown(index, position_mm);
+        let state = PlaceState::ALL
+            .get(row[0] as usize)
+            .filter(|_| row[0] >= 0.0);
+        let found = FOUND.get(row[1] as usize).filter(|_| row[1] >= 0.0);
+        let (Some(state), Some(found)) = (state, found) else {
+            return Err(Failure::input(format!(
+                "--resume: '{}': row {place} is not one of a map; remove the directory and begin again",
+                self.path.display()
+            )));
+        };
+        (own.state, own.found_by) = (*state, *found);
+        own.tool_turn_deg = row[2];
+        own.smallest_stiffness_n_per_mm = row[3];
+        own.stiffness_n_per_mm = [row[4], row[5], row[6]];
+        own.displacement_mm = [row[7], row[8], row[9]];
+        own.rotation_deg = [row[10], row[11], row[12]];
+        own.values = row[USUAL..].into();
+        Ok(own)
+    }
+
+    /// Keeps the next places.
+    pub(crate) fn keep(&mut self, bytes: &[u8]) -> Answer<()> {
+        let written = self.rows.write_all(bytes);
+        written.map_err(|e| self.failed(&e))
+    }
+}
+
+/// Rows of places.
+pub(crate) fn rows(places: &[MapPlace]) -> Vec<u8> {
+    let mut out = Vec::new();
+    for place in places {
+        let found = FOUND.iter().position(|f| *f == place.found_by).unwrap_or(0);
+        let head = [
+            place.state as u8 as f64,
+            found as f64,
+            place.tool_turn_deg,
+            place.smallest_stiffness_n_per_mm,
+        ];
+        let rest = [
+            place.stiffness_n_per_mm,
+            place.displacement_mm,
+            place.rotation_deg,
+        ];
+        let all = head.iter().chain(rest.iter().flatten());
+        for number in all.chain(place.values.iter()) {
+            out.extend_from_slice(&number.to_le_bytes());
+        }
+    }
+    out
+}
+
+/// The first word in which two manifests differ.
+fn same(found: &Manifest, wanted: &Manifest) -> Result<(), String> {
+    let names = found.keys().chain(wanted.keys());
+    for name in names {
+        let of = |m: &Manifest| m.get(name).cloned().unwrap_or_else(|| "nothing".to_owned());
+        let (a, b) = (of(found), of(wanted));
+        if a != b {
+            return Err(format!(
+                "{name} is {a} there and {b} here: the rows are those of another map; give another directory, or remove this one"
+            ));
+        }
+    }
+    Ok(())
+}
