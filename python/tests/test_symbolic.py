@@ -140,7 +140,6 @@ def test_random_arms_against_the_core():
     for _ in range(3):
         lengths = source.uniform(100, 900, (6, 3)).round(3).tolist()
         stiffness, home = source.uniform(1e4, 1e6, 6).round(2).tolist(), source.uniform(-60, 60, 6).round(2).tolist()
-        chain = symbolic.from_machine(ks.Machine.preset("two_link")).chain
         document = arm_dictionary(lengths, stiffness, home)
         chain = symbolic.Chain("arm")
         for i, axis in enumerate("zyyxyx"):

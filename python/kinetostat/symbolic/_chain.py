@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
@@ -16,8 +16,9 @@ from kinetostat.symbolic._links import hat
 __all__ = ["Chain"]
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
-Kind = Literal["revolute", "prismatic"]
-Expression = sp.Expr | str | float
+Kind: TypeAlias = Literal["revolute", "prismatic"]
+Expression: TypeAlias = Any
+"""A SymPy formula, a number, or text that names a symbol."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -13,8 +13,50 @@ from kinetostat.errors import ArgumentError
 
 __all__ = ["Formula", "Stiffness"]
 
-_KEYWORDS = frozenset("as break const continue crate double else enum extern false float fn for if impl in int let long loop match mod move mut pub "
-                      "ref return self short static struct super trait true type unsafe use void where while".split())  # fmt: skip
+_KEYWORDS = frozenset(
+    [
+        "as",
+        "break",
+        "const",
+        "continue",
+        "crate",
+        "double",
+        "else",
+        "enum",
+        "extern",
+        "false",
+        "float",
+        "fn",
+        "for",
+        "if",
+        "impl",
+        "in",
+        "int",
+        "let",
+        "long",
+        "loop",
+        "match",
+        "mod",
+        "move",
+        "mut",
+        "pub",
+        "ref",
+        "return",
+        "self",
+        "short",
+        "static",
+        "struct",
+        "super",
+        "trait",
+        "true",
+        "type",
+        "unsafe",
+        "use",
+        "void",
+        "where",
+        "while",
+    ]
+)
 
 
 @dataclasses.dataclass(frozen=True)
