@@ -256,4 +256,4 @@ class Stiffness(Formula):
         >>> beam().rank
         6
         """
-        return self.matrix.shape[0] - len(self.null_space)
+        return int(self.matrix.shape[0]) - len(self.null_space)
