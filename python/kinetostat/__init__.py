@@ -1,7 +1,7 @@
 """Elastostatics of robots that machine: how stiff, how far off under load, whether stable, what to command instead.
 
-Arrays in, arrays out: SI units (m, rad, N, N m), float64, base axes, linear part before angular; a wrench is what the environment applies to
-the tool. Functions that run a command of the command line (:mod:`kinetostat.commands`) return the same dictionaries as its JSON, with
+Arrays in, arrays out: SI units (m, rad, N, N m), float64, base axes, linear part before angular; a wrench is what the environment applies
+to the tool. Functions that run a command of the command line (:mod:`kinetostat.commands`) return the same dictionaries as its JSON, with
 units in the names.
 """
 
@@ -10,7 +10,6 @@ from __future__ import annotations
 import os as _os
 
 from kinetostat import _core, commands, errors, spatial
-from kinetostat._core import Equilibrium, Posture, Stiffness
 from kinetostat.errors import (
     ArgumentError,
     KinetostatError,
@@ -18,22 +17,33 @@ from kinetostat.errors import (
     ToleranceMissedWarning,
     UnansweredError,
 )
+from kinetostat.force_models import ForceModel, ModelEquilibria, equilibrium_under
 from kinetostat.machine import Actuator, Machine, preset_names
+from kinetostat.posture import Direction, Equilibrium, LimitViolation, Posture, Stiffness
+from kinetostat.problem import EquilibriumProblem
+from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
-from kinetostat.status import FoundBy, Status
+from kinetostat.status import DirectionKind, FoundBy, Status
 
 __version__ = _core.VERSION
 
 __all__ = [
     "Actuator",
     "ArgumentError",
+    "Corrected",
+    "Direction",
+    "DirectionKind",
     "Equilibria",
     "Equilibrium",
+    "EquilibriumProblem",
+    "ForceModel",
     "FoundBy",
     "KinetostatError",
+    "LimitViolation",
     "Machine",
+    "ModelEquilibria",
     "ModelError",
     "Posture",
     "Status",
@@ -45,6 +55,8 @@ __all__ = [
     "__version__",
     "bar",
     "commands",
+    "correct_program",
+    "equilibrium_under",
     "errors",
     "pose",
     "preset_names",

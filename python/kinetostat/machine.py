@@ -7,18 +7,17 @@ import dataclasses
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
+from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
-
-if TYPE_CHECKING:
-    from kinetostat._core import Posture
 
 __all__ = ["Actuator", "Machine", "preset_names"]
 
@@ -103,7 +102,7 @@ class Machine:
         Examples
         --------
         >>> Machine.preset("two_link").name
-        'planar arm of two links'
+        'two_link'
         """
         return cls._of(_core.Machine.preset(name))
 
@@ -119,7 +118,7 @@ class Machine:
         Examples
         --------
         >>> Machine.open("orthoglide").name
-        'Orthoglide'
+        'orthoglide'
         """
         return cls._of(_core.Machine.open(os.fspath(path)))
 
@@ -189,7 +188,8 @@ class Machine:
         ... <link name="hook"/><joint name="end" type="fixed"><origin xyz="1 0 0"/>
         ... <parent link="boom"/><child link="hook"/></joint></robot>'''
         >>> crane = Machine.from_urdf(urdf, tip="hook", stiffness=2e5)
-        >>> crane.posture(joints=[0.0]).deflected_by([0, 0, -100, 0, 0, 0]).displacement[2]
+        >>> sag = crane.posture(joints=[0.0]).deflected_by([0, 0, -100, 0, 0, 0]).displacement[2]
+        >>> round(float(sag), 6)
         -0.0005
         """
         text, file = _urdf_text(robot)
@@ -349,6 +349,17 @@ class Machine:
         UnansweredError
             The place is out of reach; the message says the nearest one that was found.
         """
+        found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
+        return Posture(self, found)
+
+    def _posture(
+        self,
+        position: ArrayLike | None,
+        rotation: ArrayLike | None,
+        pose: ArrayLike | None,
+        joints: ArrayLike | None,
+        near: _core.Posture | None,
+    ) -> _core.Posture:
         if joints is not None:
             if pose is not None or position is not None or rotation is not None:
                 raise ArgumentError("give joints or a place, not both")
@@ -526,6 +537,31 @@ class Machine:
         wanted = [name in names for name in _DIRECTIONS]
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def drawing(self, posture: Posture | None = None, **options: Any) -> str:
+        """A drawing of the machine (SVG), at home or at a posture.
+
+        Parameters
+        ----------
+        posture : Posture, optional
+            Where it stands; at home without one.
+        **options
+            As for :func:`kinetostat.commands.model_draw`: ``view``, ``motion``, ``force``, ``moment``, ``scale``.
+
+        Examples
+        --------
+        >>> Machine.preset("two_link").drawing().lstrip().startswith("<svg")
+        True
+        """
+        from kinetostat import commands
+        from kinetostat._asking import bare, place
+
+        model, length = bare(self)
+        where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(posture)
+        return commands.model_draw(**where, **options)
+
+    def _repr_html_(self) -> str:
+        return machine_html(self)
 
     # As a value ----------------------------------------------------------------------------------------------------
 

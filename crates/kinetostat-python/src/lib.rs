@@ -15,6 +15,7 @@ mod equilibrium;
 mod errors;
 mod machine;
 mod posture;
+mod program;
 mod stiffness;
 mod work;
 
@@ -32,6 +33,8 @@ mod _core {
     use crate::machine::{Machine, preset_names, urdf_to_toml};
     #[pymodule_export]
     use crate::posture::Posture;
+    #[pymodule_export]
+    use crate::program::correct_program;
     #[pymodule_export]
     use crate::stiffness::Stiffness;
     #[pymodule_export]
