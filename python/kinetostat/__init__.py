@@ -10,6 +10,7 @@ from __future__ import annotations
 import os as _os
 
 from kinetostat import _core, commands, errors, spatial
+from kinetostat.build import LimbBuilder, MachineBuilder
 from kinetostat.errors import (
     ArgumentError,
     KinetostatError,
@@ -41,8 +42,10 @@ __all__ = [
     "ForceModel",
     "FoundBy",
     "KinetostatError",
+    "LimbBuilder",
     "LimitViolation",
     "Machine",
+    "MachineBuilder",
     "ModelEquilibria",
     "ModelError",
     "Posture",
