@@ -7,7 +7,7 @@ import dataclasses
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,9 @@ from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
+
+if TYPE_CHECKING:
+    from kinetostat.compensation import CompensatedProgram
 
 __all__ = ["Actuator", "Machine", "preset_names"]
 
@@ -537,6 +540,12 @@ class Machine:
         wanted = [name in names for name in _DIRECTIONS]
         found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
+
+    def compensate(self, program: str | os.PathLike[str], out: str | os.PathLike[str], **options: Any) -> CompensatedProgram:
+        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`."""
+        from kinetostat.compensation import compensate
+
+        return compensate(self, program, out, **options)
 
     def drawing(self, posture: Posture | None = None, **options: Any) -> str:
         """A drawing of the machine (SVG), at home or at a posture.
