@@ -416,5 +416,18 @@ class MachineBuilder:
         return Machine.from_dict(self.to_dict(), file=f"builder of '{self._mechanism['name']}'")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the model file (TOML), whole or not at all; see :meth:`Machine.save`."""
+        """Writes the model file (TOML), whole or not at all; see :meth:`Machine.save`.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> b = MachineBuilder("rail")
+        >>> b.platform("tool", [0, 0, 0])
+        >>> _ = b.limb("x", to="tool").actuator("x", "prismatic", "x", 1e7)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = os.path.join(folder, "rail.toml")
+        ...     b.save(path)
+        ...     Machine.open(path) == b.machine()
+        True
+        """
         self.machine().save(path)

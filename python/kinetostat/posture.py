@@ -126,7 +126,7 @@ class Equilibrium:
 
     __slots__ = ("_native", "_question", "posture")
 
-    def __init__(self, posture: Posture, native: _core.Equilibrium, question: tuple[str, Floats]) -> None:
+    def __init__(self, posture: Posture, native: _core.Equilibrium, question: tuple[str, Any]) -> None:
         self.posture = posture
         """The commanded posture."""
         self._native = native
@@ -286,8 +286,8 @@ class Posture:
         >>> round(float(loaded.displacement[0]) * 1e6, 1)
         33.3
         """
-        given = one("wrench", wrench, (6,))
-        return Equilibrium(self, self._native.deflected_by(given.tolist()), ("deflected_by", given))
+        given = one("wrench", wrench, (6,)).tolist()
+        return Equilibrium(self, self._native.deflected_by(given), ("deflected_by", given))
 
     def held_at(self, pose: ArrayLike) -> Equilibrium:
         """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.
@@ -306,7 +306,8 @@ class Posture:
         >>> round(float(posture.held_at(moved).wrench[0]))
         300
         """
-        given = one("pose", pose, (4, 4))
+        # A copy: what the caller does with its array later is not part of this equilibrium.
+        given = one("pose", pose, (4, 4)).copy()
         return Equilibrium(self, self._native.held_at(given[None]), ("held_at", given))
 
     def under(self, model: ForceModel, **options: Any) -> ModelEquilibria:

@@ -62,7 +62,7 @@ class EquilibriumProblem:
     def __init__(self, posture: Posture, wrench: ArrayLike = (0.0,) * 6) -> None:
         self.posture = posture
         """The commanded posture."""
-        self.wrench = one("wrench", wrench, (6,))
+        self.wrench = one("wrench", wrench, (6,)).copy()
         """(6,): N, N m."""
         self._last: tuple[bytes, Floats, Floats] | None = None
 
@@ -115,7 +115,8 @@ class EquilibriumProblem:
         >>> round(float(problem.residual(problem.x0)[0]), 6)
         -100.0
         """
-        return self._at(x)[0] - self.wrench
+        out: Floats = self._at(x)[0] - self.wrench
+        return out
 
     def jacobian(self, x: ArrayLike) -> Floats:
         """(6, 6): derivative of the residual by ``x``; N/m, N/rad; N m/m, N m/rad.

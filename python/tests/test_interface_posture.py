@@ -29,6 +29,10 @@ def test_postures_come_back_the_same(posture: ks.Posture) -> None:
     assert posture.machine.posture([0.02, -0.03, 0.0500001]) != posture
     loaded = posture.deflected_by([10, 20, 30, 0, 0, 0])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(loaded)).tool, loaded.tool)
+    wrench = np.array([10.0, 0, 0, 0, 0, 0])
+    kept = posture.deflected_by(wrench)
+    wrench[:] = 1e9
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(kept)).tool, kept.tool)
 
 
 def test_elbow_of_the_other_side_is_kept() -> None:
@@ -168,3 +172,28 @@ def test_what_notebooks_show(posture: ks.Posture) -> None:
     assert "leg x.slider" in shown
     assert "N/m" in posture.stiffness()._repr_html_()
     assert "stable" in posture.deflected_by([1, 0, 0, 0, 0, 0])._repr_html_()
+
+
+def test_picture_of_a_curve() -> None:
+    matplotlib = pytest.importorskip("matplotlib", reason="draws with matplotlib")
+    matplotlib.use("agg")
+    found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    axes = found.plot()
+    assert axes.get_xlabel() == "displacement, mm"
+    dashed = [line for line in axes.get_lines() if line.get_linestyle() == "--"]
+    assert np.isfinite(dashed[0].get_xdata()).any()  # the unstable part of the straight branch
+    matplotlib.pyplot.close(axes.figure)
+
+
+def test_urdf_from_an_object_that_writes_it() -> None:
+    class Robot:
+        def write_xml_string(self) -> bytes:
+            return (
+                b'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+                b'<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="0" velocity="1"/></joint><link name="t"/>'
+                b'<joint name="e" type="fixed"><origin xyz="2 0 0"/><parent link="b"/><child link="t"/></joint></robot>'
+            )
+
+    machine = ks.Machine.from_urdf(Robot(), tip="t", stiffness=1e5)
+    compliance = machine.posture().stiffness().compliance
+    assert compliance[1, 1] == pytest.approx(2.0**2 / 1e5, rel=1e-9)
