@@ -10,7 +10,7 @@ from __future__ import annotations
 import os as _os
 
 from kinetostat import _core, commands, errors, maps, spatial, sweep
-from kinetostat._core import Equilibrium, Posture, Stiffness
+from kinetostat.build import LimbBuilder, MachineBuilder
 from kinetostat.errors import (
     ArgumentError,
     KinetostatError,
@@ -18,22 +18,35 @@ from kinetostat.errors import (
     ToleranceMissedWarning,
     UnansweredError,
 )
+from kinetostat.force_models import ForceModel, ModelEquilibria, equilibrium_under
 from kinetostat.machine import Actuator, Machine, preset_names
+from kinetostat.posture import Direction, Equilibrium, LimitViolation, Posture, Stiffness
+from kinetostat.problem import EquilibriumProblem
+from kinetostat.program import Corrected, correct_program
 from kinetostat.progress import bar
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
-from kinetostat.status import FoundBy, Status
+from kinetostat.status import DirectionKind, FoundBy, Status
 
 __version__ = _core.VERSION
 
 __all__ = [
     "Actuator",
     "ArgumentError",
+    "Corrected",
+    "Direction",
+    "DirectionKind",
     "Equilibria",
     "Equilibrium",
+    "EquilibriumProblem",
+    "ForceModel",
     "FoundBy",
     "KinetostatError",
+    "LimbBuilder",
+    "LimitViolation",
     "Machine",
+    "MachineBuilder",
+    "ModelEquilibria",
     "ModelError",
     "Posture",
     "Status",
@@ -45,6 +58,8 @@ __all__ = [
     "__version__",
     "bar",
     "commands",
+    "correct_program",
+    "equilibrium_under",
     "errors",
     "maps",
     "pose",

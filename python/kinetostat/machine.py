@@ -14,7 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
+from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
 if TYPE_CHECKING:
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from kinetostat._core import Posture
+    from kinetostat.compensation import CompensatedProgram
     from kinetostat.shares import Shares
 
 __all__ = ["Actuator", "Machine", "preset_names"]
@@ -355,6 +357,17 @@ class Machine:
         UnansweredError
             The place is out of reach; the message says the nearest one that was found.
         """
+        found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
+        return Posture(self, found)
+
+    def _posture(
+        self,
+        position: ArrayLike | None,
+        rotation: ArrayLike | None,
+        pose: ArrayLike | None,
+        joints: ArrayLike | None,
+        near: _core.Posture | None,
+    ) -> _core.Posture:
         if joints is not None:
             if pose is not None or position is not None or rotation is not None:
                 raise ArgumentError("give joints or a place, not both")
@@ -623,6 +636,37 @@ class Machine:
             threads=threads,
             progress=progress,
         )
+
+    def compensate(self, program: str | os.PathLike[str], out: str | os.PathLike[str], **options: Any) -> CompensatedProgram:
+        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`."""
+        from kinetostat.compensation import compensate
+
+        return compensate(self, program, out, **options)
+
+    def drawing(self, posture: Posture | None = None, **options: Any) -> str:
+        """A drawing of the machine (SVG), at home or at a posture.
+
+        Parameters
+        ----------
+        posture : Posture, optional
+            Where it stands; at home without one.
+        **options
+            As for :func:`kinetostat.commands.model_draw`: ``view``, ``motion``, ``force``, ``moment``, ``scale``.
+
+        Examples
+        --------
+        >>> Machine.preset("two_link").drawing().lstrip().startswith("<svg")
+        True
+        """
+        from kinetostat import commands
+        from kinetostat._asking import bare, place
+
+        model, length = bare(self)
+        where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(posture)
+        return commands.model_draw(**where, **options)
+
+    def _repr_html_(self) -> str:
+        return machine_html(self)
 
     # As a value ----------------------------------------------------------------------------------------------------
 

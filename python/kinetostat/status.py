@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 
-__all__ = ["FoundBy", "Status"]
+__all__ = ["DirectionKind", "FoundBy", "Status"]
 
 
 class Status(enum.IntEnum):
@@ -31,3 +31,15 @@ class FoundBy(enum.Enum):
     """Newton's iteration from another start: it may lie on another branch."""
     CONTINUATION = "continuation"
     """A curve of equilibria was followed to it."""
+
+
+class DirectionKind(enum.Enum):
+    """What a principal direction of a stiffness is."""
+
+    FREE = "free"
+    """Nothing resists."""
+    FINITE = "finite"
+    NEGATIVE = "negative"
+    """The machine goes away by itself."""
+    RIGID = "rigid"
+    """Nothing gives way."""

@@ -16,6 +16,7 @@ mod errors;
 mod machine;
 mod map;
 mod posture;
+mod program;
 mod stiffness;
 mod work;
 
@@ -35,6 +36,8 @@ mod _core {
     use crate::map::{evaluate_many, map_variables};
     #[pymodule_export]
     use crate::posture::Posture;
+    #[pymodule_export]
+    use crate::program::correct_program;
     #[pymodule_export]
     use crate::stiffness::Stiffness;
     #[pymodule_export]

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use kinetostat::batch::Batch;
+use kinetostat::machine::LimbPosture;
 use kinetostat::nalgebra::{UnitQuaternion, Vector3};
 use kinetostat::{Mechanism, MotionKind, Pose, PostureRequest};
 use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
@@ -213,6 +214,21 @@ impl Machine {
             request = request.near(&near.0);
         }
         self.ask(request)
+    }
+
+    /// A posture that was: nothing is solved.
+    fn posture_of_limbs(
+        &self,
+        target: Numbers<'_>,
+        limbs: Vec<(Vec<f64>, Vec<f64>)>,
+    ) -> PyResult<Posture> {
+        let target = one("pose", &target)?;
+        let limbs = limbs.into_iter();
+        let limbs = limbs.map(|(commands, coordinates)| LimbPosture {
+            commands,
+            coordinates,
+        });
+        self.ask(PostureRequest::joints(&target, limbs.collect()))
     }
 
     fn posture_at_joints(&self, joints: Vec<f64>) -> PyResult<Posture> {

@@ -48,6 +48,14 @@ impl Posture {
         rows.collect()
     }
 
+    /// Of every limb: commands of its actuators and all its coordinates, m or rad.
+    #[getter]
+    fn limbs(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
+        let each = self.0.limbs().iter();
+        each.map(|l| (l.commands.clone(), l.coordinates.clone()))
+            .collect()
+    }
+
     /// Cartesian stiffness of the unloaded machine as drawn.
     fn stiffness(&self) -> PyResult<Stiffness> {
         Stiffness::of(&self.0)

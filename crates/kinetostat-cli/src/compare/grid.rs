@@ -65,6 +65,10 @@ fn places(design: &Design, grid: Grid) -> Answer<Vec<MapPlace>> {
         orientation: design.home().rotation,
         orientation_follows: design.mechanism.turns_as_it_moves(),
         load: None,
+        further: Vec::new(),
+        variables: Vec::new(),
+        ratings: Vec::new(),
+        first: 0,
     };
     let progress = Progress::new();
     let mut all = Vec::with_capacity(grid.len());

@@ -77,10 +77,6 @@ impl Axis {
         Wrench::new(force, moment)
     }
 
-    pub(crate) fn turns(self) -> bool {
-        matches!(self, Self::Rx | Self::Ry | Self::Rz)
-    }
-
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::X => "a force along x",

@@ -83,7 +83,10 @@ impl Nearness {
             };
             rates.set_column(k, &difference);
         }
-        let values = rates.singular_values();
-        values.min() / values.max()
+        let values = kinetostat::linalg::SingularValues::of(&rates).values;
+        match (values.first(), values.last()) {
+            (Some(largest), Some(smallest)) => smallest / largest,
+            _ => f64::NAN,
+        }
     }
 }

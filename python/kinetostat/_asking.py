@@ -1,0 +1,76 @@
+"""What typed questions share: the place of a posture in the words of a command, and its answer in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kinetostat._arrays import Floats, one
+from kinetostat.errors import ArgumentError
+from kinetostat.spatial import rotation_vector
+
+if TYPE_CHECKING:
+    from kinetostat.machine import Machine
+    from kinetostat.posture import Posture
+
+
+def numbers_or_nan(values: Sequence[Any]) -> Floats:
+    """Numbers of an answer; what is null there is NaN here."""
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def triple(name: str, value: ArrayLike | None, factor: float = 1.0) -> list[float] | None:
+    """Three numbers for an option."""
+    if value is None:
+        return None
+    found: list[float] = (one(name, value, (3,)) * factor).tolist()
+    return found
+
+
+def bare(machine: Machine) -> tuple[Machine, float | None]:
+    """The machine without its tool, and the length of a straight one in mm."""
+    tool = machine.tool
+    if np.array_equal(tool, np.eye(4)):
+        return machine, None
+    straight = np.eye(4)
+    straight[2, 3] = tool[2, 3]
+    if not np.array_equal(tool, straight):
+        raise ArgumentError("this question takes a straight tool along z of the flange: use with_tool(length=...)")
+    return machine._of(machine._native.with_tool(np.eye(4)[None])), float(1e3 * tool[2, 3])
+
+
+def place(posture: Posture) -> dict[str, Any]:
+    """Model, place and tool as options of a command.
+
+    The command finds the posture by the place of its tool; where that gives other joints, it would answer for another posture.
+    """
+    machine = posture.machine
+    target = posture.target
+    again = machine.posture(pose=target)
+    if np.abs(again.commands - posture.commands).max(initial=0.0) > 1e-9:
+        raise ArgumentError(
+            "several postures reach the place of this one, and this question is about the one next to home: "
+            f"its commands are {again.commands.tolist()}, those of the posture {posture.commands.tolist()}"
+        )
+    model, length = bare(machine)
+    turn = ",".join(repr(float(x)) for x in rotation_vector(target[:3, :3]))
+    return {
+        "model": model,
+        "at": (1e3 * target[:3, 3]).tolist(),
+        "rotation": f"rotation_vector_rad={turn}",
+        "tool_length_mm": length,
+    }
+
+
+def coordinates_in_si(names: Sequence[dict[str, Any]], values: Floats) -> Floats:
+    """Coordinates in m and rad from those in mm and deg, the last axis by their names."""
+    factors = np.array([1e-3 if name["unit"] == "mm" else np.pi / 180 for name in names])
+    return values * factors if values.size else values
+
+
+def wrenches(points: Sequence[dict[str, Any]]) -> Floats:
+    """(n, 6): N, N m."""
+    return np.array([[*p["force_n"], *p["moment_n_m"]] for p in points], dtype=float).reshape(-1, 6)

@@ -1,0 +1,433 @@
+"""Machines put together from limbs, drives, passive joints, links and platforms: the model file in Python.
+
+A builder only collects; what is wrong is told by the reader of model files when :meth:`MachineBuilder.machine` is called. SI units (m, rad,
+N/m, N m/rad, kg). Every element is in the frame reached by those before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kinetostat._arrays import one
+from kinetostat.errors import ArgumentError
+from kinetostat.machine import Machine
+from kinetostat.spatial import rotation_vector
+
+if TYPE_CHECKING:
+    import os
+
+__all__ = ["LimbBuilder", "MachineBuilder", "placement"]
+
+_Axis = str | Sequence[float]
+_Kind = Literal["revolute", "prismatic"]
+
+
+def placement(pose: ArrayLike) -> dict[str, Any]:
+    """A pose as the model file writes it.
+
+    Parameters
+    ----------
+    pose : array_like, shape (4, 4) or (3,)
+        Pose, or position without a rotation, m.
+
+    Returns
+    -------
+    dict
+        ``position_m`` and, where it turns, ``rotation_vector_rad``.
+
+    Examples
+    --------
+    >>> placement([0.1, 0, 0])
+    {'position_m': [0.1, 0.0, 0.0]}
+    """
+    given = np.asarray(pose)
+    if given.shape == (3,):
+        return {"position_m": one("pose", given, (3,)).tolist()}
+    matrix = one("pose", given, (4, 4))
+    out = {"position_m": matrix[:3, 3].tolist()}
+    if not np.array_equal(matrix[:3, :3], np.eye(3)):
+        out["rotation_vector_rad"] = rotation_vector(matrix[:3, :3]).tolist()
+    return out
+
+
+def _axis(axis: _Axis) -> Any:
+    return axis if isinstance(axis, str) else one("axis", axis, (3,)).tolist()
+
+
+def _stiffness(kind: _Kind, value: float) -> dict[str, float]:
+    return {"stiffness_n_per_m" if kind == "prismatic" else "stiffness_n_m_per_rad": float(value)}
+
+
+def _in(kind: _Kind, key: str, value: Any) -> dict[str, Any]:
+    unit = "m" if kind == "prismatic" else "rad"
+    return {} if value is None else {f"{key}_{unit}": np.asarray(value, dtype=float).tolist()}
+
+
+class LimbBuilder:
+    """A limb in the making: elements from its start to its end. Made by :meth:`MachineBuilder.limb`.
+
+    Methods give the limb itself, so that it reads like the drawing.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.elements: list[dict[str, Any]] = []
+        self.loads: list[dict[str, Any]] = []
+
+    def _add(self, element: Mapping[str, Any]) -> LimbBuilder:
+        self.elements.append({key: value for key, value in element.items() if value is not None})
+        return self
+
+    def rigid(self, pose: ArrayLike, name: str | None = None) -> LimbBuilder:
+        """A part that does not give way: pose (4, 4) or translation (3,), m.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").rigid([0.5, 0, 0]).elements
+        [{'rigid': {'position_m': [0.5, 0.0, 0.0]}}]
+        """
+        return self._add({"rigid": placement(pose), "name": name})
+
+    def actuator(
+        self,
+        name: str,
+        kind: _Kind,
+        axis: _Axis,
+        stiffness: float | None,
+        *,
+        home: float = 0.0,
+        limits: tuple[float, float] | None = None,
+        rating: float | None = None,
+    ) -> LimbBuilder:
+        """A drive with its spring in series.
+
+        Parameters
+        ----------
+        name : str
+            Name, unique in the limb.
+        kind : {"revolute", "prismatic"}
+            Turns about its axis, or slides along it.
+        axis : str or sequence of float
+            ``"x"``, ``"-z"`` or three numbers.
+        stiffness : float or None
+            N m/rad or N/m; None does not give way.
+        home : float
+            Command at home, rad or m.
+        limits : tuple of float, optional
+            Smallest and largest command, rad or m.
+        rating : float, optional
+            Largest torque (N m) or force (N).
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").actuator("shoulder", "revolute", "z", 2e5).elements[0]["stiffness_n_m_per_rad"]
+        200000.0
+        """
+        spring: dict[str, Any] = {"rigid_drive": True} if stiffness is None else _stiffness(kind, stiffness)
+        rated = "rated_force_n" if kind == "prismatic" else "rated_torque_n_m"
+        return self._add(
+            {
+                "actuator": kind,
+                "name": name,
+                "axis": _axis(axis),
+                **spring,
+                rated: rating,
+                **_in(kind, "home", home),
+                **_in(kind, "limits", limits),
+            }
+        )
+
+    def passive(
+        self,
+        name: str,
+        kind: Literal["revolute", "prismatic", "universal", "spherical"],
+        axis: _Axis | Sequence[_Axis] | None = None,
+        *,
+        home: float | Sequence[float] | None = None,
+    ) -> LimbBuilder:
+        """A joint that nothing drives; two axes for a universal one, none for a spherical one; home in rad or m.
+
+        Examples
+        --------
+        >>> LimbBuilder("leg").passive("gimbal", "universal", ["y", "z"]).elements
+        [{'passive': 'universal', 'name': 'gimbal', 'axes': ['y', 'z']}]
+        """
+        element: dict[str, Any] = {"passive": kind, "name": name}
+        if kind == "universal":
+            element["axes"] = [_axis(a) for a in axis or ()]  # type: ignore[arg-type]
+        elif axis is not None:
+            element["axis"] = _axis(axis)  # type: ignore[arg-type]
+        if home is not None:
+            element |= (
+                {"homes_rad": list(home)}
+                if isinstance(home, Sequence)
+                else _in("prismatic" if kind == "prismatic" else "revolute", "home", home)
+            )
+        return self._add(element)
+
+    def spring(self, name: str, kind: _Kind, axis: _Axis, stiffness: float, *, rest: float = 0.0, home: float = 0.0) -> LimbBuilder:
+        """A spring of one freedom: N m/rad or N/m; deflection at rest and at home, rad or m.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").spring("give", "prismatic", "x", 1e6).elements[0]["stiffness_n_per_m"]
+        1000000.0
+        """
+        more = {**_in(kind, "rest", rest), **_in(kind, "home", home)} if rest or home else {}
+        return self._add({"spring": kind, "name": name, "axis": _axis(axis), **_stiffness(kind, stiffness), **more})
+
+    def spring6(self, name: str, stiffness: ArrayLike) -> LimbBuilder:
+        """A spring of six freedoms: matrix (6, 6) or diagonal (6,), N/m, N/rad; N m/m, N m/rad.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").spring6("flange", [1e8, 1e8, 1e8, 1e6, 1e6, 1e6]).elements[0]["name"]
+        'flange'
+        """
+        given = np.asarray(stiffness)
+        key = "diagonal_n_m_rad" if given.shape == (6,) else "matrix_n_m_rad"
+        return self._add({"spring6": {key: one("stiffness", given, (6,) if given.shape == (6,) else (6, 6)).tolist()}, "name": name})
+
+    def link(self, name: str, section: str, length: float, *, segments: int | None = None) -> LimbBuilder:
+        """A straight elastic link along x: name of a section of the machine, length in m.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").link("boom", "tube", 0.8).elements
+        [{'link': 'tube', 'name': 'boom', 'length_m': 0.8}]
+        """
+        return self._add({"link": section, "name": name, "length_m": float(length), "segments": segments})
+
+    def node(self, name: str) -> LimbBuilder:
+        """A named place, for loads.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").node("elbow").elements
+        [{'node': 'elbow'}]
+        """
+        return self._add({"node": name})
+
+    def body(self, name: str, mass: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> LimbBuilder:
+        """A mass, kg, with its centre in the frame reached there, m.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").body("motor", 12).elements[0]["mass_kg"]
+        12.0
+        """
+        return self._add({"body": name, "mass_kg": float(mass), "centre_of_mass_m": one("centre", centre, (3,)).tolist()})
+
+    def element(self, element: Mapping[str, Any]) -> LimbBuilder:
+        """Any other element, with the keys of the model file.
+
+        Examples
+        --------
+        >>> LimbBuilder("leg").element({"coupled": "q1", "motion": "revolute", "axis": "z", "ratio": -1}).elements[0]["ratio"]
+        -1
+        """
+        return self._add(element)
+
+    def wrench(self, name: str, node: str, force: ArrayLike = (0.0, 0.0, 0.0), moment: ArrayLike = (0.0, 0.0, 0.0)) -> LimbBuilder:
+        """A load on a node all the time, N and N m, base axes; it keeps its direction.
+
+        Examples
+        --------
+        >>> LimbBuilder("arm").wrench("cable", "elbow", [0, 0, -50]).loads[0]["axes"]
+        'base'
+        """
+        return self.load(
+            {
+                "wrench": name,
+                "node": node,
+                "axes": "base",
+                "force_n": one("force", force, (3,)).tolist(),
+                "moment_n_m": one("moment", moment, (3,)).tolist(),
+            }
+        )
+
+    def load(self, load: Mapping[str, Any]) -> LimbBuilder:
+        """Any other load, with the keys of the model file.
+
+        Examples
+        --------
+        >>> len(LimbBuilder("arm").load({"counterweight": "w", "at": {"node": "elbow"}, "mass_kg": 40}).loads)
+        1
+        """
+        self.loads.append(dict(load))
+        return self
+
+
+class MachineBuilder:
+    """A machine in the making.
+
+    Parameters
+    ----------
+    name : str
+        Name of the machine.
+    gravity : array_like, shape (3,), optional
+        m/s^2, base axes; needed as soon as anything has a mass.
+    description : str, optional
+        What it is.
+
+    Examples
+    --------
+    >>> b = MachineBuilder("slide")
+    >>> b.platform("tool", [0.5, 0, 0])
+    >>> b.limb("arm", to="tool").actuator("x", "prismatic", "x", 5e6).rigid([0.5, 0, 0]).name
+    'arm'
+    >>> float(round(b.machine().posture().stiffness().matrix[0, 0]))
+    5000000.0
+    """
+
+    def __init__(self, name: str, *, gravity: ArrayLike | None = None, description: str | None = None) -> None:
+        fields = {
+            "name": name,
+            "description": description,
+            "gravity_m_per_s2": None if gravity is None else one("gravity", gravity, (3,)).tolist(),
+        }
+        self._mechanism = {key: value for key, value in fields.items() if value is not None}
+        self._platforms: list[dict[str, Any]] = []
+        self._sections: dict[str, dict[str, Any]] = {}
+        self._limbs: list[tuple[LimbBuilder, dict[str, Any]]] = []
+        self._loads: list[dict[str, Any]] = []
+
+    def platform(self, name: str, home: ArrayLike, *, mass: float | None = None, centre: ArrayLike | None = None) -> None:
+        """A moving body; the last one carries the tool.
+
+        Parameters
+        ----------
+        name : str
+            Unique; ``base`` is taken.
+        home : array_like, shape (4, 4) or (3,)
+            Pose in the base when the machine is at home, m.
+        mass : float, optional
+            kg.
+        centre : array_like, shape (3,), optional
+            Centre of mass in the platform's frame, m.
+
+        Examples
+        --------
+        >>> MachineBuilder("press").platform("ram", [0, 0, 1])
+        """
+        table: dict[str, Any] = {"name": name, "home": placement(home)}
+        if mass is not None:
+            table["mass_kg"] = float(mass)
+        if centre is not None:
+            table["centre_of_mass_m"] = one("centre", centre, (3,)).tolist()
+        self._platforms.append(table)
+
+    def section(self, name: str, **values: Any) -> None:
+        """A section of links, with the keys of the model file.
+
+        Parameters
+        ----------
+        name : str
+            By which links find it.
+        **values
+            As ``tube={"outer_diameter_m": 0.1, "inner_diameter_m": 0.08}, youngs_modulus_gpa=210, poissons_ratio=0.3``.
+
+        Examples
+        --------
+        >>> MachineBuilder("arm").section("bar", round={"diameter_m": 0.05}, youngs_modulus_gpa=210, poissons_ratio=0.3)
+        """
+        if name in self._sections:
+            raise ArgumentError(f"there is a section {name!r} already")
+        self._sections[name] = values
+
+    def limb(
+        self, name: str, *, to: str, start: ArrayLike | None = None, end: ArrayLike | None = None, begins_at: str = "base"
+    ) -> LimbBuilder:
+        """A limb between two platforms; what it returns takes its elements.
+
+        Parameters
+        ----------
+        name : str
+            Unique.
+        to : str
+            Platform where it ends.
+        start, end : array_like, shape (4, 4) or (3,), optional
+            Where it begins and ends in the frames of its platforms, m.
+        begins_at : str
+            Platform where it begins.
+
+        Examples
+        --------
+        >>> MachineBuilder("arm").limb("arm", to="tool").name
+        'arm'
+        """
+        if any(name == made.name for made, _ in self._limbs):
+            raise ArgumentError(f"there is a limb {name!r} already")
+        made = LimbBuilder(name)
+        table: dict[str, Any] = {"name": name, "from": begins_at, "to": to, "chain": name}
+        for key, value in (("start", start), ("end", end)):
+            if value is not None:
+                table[key] = placement(value)
+        self._limbs.append((made, table))
+        return made
+
+    def load(self, load: Mapping[str, Any]) -> None:
+        """A load on platforms, with the keys of the model file.
+
+        Examples
+        --------
+        >>> MachineBuilder("arm").load({"wrench": "hose", "platform": "tool", "axes": "base", "force_n": [0, 0, -20]})
+        """
+        self._loads.append(dict(load))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The dictionary of the model file.
+
+        Examples
+        --------
+        >>> MachineBuilder("arm").to_dict()["mechanism"]
+        {'name': 'arm'}
+        """
+        out: dict[str, Any] = {"schema": 1, "mechanism": self._mechanism, "platform": self._platforms}
+        if self._sections:
+            out["section"] = self._sections
+        out["chain"] = {made.name: {"elements": made.elements} for made, _ in self._limbs}
+        out["limb"] = [table | ({"load": made.loads} if made.loads else {}) for made, table in self._limbs]
+        if self._loads:
+            out["load"] = self._loads
+        return out
+
+    def machine(self) -> Machine:
+        """The machine.
+
+        Raises
+        ------
+        ModelError
+            What is missing or contradicts itself, as of a model file.
+
+        Examples
+        --------
+        >>> b = MachineBuilder("rail")
+        >>> b.platform("tool", [0, 0, 0])
+        >>> b.limb("x", to="tool").actuator("x", "prismatic", "x", 1e7).name
+        'x'
+        >>> b.machine().name
+        'rail'
+        """
+        return Machine.from_dict(self.to_dict(), file=f"builder of '{self._mechanism['name']}'")
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the model file (TOML), whole or not at all; see :meth:`Machine.save`.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> b = MachineBuilder("rail")
+        >>> b.platform("tool", [0, 0, 0])
+        >>> _ = b.limb("x", to="tool").actuator("x", "prismatic", "x", 1e7)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = os.path.join(folder, "rail.toml")
+        ...     b.save(path)
+        ...     Machine.open(path) == b.machine()
+        True
+        """
+        self.machine().save(path)

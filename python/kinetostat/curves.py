@@ -1,0 +1,365 @@
+"""Force against displacement: stiffness along the way, limit points, buckling, jumps [R 4.5, 5.5]."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kinetostat import commands
+from kinetostat._arrays import Floats, one
+from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple, wrenches
+from kinetostat.errors import ArgumentError
+
+if TYPE_CHECKING:
+    from kinetostat.posture import Posture
+
+__all__ = ["Branch", "BranchEnd", "CriticalLoad", "ForceCurve", "Judged", "PointKind", "SpecialPoint", "critical_load", "curve"]
+
+_DEG = np.pi / 180
+
+
+class PointKind(enum.Enum):
+    """What a named point of a curve is."""
+
+    START = "start"
+    LOAD_LIMIT = "load_limit"
+    """Under a dead load the machine snaps here."""
+    DISPLACEMENT_LIMIT = "displacement_limit"
+    """Under prescribed motion the machine snaps here."""
+    PITCHFORK = "pitchfork"
+    """Buckling of a symmetric shape: two branches cross, one turns back."""
+    TRANSCRITICAL = "transcritical"
+    CROSSING = "crossing"
+    """Stability changes inside the machine while its tool stands still."""
+    MULTIPLE = "multiple"
+    """Several modes at once."""
+    SPECIAL = "special"
+    LANDING = "landing"
+    END = "end"
+
+
+class BranchEnd(enum.Enum):
+    """Why a branch ends."""
+
+    RANGE = "range"
+    ANGLE = "angle"
+    POINTS = "points"
+    CLOSED = "closed"
+    LOST = "lost"
+    STALLED = "stalled"
+
+
+class Judged(enum.Enum):
+    """What loses its stability at a critical load."""
+
+    SHAPE = "shape"
+    """The shape, with the tool held where it is."""
+    SHAPE_AND_TOOL = "shape_and_tool"
+    """Shape and place of the tool, as prescribed."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SpecialPoint:
+    """A named point of a curve."""
+
+    name: str
+    kind: PointKind
+    displacement: float
+    """m or rad along the direction; NaN where only a factor grows."""
+    force: float
+    """N or N m along it."""
+    factor: float
+    """Load factor; NaN where a displacement grows."""
+    in_words: str
+    mode: Floats
+    """Critical mode, largest component 1; empty without one."""
+    wrench: Floats
+    """(6,): N, N m."""
+    stable: bool
+    """Under a dead load."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Branch:
+    """A path of equilibria; arrays have one row a point."""
+
+    displacement: Floats
+    """(n,): m or rad, along the direction."""
+    force: Floats
+    """(n,): N or N m, along it."""
+    slope: Floats
+    """(n,): N/m or N m/rad; NaN where the displacement stands still."""
+    factor: Floats
+    """(n,): load factor; NaN where a displacement grows."""
+    stable: NDArray[np.bool_]
+    """(n,): under a dead load."""
+    stable_when_moved: NDArray[np.bool_]
+    """(n,): under prescribed motion."""
+    share_to_buckling: Floats
+    """(n,): with the tool held; NaN where nothing buckles."""
+    energy: Floats
+    """(n,): of the springs, J."""
+    wrench: Floats
+    """(n, 6): on the tool, N, N m."""
+    position: Floats
+    """(n, 3): of the tool's reference point, m, base axes."""
+    rotation_vector: Floats
+    """(n, 3): of the tool, rad, base axes."""
+    coordinates: Floats
+    """(n, coordinates): m or rad, as :attr:`ForceCurve.coordinates` names them."""
+    begins_at: str | None
+    """Name of the point from which it was found; none for the start's own."""
+    ends: tuple[BranchEnd, BranchEnd]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class CriticalLoad:
+    """How many times a load can grow."""
+
+    judged: Judged
+    factor: float
+    """First loss of stability on the way; NaN where none was met up to ``followed_to``."""
+    linear: float
+    """By the stresses of the first load step alone; NaN where they never destabilise."""
+    followed_to: float
+    mode: Floats
+    """Motion of the coordinates, largest component 1."""
+    in_words: str
+    conservative: bool
+    """All loads have a potential; otherwise the factor is that of divergence, and flutter is left open."""
+    caution: str
+    """What is left open, in words."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ForceCurve:
+    """Force against displacement, or displacement against a growing load."""
+
+    branches: tuple[Branch, ...]
+    """The start's own first."""
+    points: tuple[SpecialPoint, ...]
+    """Start, limits, bifurcations, landings and ends."""
+    critical_loads: tuple[CriticalLoad, ...]
+    """Of a machine of one limb under a growing load; of others :attr:`special` says where stability ends."""
+    coordinates: tuple[str, ...]
+    """Names of the coordinates."""
+    question: str
+    """The question in words."""
+    warnings: tuple[str, ...]
+    answer: dict[str, Any]
+    """What the command prints, with its units in the names."""
+
+    @property
+    def special(self) -> tuple[SpecialPoint, ...]:
+        """Limits and bifurcations."""
+        return tuple(p for p in self.points if p.kind not in (PointKind.START, PointKind.LANDING, PointKind.END))
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws force over displacement with matplotlib; see :func:`kinetostat.plot.force_curve`."""
+        from kinetostat.plot import force_curve
+
+        return force_curve(self, axes)
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{p.kind.value} at {p.displacement:.6g}" for p in self.special) or "no limit and no crossing"
+        return f"<ForceCurve: {len(self.branches)} branches, {sum(len(b.force) for b in self.branches)} points; {found}>"
+
+
+def _column(points: Sequence[dict[str, Any]], *names: tuple[str, float]) -> Floats:
+    for name, factor in names:
+        if points and name in points[0]:
+            return numbers_or_nan([p.get(name) for p in points]) * factor
+    return np.full(len(points), np.nan)
+
+
+def _displacement(points: Sequence[dict[str, Any]]) -> Floats:
+    return _column(points, ("displacement_mm", 1e-3), ("rotation_deg", _DEG))
+
+
+def _force(points: Sequence[dict[str, Any]]) -> Floats:
+    return _column(points, ("force_along_n", 1.0), ("moment_along_n_m", 1.0))
+
+
+def _branch(found: dict[str, Any], names: Sequence[dict[str, Any]]) -> Branch:
+    points = found["points"]
+    coordinates = np.array([p["coordinates"] for p in points], dtype=float).reshape(len(points), -1)
+    return Branch(
+        displacement=_displacement(points),
+        force=_force(points),
+        slope=_column(points, ("slope_n_per_mm", 1e3), ("slope_n_m_per_deg", 1 / _DEG)),
+        factor=_column(points, ("factor", 1.0)),
+        stable=np.array([p["stable_under_dead_load"] for p in points], dtype=bool),
+        stable_when_moved=np.array([p["stable_under_prescribed_motion"] for p in points], dtype=bool),
+        share_to_buckling=numbers_or_nan([p["share_to_buckling"] for p in points]),
+        energy=numbers_or_nan([p["spring_energy_j"] for p in points]),
+        wrench=wrenches(points),
+        position=np.array([p["position_mm"] for p in points], dtype=float).reshape(-1, 3) * 1e-3,
+        rotation_vector=np.array([p["rotation_vector_deg"] for p in points], dtype=float).reshape(-1, 3) * _DEG,
+        coordinates=coordinates_in_si(names, coordinates),
+        begins_at=found["from"],
+        ends=(BranchEnd(found["ends"][0]), BranchEnd(found["ends"][1])),
+    )
+
+
+def _point(found: dict[str, Any]) -> SpecialPoint:
+    return SpecialPoint(
+        name=found["name"],
+        kind=PointKind(found["kind"]),
+        displacement=float(_displacement([found])[0]),
+        force=float(_force([found])[0]),
+        factor=float(_column([found], ("factor", 1.0))[0]),
+        in_words=found["in_words"],
+        mode=np.array(found["mode"], dtype=float),
+        wrench=wrenches([found])[0],
+        stable=found["stable_under_dead_load"],
+    )
+
+
+def _critical(found: dict[str, Any]) -> CriticalLoad:
+    factor, linear = numbers_or_nan([found["factor"], found["linear_factor"]])
+    return CriticalLoad(
+        judged=Judged(found["judged"]),
+        factor=float(factor),
+        linear=float(linear),
+        followed_to=found["followed_to_factor"],
+        mode=np.array(found["mode"], dtype=float),
+        in_words=found["mode_in_words"],
+        conservative=found["conservative"],
+        caution=found["caution"],
+    )
+
+
+def curve(
+    posture: Posture,
+    *,
+    direction: ArrayLike | None = None,
+    displacement: tuple[float, float] | None = None,
+    about: ArrayLike | None = None,
+    turn: tuple[float, float] | None = None,
+    force: ArrayLike | None = None,
+    moment: ArrayLike | None = None,
+    factor: tuple[float, float] | None = None,
+    force_limits: tuple[float, float] | None = None,
+    hold: str | None = None,
+    free: str | None = None,
+    constant_force: ArrayLike | None = None,
+    constant_moment: ArrayLike | None = None,
+    loads: Sequence[str] | None = None,
+    branches: int | None = None,
+    points: int | None = None,
+    search_all: bool = False,
+) -> ForceCurve:
+    """Pushes or turns the tool and tells which force it takes, or grows a load and tells where the tool goes.
+
+    Parameters
+    ----------
+    posture : Posture
+        The commanded posture.
+    direction : array_like, shape (3,), optional
+        Direction in the base along which the tool is pushed, over ``displacement`` (from, to), m.
+    about : array_like, shape (3,), optional
+        Or the direction about which it is turned, over ``turn`` (from, to), rad.
+    force, moment : array_like, shape (3,), optional
+        Or the load that grows, N and N m, base axes, over ``factor`` (from, to) times it.
+    force_limits : tuple of float, optional
+        The curve ends where the force along the direction leaves these, N or N m.
+    hold, free : str, optional
+        Directions in which the tool is held or free, as in ``"x,y,rz"``; also ``all``, ``none``, ``rotations``, ``others``.
+    constant_force, constant_moment : array_like, shape (3,), optional
+        What acts all the time, N and N m.
+    loads : sequence of str, optional
+        Forces on named nodes all the time, ``"node=fx,fy,fz"``, N.
+    branches, points : int, optional
+        Branches, and points of one branch, at most.
+    search_all : bool
+        Search for shapes that no branch connects with the start, too.
+
+    Returns
+    -------
+    ForceCurve
+        Arrays in SI units; the command's dictionary is its ``answer``.
+
+    Raises
+    ------
+    ArgumentError
+        What is asked contradicts itself or the machine.
+    UnansweredError
+        The curve could not be followed from its start.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> posture = ks.Machine.preset("three_link_z").posture()
+    >>> found = curve(posture, direction=[1, 0, 0], displacement=(0, -0.2))
+    >>> round(found.special[0].displacement, 6), round(found.special[0].force, 6)
+    (-0.110932, -1.033477)
+    """
+    if (displacement is not None and direction is None) or (turn is not None and about is None):
+        raise ArgumentError("displacement goes with direction, turn with about")
+    answer = commands.curve(
+        **place(posture),
+        direction=triple("direction", direction),
+        displacement_mm=None if displacement is None else (1e3 * one("displacement", displacement, (2,))).tolist(),
+        about=triple("about", about),
+        turn_deg=None if turn is None else (one("turn", turn, (2,)) / _DEG).tolist(),
+        force=triple("force", force),
+        moment=triple("moment", moment),
+        factor=None if factor is None else one("factor", factor, (2,)).tolist(),
+        force_limits=None if force_limits is None else one("force_limits", force_limits, (2,)).tolist(),
+        hold=hold,
+        free=free,
+        constant_force=triple("constant_force", constant_force),
+        constant_moment=triple("constant_moment", constant_moment),
+        load=loads,
+        branches=branches,
+        points=points,
+        all=search_all,
+    )
+    names = answer["coordinates"]
+    return ForceCurve(
+        branches=tuple(_branch(b, names) for b in answer["branches"]),
+        points=tuple(_point(p) for p in answer["named_points"]),
+        critical_loads=tuple(_critical(c) for c in answer["critical_loads"]),
+        coordinates=tuple(c["name"] for c in names),
+        question=answer["question"],
+        warnings=tuple(w["message"] for w in answer["warnings"]),
+        answer=answer,
+    )
+
+
+def critical_load(posture: Posture, force: ArrayLike, *, most: float = 10.0, **question: Any) -> ForceCurve:
+    """How many times a force can grow before the machine loses its stability.
+
+    Parameters
+    ----------
+    posture : Posture
+        The commanded posture.
+    force : array_like, shape (3,)
+        On the tool, N, base axes.
+    most : float
+        Factor up to which the load grows.
+    **question
+        As for :func:`curve`: ``hold``, ``constant_force`` and so on.
+
+    Returns
+    -------
+    ForceCurve
+        Its ``critical_loads`` (machines of one limb) and ``special`` points say where.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> posture = ks.Machine.preset("three_link_z").posture()
+    >>> found = critical_load(posture, [-1, 0, 0], most=3)
+    >>> shape = next(c for c in found.critical_loads if c.judged is Judged.SHAPE)
+    >>> round(shape.factor, 6), round(shape.linear, 6)
+    (1.033477, 1.015104)
+    """
+    if not most > 0:
+        raise ArgumentError(f"most is {most}, expected a factor above 0")
+    return curve(posture, force=force, factor=(0.0, most), **question)

@@ -1,0 +1,118 @@
+"""What notebooks show: tables with units, and the drawing of a machine. Plain HTML and SVG; needs nothing else."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from kinetostat.machine import Machine
+    from kinetostat.posture import Equilibrium, Stiffness
+
+__all__ = ["equilibrium_html", "machine_html", "stiffness_html", "table"]
+
+_AXES = ("x", "y", "z", "rx", "ry", "rz")
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[Any]], caption: str = "") -> str:
+    """An HTML table; everything in it is text.
+
+    Parameters
+    ----------
+    head : sequence of str
+        Names of the columns, units with them.
+    rows : sequence of sequence
+        Cells; numbers are shown with five digits.
+    caption : str
+        What it is.
+
+    Returns
+    -------
+    str
+        HTML.
+
+    Examples
+    --------
+    >>> table(["drive", "N"], [["<x>", 2.0]])
+    '<table><thead><tr><th>drive</th><th>N</th></tr></thead><tbody><tr><td>&lt;x&gt;</td><td>2</td></tr></tbody></table>'
+    """
+
+    def cell(value: Any) -> str:
+        if isinstance(value, (float, np.floating)):
+            return f"{value + 0.0:.5g}"
+        return html.escape(str(value))
+
+    title = f"<caption>{html.escape(caption)}</caption>" if caption else ""
+    names = "".join(f"<th>{html.escape(name)}</th>" for name in head)
+    body = "".join("<tr>" + "".join(f"<td>{cell(value)}</td>" for value in row) + "</tr>" for row in rows)
+    return f"<table>{title}<thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _matrix(values: np.ndarray[Any, Any], caption: str) -> str:
+    rows = [[name, *map(float, row)] for name, row in zip(("fx", "fy", "fz", "mx", "my", "mz"), values, strict=True)]
+    return table(["", *_AXES], rows, caption)
+
+
+def machine_html(machine: Machine) -> str:
+    """Drives, limbs, platforms and the drawing at home of a machine.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> shown = machine_html(ks.Machine.preset("two_link"))
+    >>> "<svg" in shown and "arm" in shown
+    True
+    """
+
+    def shown(drive: Any) -> list[Any]:
+        limits = "" if drive.limits is None else f"{drive.limits[0]:.5g} to {drive.limits[1]:.5g}"
+        rating = "" if drive.rating is None else f"{drive.rating:.5g} {'N' if drive.unit == 'm' else 'N m'}"
+        return [drive.name, drive.kind, f"{drive.home:.5g} {drive.unit}", limits, rating]
+
+    drives = table(["drive", "kind", "home", "limits", "rating"], [shown(drive) for drive in machine.actuators])
+    parts = table(
+        ["limb", "from", "to", "chain"],
+        [[limb["name"], limb["from"], limb["to"], limb["chain"]] for limb in machine.to_dict()["limb"]],
+    )
+    try:
+        picture = machine.drawing()
+    except Exception as error:  # a display never hides the object that it shows
+        picture = f"<p>{html.escape(str(error))}</p>"
+    return f"<div><h4>{html.escape(machine.name)}</h4><p>{html.escape(machine.file)}</p>{drives}{parts}{picture}</div>"
+
+
+def stiffness_html(stiffness: Stiffness) -> str:
+    """Matrix and principal directions of a stiffness.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> "N/m" in stiffness_html(ks.Machine.preset("two_link").posture().stiffness())
+    True
+    """
+    matrix = _matrix(stiffness.matrix, "stiffness: N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point")
+    rows = [[d.kind.value, d.stiffness, *map(float, d.twist)] for d in stiffness.directions]
+    directions = table(["direction", "N/m", "x, m", "y, m", "z, m", "rx, rad", "ry, rad", "rz, rad"], rows, f"rank {stiffness.rank}")
+    return f"<div>{matrix}{directions}</div>"
+
+
+def equilibrium_html(equilibrium: Equilibrium) -> str:
+    """Displacement, wrench, forces of the drives and tangent stiffness of an equilibrium.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> "mm" in equilibrium_html(ks.Machine.preset("orthoglide").posture().deflected_by([1, 0, 0, 0, 0, 0]))
+    True
+    """
+    moved, wrench = equilibrium.displacement, equilibrium.wrench
+    units = [("mm", 1e3, "N")] * 3 + [("deg", 180 / np.pi, "N m")] * 3
+    rows = [[_AXES[k], f"{moved[k] * units[k][1]:.5g} {units[k][0]}", f"{wrench[k]:.5g} {units[k][2]}"] for k in range(6)]
+    what = "stable" if equilibrium.stable else "NOT stable"
+    head = table(["", "displacement", "wrench on the tool"], rows, f"{what}, found {equilibrium.found_by.value.replace('_', ' ')}")
+    named = zip(equilibrium.posture.machine.actuators, equilibrium.actuator_forces, strict=True)
+    drives = table(["drive", "load on it"], [[a.name, f"{f:.5g} {'N' if a.unit == 'm' else 'N m'}"] for a, f in named])
+    return f"<div>{head}{drives}{_matrix(equilibrium.stiffness, 'tangent stiffness: N/m, N/rad; N m/m, N m/rad')}</div>"

@@ -1,0 +1,421 @@
+"""One posture of a machine, and what it answers: stiffness, equilibria, curves."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import TYPE_CHECKING, Any, NamedTuple, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kinetostat import _core
+from kinetostat._arrays import Floats, one
+from kinetostat.display import equilibrium_html, stiffness_html
+from kinetostat.status import DirectionKind, FoundBy, Status
+
+if TYPE_CHECKING:
+    from kinetostat.assembly import Assembly
+    from kinetostat.curves import ForceCurve
+    from kinetostat.force_models import ForceModel, ModelEquilibria
+    from kinetostat.machine import Machine
+    from kinetostat.problem import EquilibriumProblem
+    from kinetostat.shapes import Shapes
+
+__all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
+
+
+class Direction(NamedTuple):
+    """A principal direction of a stiffness."""
+
+    kind: DirectionKind
+    stiffness: float
+    """N/m, rotations referred to the machine's natural length; infinite where rigid."""
+    twist: Floats
+    """(6,): the motion, m and rad, base axes, about the tool's reference point; its longest part is 1 m."""
+    behind: list[dict[str, Any]]
+    """Joints and springs that move in it, of free and negative directions."""
+
+
+class LimitViolation(NamedTuple):
+    """An actuator outside its limits."""
+
+    actuator: str
+    command: float
+    lower: float
+    upper: float
+
+
+def _directions(text: str) -> tuple[Direction, ...]:
+    def number(value: float | None) -> float:
+        return np.inf if value is None else float(value)
+
+    def of(d: dict[str, Any]) -> Direction:
+        return Direction(DirectionKind(d["kind"]), number(d["stiffness_n_per_m"]), np.array(d["twist"], dtype=float), d["behind"])
+
+    return tuple(of(found) for found in json.loads(text))
+
+
+@final
+class Stiffness:
+    """Cartesian stiffness of an unloaded posture of the machine as drawn [R 3.37-3.43].
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> k = ks.Machine.preset("orthoglide").posture().stiffness()
+    >>> k.rank, k.matrix.shape
+    (6, (6, 6))
+    >>> k.directions[0].kind
+    <DirectionKind.FINITE: 'finite'>
+    """
+
+    __slots__ = ("_native", "posture")
+
+    def __init__(self, posture: Posture, native: _core.Stiffness) -> None:
+        self.posture = posture
+        """The posture."""
+        self._native = native
+
+    @property
+    def matrix(self) -> Floats:
+        """(6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        return self._native.matrix
+
+    @property
+    def compliance(self) -> Floats:
+        """(6, 6): m/N, m/(N m); rad/N, rad/(N m), within the directions that are neither free nor rigid."""
+        return self._native.compliance
+
+    @property
+    def rank(self) -> int:
+        """Number of directions that are not free."""
+        return self._native.rank
+
+    @property
+    def against_force(self) -> float:
+        """N/m in the softest direction of a force while the tool may turn; 0 where a direction is free."""
+        return self._native.against_force
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """Principal directions."""
+        return _directions(self._native.directions_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Posture.stiffness, (self.posture,)
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+    def _repr_html_(self) -> str:
+        return stiffness_html(self)
+
+
+@final
+class Equilibrium:
+    """Equilibrium of a machine under a wrench on its tool [R 4.28-4.34, 6.21-6.30].
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> loaded = ks.Machine.preset("orthoglide").posture().deflected_by([100, 0, 0, 0, 0, 0])
+    >>> loaded.stable, loaded.found_by
+    (True, <FoundBy.DIRECTLY: 'directly'>)
+    """
+
+    __slots__ = ("_native", "_question", "posture")
+
+    def __init__(self, posture: Posture, native: _core.Equilibrium, question: tuple[str, Any]) -> None:
+        self.posture = posture
+        """The commanded posture."""
+        self._native = native
+        self._question = question
+
+    @property
+    def tool(self) -> Floats:
+        """(4, 4): pose of the tool, base from tool, m."""
+        return self._native.tool
+
+    @property
+    def displacement(self) -> Floats:
+        """(6,): from the commanded pose to that under load, m and rad, base axes."""
+        return self._native.displacement
+
+    @property
+    def wrench(self) -> Floats:
+        """(6,): N and N m on the tool, base axes, about its reference point."""
+        return self._native.wrench
+
+    @property
+    def stiffness(self) -> Floats:
+        """(6, 6): tangent stiffness; N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point."""
+        return self._native.stiffness
+
+    @property
+    def compliance(self) -> Floats:
+        """(6, 6): its inverse within the directions that are neither free nor rigid."""
+        return self._native.compliance
+
+    @property
+    def actuator_forces(self) -> Floats:
+        """(actuators,): N and N m of the loads on the actuators."""
+        return self._native.actuator_forces
+
+    @property
+    def stable(self) -> bool:
+        """Whether every limb keeps its shape and the platform its place."""
+        return self._native.stable
+
+    @property
+    def share_to_buckling(self) -> float | None:
+        """Largest share of the way to buckling of all limbs, below 1 is stable; none where nothing buckles."""
+        return self._native.share_to_buckling
+
+    @property
+    def against_force(self) -> float:
+        """N/m in the softest direction of a force while the tool may turn."""
+        return self._native.against_force
+
+    @property
+    def energy(self) -> float | None:
+        """Stored energy, J; none where a load has no potential."""
+        return self._native.energy
+
+    @property
+    def found_by(self) -> FoundBy:
+        """How it was found: where several equilibria exist it tells which of them this is."""
+        return FoundBy(json.loads(self._native.found_by_json()))
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """Principal directions of the tangent stiffness."""
+        return _directions(self._native.directions_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        kind, value = self._question
+        return getattr(Posture, kind), (self.posture, value)
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+    def _repr_html_(self) -> str:
+        return equilibrium_html(self)
+
+
+@final
+class Posture:
+    """A machine whose actuators are commanded; made by :meth:`Machine.posture`, never changed.
+
+    Postures are equal where machine, target and all coordinates of all limbs are; they can be pickled, and come back the same to the
+    last bit.
+
+    Examples
+    --------
+    >>> import copy, pickle
+    >>> import kinetostat as ks
+    >>> posture = ks.Machine.preset("orthoglide").posture([0.01, 0, 0])
+    >>> pickle.loads(pickle.dumps(posture)) == posture, copy.deepcopy(posture) == posture
+    (True, True)
+    >>> posture.status
+    <Status.SOLVED: 0>
+    """
+
+    __slots__ = ("__weakref__", "_native", "machine")
+
+    def __init__(self, machine: Machine, native: _core.Posture) -> None:
+        self.machine = machine
+        """The machine."""
+        self._native = native
+
+    @property
+    def commands(self) -> Floats:
+        """(actuators,): m or rad."""
+        return self._native.commands
+
+    @property
+    def target(self) -> Floats:
+        """(4, 4): where the tool is commanded to, base from tool, m."""
+        return self._native.target
+
+    @property
+    def limbs(self) -> tuple[tuple[Floats, Floats], ...]:
+        """Of every limb: commands of its actuators and all its coordinates (springs at home, passive joints), m or rad."""
+        return tuple((np.array(commands), np.array(coordinates)) for commands, coordinates in self._native.limbs)
+
+    def limb_lines(self) -> list[Floats]:
+        """Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m."""
+        return self._native.limb_lines()
+
+    @property
+    def limit_violations(self) -> list[LimitViolation]:
+        """Actuators outside their limits, m or rad."""
+        return [LimitViolation(*row) for row in self._native.limit_violations]
+
+    @property
+    def status(self) -> Status:
+        """Whether all commands are within their limits."""
+        return Status.OUTSIDE_LIMITS if self._native.limit_violations else Status.SOLVED
+
+    # What it answers ---------------------------------------------------------------------------------------------------
+
+    def stiffness(self) -> Stiffness:
+        """Cartesian stiffness of the unloaded machine as drawn.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("orthoglide").posture().stiffness().rank
+        6
+        """
+        return Stiffness(self, self._native.stiffness())
+
+    def deflected_by(self, wrench: ArrayLike) -> Equilibrium:
+        """Equilibrium of the machine as it is, with its own loads and deviations, under a wrench on the tool.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (6,)
+            Force and moment (N, N m), base axes, about the tool's reference point.
+
+        Raises
+        ------
+        UnansweredError
+            No equilibrium was found: how far the load got.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> loaded = ks.Machine.preset("orthoglide").posture().deflected_by([100, 0, 0, 0, 0, 0])
+        >>> round(float(loaded.displacement[0]) * 1e6, 1)
+        33.3
+        """
+        given = one("wrench", wrench, (6,)).tolist()
+        return Equilibrium(self, self._native.deflected_by(given), ("deflected_by", given))
+
+    def held_at(self, pose: ArrayLike) -> Equilibrium:
+        """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.
+
+        Parameters
+        ----------
+        pose : array_like, shape (4, 4)
+            Base from tool, m.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> posture = ks.Machine.preset("orthoglide").posture()
+        >>> moved = posture.target
+        >>> moved[0, 3] += 1e-4
+        >>> round(float(posture.held_at(moved).wrench[0]))
+        300
+        """
+        # A copy: what the caller does with its array later is not part of this equilibrium.
+        given = one("pose", pose, (4, 4)).copy()
+        return Equilibrium(self, self._native.held_at(given[None]), ("held_at", given))
+
+    def under(self, model: ForceModel, **options: Any) -> ModelEquilibria:
+        """Equilibrium under a wrench that depends on where the tool is; see :func:`kinetostat.equilibrium_under`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> def cable(poses):  # 1 N/mm towards the origin
+        ...     return ks.wrench(-1000 * poses[..., :3, 3])
+        >>> found = ks.Machine.preset("orthoglide").posture([0.05, 0, 0]).under(cable)
+        >>> bool(found.converged)
+        True
+        """
+        from kinetostat.force_models import equilibrium_under
+
+        return equilibrium_under(self, model, **options)
+
+    def equilibrium_problem(self, wrench: ArrayLike = (0.0,) * 6) -> EquilibriumProblem:
+        """Equilibrium as residual and Jacobian, for SciPy and others; see :class:`kinetostat.EquilibriumProblem`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> problem = ks.Machine.preset("orthoglide").posture().equilibrium_problem([100, 0, 0, 0, 0, 0])
+        >>> problem.residual(problem.x0).shape, problem.jacobian(problem.x0).shape
+        ((6,), (6, 6))
+        """
+        from kinetostat.problem import EquilibriumProblem
+
+        return EquilibriumProblem(self, wrench)
+
+    def curve(self, **question: Any) -> ForceCurve:
+        """Force against displacement; see :func:`kinetostat.curves.curve`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+        >>> [str(point.kind.value) for point in found.special]
+        ['pitchfork']
+        """
+        from kinetostat.curves import curve
+
+        return curve(self, **question)
+
+    def shapes(self, **question: Any) -> Shapes:
+        """All equilibria; see :func:`kinetostat.shapes.shapes`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> len(ks.Machine.preset("three_link_z").posture().shapes(displaced=[-0.001, 0, 0]).energy)
+        2
+        """
+        from kinetostat.shapes import shapes
+
+        return shapes(self, **question)
+
+    def assembly(self, **question: Any) -> Assembly:
+        """What assembly with errors locks in; see :func:`kinetostat.assembly.assembly`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> ks.Machine.preset("orthoglide").posture().assembly().over_constraint
+        3
+        """
+        from kinetostat.assembly import assembly
+
+        return assembly(self, **question)
+
+    # As a value ----------------------------------------------------------------------------------------------------
+
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of machine, target and all coordinates: the same on every machine and in every run."""
+        found = hashlib.sha256(self.machine.fingerprint.encode())
+        for numbers in (self.target, *(array for limb in self.limbs for array in limb)):
+            found.update(len(numbers).to_bytes(8, "little"))
+            found.update((np.asarray(numbers, dtype="<f8") + 0.0).tobytes())
+        return found.hexdigest()
+
+    def __hash__(self) -> int:
+        return int(self.fingerprint[:15], 16)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Posture):
+            return NotImplemented
+        return self.fingerprint == other.fingerprint
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.machine, self.target, self._native.limbs)
+
+    def __copy__(self) -> Posture:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Posture:
+        return self
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+def _restored(machine: Machine, target: Floats, limbs: list[tuple[list[float], list[float]]]) -> Posture:
+    """A posture that was pickled."""
+    return Posture(machine, machine._native.posture_of_limbs(target[None], limbs))

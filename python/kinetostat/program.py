@@ -1,0 +1,85 @@
+"""Programs corrected by a field of one's own: measured errors, other models, a function of Python."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kinetostat import _core
+from kinetostat._arrays import Floats, numbers
+from kinetostat.errors import ArgumentError
+
+__all__ = ["Corrected", "correct_program"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Corrected:
+    """A program whose path is its own plus a correction, and what was measured when it was read again."""
+
+    text: str
+    """The program."""
+    pieces: int
+    """Motions written."""
+    places: int
+    """Places at which the field was asked again."""
+    error_before: float
+    """Largest distance from path plus correction if the program were left as it is, m."""
+    error_after: float
+    """Largest distance of the written program, m."""
+    allowed: float
+    """What was allowed, m: the tolerance, chords of arcs and rounding."""
+
+
+def correct_program(
+    program: str | bytes,
+    field: Callable[[Floats, Floats], ArrayLike],
+    *,
+    tolerance: float = 5e-6,
+    decimals: int | None = None,
+) -> Corrected:
+    r"""Adds a field of corrections to the path of a G-code program, divides blocks where it varies, and reads the result again.
+
+    Parameters
+    ----------
+    program : str or bytes
+        G-code.
+    field : callable
+        Positions (n, 3), part axes, m, and directions of motion (n, 3), NaN where there is none, to corrections (n, 3), m; called for
+        many points at once. Equal points must get equal answers.
+    tolerance : float
+        Largest distance of the path from path plus correction, m.
+    decimals : int, optional
+        Digits after the point; as many as the program has without it, and those that the tolerance needs.
+
+    Returns
+    -------
+    Corrected
+
+    Raises
+    ------
+    ArgumentError
+        The program cannot be followed (with its line), or the field gives another shape or numbers that are not finite.
+    UnansweredError
+        The tolerance cannot be held.
+
+    Examples
+    --------
+    >>> def sag(positions, directions):  # 1 um for each 10 mm of x
+    ...     return np.stack([0 * positions[:, 0], 0 * positions[:, 0], 1e-4 * positions[:, 0]], axis=-1)
+    >>> found = correct_program("G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100\nM2\n", sag)
+    >>> round(found.error_before * 1e6, 3), found.error_after <= found.allowed
+    (10.0, True)
+    """
+
+    def called(positions: Floats, directions: Floats) -> Floats:
+        found = numbers("field", field(positions, directions))
+        if found.shape != positions.shape:
+            raise ArgumentError(f"field gives shape {found.shape}, expected {positions.shape}")
+        return np.ascontiguousarray(found)
+
+    raw = program.encode() if isinstance(program, str) else bytes(program)
+    written, told = _core.correct_program(raw, called, float(tolerance), decimals)
+    return Corrected(written.decode(), **told)

@@ -1,0 +1,199 @@
+"""Postures, curves, shapes, assembly, problems and force models against closed forms and printed numbers."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import kinetostat as ks
+from kinetostat.curves import Judged, PointKind, critical_load
+
+POSITION = [0.02, -0.03, 0.05]
+
+
+@pytest.fixture(scope="module")
+def posture() -> ks.Posture:
+    return ks.Machine.preset("orthoglide").posture(POSITION)
+
+
+def test_postures_come_back_the_same(posture: ks.Posture) -> None:
+    again = pickle.loads(pickle.dumps(posture))
+    assert again == posture
+    assert hash(again) == hash(posture)
+    np.testing.assert_array_equal(again.commands, posture.commands)
+    np.testing.assert_array_equal(again.stiffness().matrix, posture.stiffness().matrix)
+    assert copy.copy(posture) == copy.deepcopy(posture) == posture
+    assert posture.machine.posture([0.02, -0.03, 0.0500001]) != posture
+    loaded = posture.deflected_by([10, 20, 30, 0, 0, 0])
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(loaded)).tool, loaded.tool)
+    wrench = np.array([10.0, 0, 0, 0, 0, 0])
+    kept = posture.deflected_by(wrench)
+    wrench[:] = 1e9
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(kept)).tool, kept.tool)
+
+
+def test_elbow_of_the_other_side_is_kept() -> None:
+    arm = ks.Machine.preset("heavy_6r")
+    home = arm.posture()
+    again = pickle.loads(pickle.dumps(home))
+    np.testing.assert_array_equal(again.commands, home.commands)
+
+
+def test_pitchfork_of_the_z_chain() -> None:
+    found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    (point,) = found.special
+    assert point.kind is PointKind.PITCHFORK
+    # Reference values of the theory: Delta and F of the Z chain, L = 1 m, K = 1 N m/rad.
+    assert point.displacement == pytest.approx(-0.110931613194, abs=1e-9)
+    assert point.force == pytest.approx(-1.03347699957, abs=1e-9)
+    own = found.branches[0]
+    assert own.wrench.shape == (len(own.force), 6)
+    np.testing.assert_allclose(own.wrench[:, 0], own.force, atol=1e-12)
+    before = own.displacement > point.displacement + 1e-6
+    assert own.stable_when_moved[before].all()
+    assert not own.stable_when_moved[own.displacement < point.displacement - 1e-6].any()
+    # The slope is the derivative of the force.
+    order = np.argsort(own.displacement)
+    x, y, slope = own.displacement[order], own.force[order], own.slope[order]
+    middle = 0.5 * (slope[1:] + slope[:-1])
+    np.testing.assert_allclose(np.diff(y), middle * np.diff(x), atol=2e-3)
+
+
+def test_critical_load_of_the_z_chain() -> None:
+    found = critical_load(ks.Machine.preset("three_link_z").posture(), [-1, 0, 0], most=3)
+    (shape,) = [c for c in found.critical_loads if c.judged is Judged.SHAPE]
+    assert shape.factor == pytest.approx(1.03347699957, abs=1e-8)
+
+
+def test_two_shapes_of_the_z_chain() -> None:
+    found = ks.Machine.preset("three_link_z").posture().shapes(displaced=[-1e-3, 0, 0])
+    assert found.settled
+    assert found.stable.tolist() == [True, False]
+    assert np.all(np.diff(found.energy) > 0)
+    np.testing.assert_allclose(found.position[:, 0], 2.9093129111764097 - 1e-3, atol=1e-12)
+
+
+def test_assembly_locks_in_what_has_no_resultant(posture: ks.Posture) -> None:
+    found = ks.Machine.preset("orthoglide").posture().assembly(deviations=["leg x:foot arm:1deg about x"])
+    assert found.over_constraint == 3
+    assert np.abs(found.wrench).max() > 1e-3
+    # Legs hold each other: forces and moments about the platform's point cancel.
+    np.testing.assert_allclose(found.wrench[:, :3].sum(axis=0), 0, atol=1e-6)
+
+
+def test_problem_and_scipy(posture: ks.Posture) -> None:
+    optimize = pytest.importorskip("scipy.optimize", reason="compares with a solver of SciPy")
+    wrench = np.array([300.0, -200.0, 150.0, 5.0, -8.0, 3.0])
+    problem = posture.equilibrium_problem(wrench)
+    found = optimize.root(problem.residual, problem.x0, jac=problem.jacobian, tol=1e-13)
+    loaded = posture.deflected_by(wrench)
+    np.testing.assert_allclose(problem.tool(found.x), loaded.tool, atol=1e-10)
+    np.testing.assert_allclose(problem.residual(found.x), 0, atol=1e-6)
+
+
+def test_jacobian_against_differences(posture: ks.Posture) -> None:
+    problem = posture.equilibrium_problem()
+    x = np.array([1e-4, -2e-4, 1e-4, 2e-2, -1e-2, 3e-2])
+    step = 1e-6
+    ring = np.stack([(problem.residual(x + e) - problem.residual(x - e)) / (2 * step) for e in step * np.eye(6)], axis=1)
+    exact = problem.jacobian(x)
+    np.testing.assert_allclose(ring, exact, rtol=2e-5, atol=1e-6 * np.abs(exact).max())
+
+
+def test_a_spring_on_the_tool_is_in_series() -> None:
+    machine = ks.Machine.preset("orthoglide")
+    places = np.array([[0.0, 0.0, 0.0], POSITION, [-0.04, 0.05, 0.01]])
+    stiffness = 5e5  # N/m
+    anchor = np.array([0.1, 0.2, -0.1])
+
+    def spring(poses: np.ndarray) -> np.ndarray:
+        return ks.wrench(stiffness * (anchor - poses[:, :3, 3]))
+
+    def tangent(poses: np.ndarray) -> np.ndarray:
+        return np.broadcast_to(np.diag([-stiffness] * 3 + [0] * 3), (len(poses), 6, 6))
+
+    found = ks.equilibrium_under(machine, spring, poses=places, tangent=tangent)
+    assert found.converged.all()
+    reached = found.equilibria.tool
+    np.testing.assert_allclose(found.wrench[:, :3], stiffness * (anchor - reached[:, :3, 3]), rtol=1e-8)
+    # The machine alone under that wrench goes there.
+    for i, place in enumerate(places):
+        alone = machine.posture(place).deflected_by(found.wrench[i])
+        np.testing.assert_allclose(alone.tool, reached[i], atol=1e-10)
+    by_differences = ks.equilibrium_under(machine, spring, poses=places)
+    np.testing.assert_allclose(by_differences.wrench, found.wrench, rtol=1e-7, atol=1e-6)
+    np.testing.assert_allclose(found.tangent - found.equilibria.stiffness, -tangent(places), atol=1e-6)
+    single = machine.posture(POSITION).under(spring)
+    assert bool(single.converged)
+    np.testing.assert_allclose(single.wrench, found.wrench[1], rtol=1e-7, atol=1e-6)
+
+
+def test_force_models_say_what_is_wrong() -> None:
+    machine = ks.Machine.preset("orthoglide")
+    with pytest.raises(ks.ArgumentError, match=r"shape \(2,\), expected \(1, 6\)"):
+        ks.equilibrium_under(machine, lambda poses: np.zeros(2), poses=[[0, 0, 0]])
+    with pytest.raises(ks.ArgumentError, match="not finite"):
+        ks.equilibrium_under(machine, lambda poses: np.full(6, np.nan), poses=[[0, 0, 0]])
+    far = ks.equilibrium_under(machine, lambda poses: np.zeros(6), poses=[[9, 0, 0], [0, 0, 0]])
+    assert far.converged.tolist() == [False, True]
+    # Moves away faster than the machine holds it: no answer is said, none is invented.
+    runaway = ks.equilibrium_under(machine, lambda p: ks.wrench(1e7 * (p[:, :3, 3] - 0.001)), poses=[[0, 0, 0]], most_iterations=1)
+    assert not runaway.converged[0]
+
+
+def test_program_with_a_field_of_python() -> None:
+    program = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100\nM2\n"
+
+    def bow(positions: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        out = np.zeros_like(positions)
+        out[:, 2] = 0.05 * positions[:, 0] ** 2 / 0.1
+        return out
+
+    found = ks.correct_program(program, bow)
+    assert 0 < found.error_after <= found.allowed < 1e-5
+    assert found.error_before == pytest.approx(5e-3, rel=1e-6)
+    assert found.pieces > 5
+
+    def fails(positions: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        raise KeyError("own")
+
+    with pytest.raises(KeyError, match="own"):
+        ks.correct_program(program, fails)
+    with pytest.raises(ks.ArgumentError, match="shape"):
+        ks.correct_program(program, lambda positions, directions: np.zeros(2))
+
+
+def test_what_notebooks_show(posture: ks.Posture) -> None:
+    shown = posture.machine._repr_html_()
+    assert "<svg" in shown
+    assert "leg x.slider" in shown
+    assert "N/m" in posture.stiffness()._repr_html_()
+    assert "stable" in posture.deflected_by([1, 0, 0, 0, 0, 0])._repr_html_()
+
+
+def test_picture_of_a_curve() -> None:
+    matplotlib = pytest.importorskip("matplotlib", reason="draws with matplotlib")
+    matplotlib.use("agg")
+    found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    axes = found.plot()
+    assert axes.get_xlabel() == "displacement, mm"
+    dashed = [line for line in axes.get_lines() if line.get_linestyle() == "--"]
+    assert np.isfinite(dashed[0].get_xdata()).any()  # the unstable part of the straight branch
+    matplotlib.pyplot.close(axes.figure)
+
+
+def test_urdf_from_an_object_that_writes_it() -> None:
+    class Robot:
+        def write_xml_string(self) -> bytes:
+            return (
+                b'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent link="a"/><child link="b"/>'
+                b'<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="0" velocity="1"/></joint><link name="t"/>'
+                b'<joint name="e" type="fixed"><origin xyz="2 0 0"/><parent link="b"/><child link="t"/></joint></robot>'
+            )
+
+    machine = ks.Machine.from_urdf(Robot(), tip="t", stiffness=1e5)
+    compliance = machine.posture().stiffness().compliance
+    assert compliance[1, 1] == pytest.approx(2.0**2 / 1e5, rel=1e-9)
