@@ -1,8 +1,9 @@
-//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction sets and counts.
+//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction sets and counts, the
+//! Python package.
 
 use anyhow::Result;
 
-use crate::{book, cargo, counts, step};
+use crate::{book, cargo, counts, python, step};
 
 /// What CI runs and the README promises.
 pub fn run() -> Result<()> {
@@ -47,6 +48,7 @@ pub fn run() -> Result<()> {
     book::check()?;
     counts::instruction_sets()?;
     counts::check()?;
+    python::check()?;
     eprintln!("== all passed");
     Ok(())
 }
