@@ -14,8 +14,9 @@ import timeit
 from collections.abc import Callable
 from typing import Any
 
-import kinetostat as ks
 import numpy as np
+
+import kinetostat as ks
 
 COUNT = 20_000
 ROUNDS = 4

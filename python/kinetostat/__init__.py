@@ -1,8 +1,8 @@
 """Elastostatics of robots that machine: how stiff, how far off under load, whether stable, what to command instead.
 
-Arrays in, arrays out: SI units (m, rad, N, N m), float64, base axes, linear part before angular; a wrench is what the environment applies to
-the tool. Functions that run a command of the command line (:mod:`kinetostat.commands`) return the same dictionaries as its JSON, with
-units in the names.
+Arrays in, arrays out: SI units (m, rad, N, N m), float64, base axes, linear part before angular; a wrench is what the environment
+applies to the tool. Functions that run a command of the command line (:mod:`kinetostat.commands`) return the same dictionaries as its
+JSON, with units in the names.
 """
 
 from __future__ import annotations

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import kinetostat as ks
 import numpy as np
 import pytest
+
+import kinetostat as ks
 
 # N, N m/m ... of a matrix in N, mm, rad.
 MM = np.diag([1e-3] * 3 + [1.0] * 3)
@@ -79,4 +80,3 @@ def test_stewart_gough(golden, name):
     found = ks.Machine.preset(f"stewart_gough_{name.lower()}").posture().stiffness()
     close(found.matrix, wanted, 1e-10)
     assert found.rank == case["rank"]
-

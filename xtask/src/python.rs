@@ -80,10 +80,17 @@ fn bare(python: &Interpreter, wheel: &Path) -> Result<()> {
 fn static_checks(tools: &Environment, wheel: &Path) -> Result<()> {
     tools.install(wheel)?;
     let checks: [(&str, &[&str]); 5] = [
-        ("ruff", &["-m", "ruff", "check", "python"]),
+        ("ruff", &["-m", "ruff", "check", "python", "benches/python"]),
         (
             "ruff format",
-            &["-m", "ruff", "format", "--check", "python"],
+            &[
+                "-m",
+                "ruff",
+                "format",
+                "--check",
+                "python",
+                "benches/python",
+            ],
         ),
         (
             "mypy --strict",

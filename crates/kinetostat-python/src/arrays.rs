@@ -89,16 +89,29 @@ pub fn pose(name: &str, row: usize, m: &[f64]) -> PyResult<Pose> {
     ))
 }
 
-/// Poses from an array (n, 4, 4).
+/// Poses read between two looks at signals: some milliseconds.
+const POSES_BETWEEN_SIGNALS: usize = 4096;
+
+/// Poses from an array (n, 4, 4). Millions of them take a while, in which others run and Ctrl-C is heard.
 ///
 /// # Errors
-/// As [`rows`] and [`pose`].
+/// As [`rows`] and [`pose`]; `KeyboardInterrupt`.
 pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
-    let (_, numbers) = rows(name, array, &[4, 4])?;
+    let py = array.py();
+    let (count, numbers) = rows(name, array, &[4, 4])?;
     let (each, _) = numbers.as_chunks::<16>();
-    (each.iter().enumerate())
-        .map(|(row, m)| pose(name, row, m))
-        .collect()
+    let mut found = Vec::with_capacity(count);
+    for part in each.chunks(POSES_BETWEEN_SIGNALS) {
+        let first = found.len();
+        py.detach(|| {
+            for (i, m) in part.iter().enumerate() {
+                found.push(pose(name, first + i, m)?);
+            }
+            PyResult::Ok(())
+        })?;
+        py.check_signals()?;
+    }
+    Ok(found)
 }
 
 /// Wrenches from an array (n, 6): force, moment.

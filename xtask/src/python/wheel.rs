@@ -83,8 +83,8 @@ pub fn built(tools: &Environment, profile: &str, into: &Path) -> Result<PathBuf>
         .args([
             "-m",
             "maturin",
-            "--quiet",
             "build",
+            "--quiet",
             "--profile",
             profile,
             "--out",
