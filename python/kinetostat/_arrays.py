@@ -18,14 +18,14 @@ def _shape(shape: tuple[Any, ...]) -> str:
 
 
 def numbers(name: str, value: ArrayLike) -> Floats:
-    """As C-contiguous float64; refuses complex numbers, text, objects and what is ragged."""
+    """As C-contiguous, aligned float64; refuses complex numbers, text, objects and what is ragged."""
     try:
         given = np.asarray(value)
     except ValueError as ragged:
         raise ArgumentError(f"{name} is no array: {ragged}") from None
     if given.dtype.kind not in "fiub":
         raise ArgumentError(f"{name} has dtype {given.dtype}, expected real numbers")
-    return np.ascontiguousarray(given, dtype=np.float64) if given.ndim else given.astype(np.float64)
+    return np.require(given, np.float64, ["C", "A"]) if given.ndim else given.astype(np.float64)
 
 
 def fitting(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
@@ -40,7 +40,7 @@ def rows(name: str, value: ArrayLike, shape: tuple[int, ...]) -> tuple[Floats, t
     """The same as rows (n, *shape), with the shape of the axes before."""
     given = fitting(name, value, shape)
     leading = given.shape[: given.ndim - len(shape)]
-    return given.reshape(-1, *shape) if leading != () else given.reshape(1, *shape), leading
+    return given.reshape(math.prod(leading), *shape), leading
 
 
 def one(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:

@@ -1,4 +1,4 @@
-"""The same reference numbers as the tests of the core."""
+"""The golden files of the Rust tests, through Python: numbers of the report and of programs written apart."""
 
 from __future__ import annotations
 
@@ -7,43 +7,76 @@ import pytest
 
 import kinetostat as ks
 
-# From the file's N, mm, rad to N, m, rad: translations by forces, by moments, rotations by moments.
-TO_SI = np.block([[np.full((3, 3), 1e-3), np.ones((3, 3))], [np.ones((3, 3)), np.full((3, 3), 1e3)]])
+# N, N m/m ... of a matrix in N, mm, rad.
+MM = np.diag([1e-3] * 3 + [1.0] * 3)
 
 
-def test_unloaded_compliance_of_the_orthoglide(golden):
+def stiffness_in_si(given):
+    """K (N/mm, N, N mm) as K (N/m, N, N m): of u^T K u in N mm."""
+    return 1e-3 * np.linalg.inv(MM) @ np.array(given) @ np.linalg.inv(MM)
+
+
+def wrench_in_si(given):
+    """N and N mm as N and N m."""
+    return np.array(given) * [1, 1, 1, 1e-3, 1e-3, 1e-3]
+
+
+def close(found, wanted, relative):
+    """Entries agree to a share of the largest."""
+    wanted = np.asarray(wanted, dtype=float)
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=relative * np.abs(wanted).max())
+
+
+def test_orthoglide_unloaded(golden):
+    file = golden("orthoglide_unloaded")
     machine = ks.Machine.preset("orthoglide")
-    points = golden("orthoglide_unloaded")["points"]
-    assert points
-    many = machine.stiffness(np.array([point["point"] for point in points]) * 1e-3)
-    for row, point in enumerate(points):
-        expected = np.array(point["computed"]["C"]) * TO_SI
-        one = machine.posture(position=np.array(point["point"]) * 1e-3).stiffness()
-        scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
-        assert np.all(np.abs(one.compliance - expected) < 1e-9 * scale), point["name"]
-        assert np.all(np.abs(many.compliance[row] - expected) < 1e-9 * scale), point["name"]
+    points = 1e-3 * np.array([case["point"] for case in file["points"]])
+    assert len(points) >= 5
+    many = machine.stiffness(points)
+    assert many.solved.all()
+    for i, case in enumerate(file["points"]):
+        wanted = stiffness_in_si(case["computed"]["K"])
+        one = machine.posture(position=points[i]).stiffness()
+        # In mm and rad all entries are of like size.
+        for found in (many.matrix[i], one.matrix):
+            close(1e3 * MM @ found @ MM, 1e3 * MM @ wanted @ MM, 1e-11)
+        compliance = np.linalg.inv(MM) @ one.compliance @ np.linalg.inv(MM) * 1e-3
+        close(compliance, case["computed"]["C"], 1e-11)
+        printed = case["printed"]
+        np.testing.assert_allclose(np.diag(compliance)[:3] * 1e4, printed["diag"], rtol=5e-7)
+        np.testing.assert_allclose(np.diag(compliance)[3:] * 1e7, printed["rot"], rtol=5e-7)
 
 
-@pytest.mark.parametrize("case", ["A", "B"])
-def test_hexapods_of_two_force_legs(golden, case):
-    found = next(c for c in golden("stewart_gough")["cases"] if c["name"] == case)
-    stiffness = ks.Machine.preset(f"stewart_gough_{case.lower()}").posture().stiffness()
-    assert stiffness.rank == found["rank"]
-    expected = np.zeros((6, 6))
-    for entry, value in found["computed"].items():
-        i, j = int(entry[0]) - 1, int(entry[1]) - 1
-        expected[i, j] = expected[j, i] = value
-    assert np.abs(stiffness.matrix - expected).max() < 1e-9 * np.abs(expected).max()
+def test_orthoglide_milling(golden):
+    file = golden("orthoglide_milling")
+    machine = ks.Machine.preset("orthoglide")
+    wrench = wrench_in_si(file["wrench"])
+    points = 1e-3 * np.array([case["point"] for case in file["points"]])
+    many = machine.equilibrium(points, wrench)
+    assert many.solved.all()
+    assert many.stable.all()
+    for i, case in enumerate(file["points"]):
+        wanted = case["computed"]
+        one = machine.posture(position=points[i]).deflected_by(wrench)
+        for displacement, forces in (
+            (many.displacement[i], many.actuator_forces[i]),
+            (one.displacement, one.actuator_forces),
+        ):
+            close(1e3 * displacement[:3], wanted["dp"], 1e-10)
+            close(displacement[3:], wanted["rotvec"], 1e-10)
+            close(forces, wanted["actuator_forces"], 1e-10)
+        turned = ks.rotation_vector(one.tool[:3, :3] @ machine.home[:3, :3].T)
+        close(turned, wanted["rotvec"], 1e-9)
 
 
-@pytest.mark.parametrize("delta", [0.05, 0.1, 0.2, 0.4])
-def test_all_shapes_of_the_z_chain(golden, delta):
-    # Forces on the tool that moves towards the base by delta, turns as it likes, and how stiff it is there.
-    expected = sorted((c["F_x"], c["K_x"], c["stable"]) for c in golden("z_chain")["cases"] if c["delta"] == delta)
-    answer = ks.commands.equilibria("three_link_z", displaced_mm=[-1e3 * delta, 0, 0], free="rz")
-    found = sorted((e["force_n"][0], e["stiffness_n_m_rad"][0][0], e["stable"]) for e in answer["equilibria"])
-    assert len(found) == len(expected)
-    for (force, stiffness, stable), (wanted_force, wanted_stiffness, wanted_stable) in zip(found, expected, strict=True):
-        assert force == pytest.approx(wanted_force, abs=2e-8)
-        assert stiffness == pytest.approx(wanted_stiffness, abs=2e-6)
-        assert stable is wanted_stable
+@pytest.mark.parametrize("name", ["A", "B"])
+def test_stewart_gough(golden, name):
+    file = golden("stewart_gough")
+    case = next(case for case in file["cases"] if case["name"] == name)
+    wanted = np.zeros((6, 6))
+    for key, value in case["computed"].items():
+        i, j = int(key[0]) - 1, int(key[1]) - 1
+        wanted[i, j] = wanted[j, i] = value
+    found = ks.Machine.preset(f"stewart_gough_{name.lower()}").posture().stiffness()
+    close(found.matrix, wanted, 1e-10)
+    assert found.rank == case["rank"]

@@ -11,28 +11,6 @@ from kinetostat import _core
 
 PLACES = ["--x", "-60", "60", "9", "--y", "-60", "60", "7", "--z", "-20", "20", "5"]
 GRID = ["orthoglide", *PLACES, "--force", "100", "0", "0", "--force", "0", "100", "0"]
-    "orthoglide",
-    "--x",
-    "-60",
-    "60",
-    "9",
-    "--y",
-    "-60",
-    "60",
-    "7",
-    "--z",
-    "-20",
-    "20",
-    "5",
-    "--force",
-    "100",
-    "0",
-    "0",
-    "--force",
-    "0",
-    "100",
-    "0",
-]
 VARIABLES = "margin,joint_efforts,singularity_distance,principal_stiffness"
 
 

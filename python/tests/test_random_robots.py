@@ -1,56 +1,50 @@
-"""Ten random robots against a small model in plain numpy."""
+"""Ten random robots beside a model in plain numpy: stiffness and equilibria to 1e-9."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from independent import random_arm
+from numpy_robots import cartesian_stiffness, document, equilibrium, parallel, serial
 
 import kinetostat as ks
 
-
-def drawn(seed, arm):
-    draw = np.random.default_rng(1000 + seed)
-    return draw.uniform(-1.2, 1.2, len(arm.axes)), draw.uniform(-1, 1, 6) * [300, 300, 300, 60, 60, 60]
+ROBOTS = [(make, seed) for make in (serial, parallel) for seed in range(5)]
+NAMES = [f"{make.__name__} {seed}" for make, seed in ROBOTS]
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_stiffness(seed):
-    arm = random_arm(seed)
-    commands, _ = drawn(seed, arm)
-    machine = ks.Machine.from_dict(arm.document())
-    posture = machine.posture(joints=commands)
-    position, rotation = arm.tool(commands)
-    assert np.abs(posture.target[:3, 3] - position).max() < 1e-12
-    assert np.abs(posture.target[:3, :3] - rotation).max() < 1e-12
-    # [R 3.10]: springs in series.
-    jacobian = arm.jacobian(commands)
-    compliance = jacobian / arm.stiffness @ jacobian.T
-    expected = np.linalg.inv(compliance)
-    found = posture.stiffness().matrix
-    # Beside what the matrix itself carries of rounding: entries by their directions.
-    scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
-    precision = 1e-9 * max(1.0, np.linalg.cond(compliance) * 1e-6)
-    assert np.all(np.abs(found - expected) < precision * scale)
-    assert np.all(np.abs(posture.stiffness().compliance - compliance) < 1e-9 * np.abs(compliance).max())
-    many = machine.stiffness(joints=commands[None])
-    assert np.all(np.abs(many.matrix[0] - found) < precision * scale)
+def robot(make, seed, with_spring6):
+    rng = np.random.default_rng([seed, make is parallel])
+    limbs = make(rng, with_spring6)
+    machine = ks.Machine.from_dict(document(limbs, "random"))
+    return rng, limbs, machine
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_equilibrium(seed):
-    arm = random_arm(seed)
-    commands, wrench = drawn(seed, arm)
-    machine = ks.Machine.from_dict(arm.document())
-    theta = arm.equilibrium(commands, wrench)
-    position, rotation = arm.tool(theta)
-    loaded = machine.posture(joints=commands).deflected_by(wrench)
-    size = np.abs(arm.links).sum()
-    assert np.abs(loaded.tool[:3, 3] - position).max() < 1e-9 * size
-    assert np.abs(loaded.tool[:3, :3] - rotation).max() < 1e-9
-    many = machine.equilibrium(joints=commands[None], wrenches=wrench)
-    assert many.status[0] == ks.Status.SOLVED
-    assert np.abs(many.tool[0, :3, 3] - position).max() < 1e-9 * size
-    # The torques of the drives carry the load: K (theta - q) = J^T w.
-    torque = arm.stiffness * (theta - commands)
-    assert np.abs(np.abs(many.actuator_forces[0]) - np.abs(torque)).max() < 1e-8 * np.abs(torque).max()
+@pytest.mark.parametrize(("make", "seed"), ROBOTS, ids=NAMES)
+@pytest.mark.parametrize("with_spring6", [False, True], ids=["springs", "six springs"])
+def test_stiffness(make, seed, with_spring6):
+    _, limbs, machine = robot(make, seed, with_spring6)
+    wanted = cartesian_stiffness(limbs)
+    found = machine.posture().stiffness().matrix
+    # Force and moment measured alike: by the diagonal.
+    scale = np.diag(1 / np.sqrt(np.diag(wanted)))
+    np.testing.assert_allclose(scale @ found @ scale, scale @ wanted @ scale, rtol=0, atol=1e-9)
+    many = machine.stiffness(machine.home[None])
+    assert many.solved.all()
+    np.testing.assert_allclose(scale @ many.matrix[0] @ scale, scale @ wanted @ scale, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("make", "seed"), ROBOTS, ids=NAMES)
+def test_equilibrium(make, seed):
+    rng, limbs, machine = robot(make, seed, False)
+    wrench = rng.uniform(-1, 1, 6) * [1000, 1000, 1000, 100, 100, 100]
+    wanted, left = equilibrium(limbs, wrench)
+    assert left < 1e-13
+    one = machine.posture().deflected_by(wrench)
+    many = machine.equilibrium(machine.home[None], wrench)
+    assert many.solved.all()
+    size = np.abs(wanted[:3, 3] - machine.home[:3, 3]).max()
+    assert size > 1e-4, "a load that hardly bends shows nothing"
+    for found in (one.tool, many.tool[0]):
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * size)
+    linear = np.linalg.solve(cartesian_stiffness(limbs), wrench)
+    assert np.abs(linear[:3] - one.displacement[:3]).max() > 1e-6 * size, "the linear answer would do as well"

@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, builds, cargo, counts, cutting, programs, root, step};
+use crate::{bench, builds, cargo, counts, cutting, programs, python, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -149,13 +149,14 @@ pub fn run(options: &[&str]) -> Result<()> {
             "--quick" => quick = true,
             "--builds" => only = Some(builds::measured as Measure),
             "--cutting" => only = Some(cutting::measured as Measure),
+            "--python" => only = Some(python::measured as Measure),
             "--programs" => only = Some(programs::measured as Measure),
             other => bail!(
-                "figures: unknown option {other}; there are --json, --quick, --builds, --cutting and --programs"
+                "figures: unknown option {other}; there are --json, --quick, --builds, --cutting, --programs and --python"
             ),
         }
     }
-    let all: [Measure; 9] = [
+    let all: [Measure; 10] = [
         demo,
         pocket,
         maps,
@@ -163,6 +164,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         |figures| golden(figures, &GOLDEN),
         cutting::measured,
         programs::measured,
+        python::measured,
         cost_growth,
         speed,
     ];

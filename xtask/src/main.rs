@@ -22,14 +22,15 @@ Tasks of the project
 
   cargo xtask test              format, lints, tests, documentation, book, instruction counts,
                                 the Python package: what CI runs
-  cargo xtask test --python     the Python package alone: oldest and newest CPython at hand
-  cargo xtask wheel             its wheel: size, description, installed beside numpy alone
+  cargo xtask test --python     the Python package alone
+  cargo xtask wheel             the Python package as it is handed out, in target/python/dist
   cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache
   cargo xtask figures --cutting those of cutting forces and of the stock alone
   cargo xtask figures --programs those of programs of robots and machines alone
+  cargo xtask figures --python  those of the Python package alone
   cargo xtask figures --builds  those of builds and tests from a clean clone alone: about half an hour
   cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
                                 repeats one
@@ -44,11 +45,11 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["test"] => test::run(),
-        ["test", "--python"] => python::test(),
-        ["wheel"] => python::wheel(),
+        ["test", "--python"] => python::check(),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),
+        ["wheel", options @ ..] => python::wheel(options),
         ["counts", options @ ..] => counts::run(options),
         ["bench-vs-numpy", options @ ..] => bench::versus_numpy(options),
         _ => {

@@ -1,4 +1,5 @@
-//! `cargo xtask test`: format, lints, tests, documentation, the Python package, the book, instruction sets and counts.
+//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction sets and counts, the
+//! Python package.
 
 use anyhow::Result;
 
@@ -44,10 +45,10 @@ pub fn run() -> Result<()> {
         "examples in the documentation",
         cargo().args(["test", "--workspace", "--no-fail-fast", "--doc"]),
     )?;
-    python::test()?;
     book::check()?;
     counts::instruction_sets()?;
     counts::check()?;
+    python::check()?;
     eprintln!("== all passed");
     Ok(())
 }

@@ -91,25 +91,29 @@ pub fn pose(name: &str, row: usize, m: &[f64]) -> PyResult<Pose> {
     ))
 }
 
-/// Poses that are converted between two looks for signals.
-const OFTEN: usize = 1 << 16;
+/// Poses read between two looks at signals: some milliseconds.
+const POSES_BETWEEN_SIGNALS: usize = 4096;
 
-/// Poses from an array (n, 4, 4).
+/// Poses from an array (n, 4, 4). Millions of them take a while, in which others run and Ctrl-C is heard.
 ///
 /// # Errors
 /// As [`rows`] and [`pose`]; `KeyboardInterrupt`.
 pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
-    let (_, numbers) = rows(name, array, &[4, 4])?;
+    let py = array.py();
+    let (count, numbers) = rows(name, array, &[4, 4])?;
     let (each, _) = numbers.as_chunks::<16>();
-    let mut all = Vec::with_capacity(each.len());
-    for (row, m) in each.iter().enumerate() {
-        // Millions take seconds, and Ctrl-C is not to wait for them.
-        if row % OFTEN == OFTEN - 1 {
-            array.py().check_signals()?;
-        }
-        all.push(pose(name, row, m)?);
+    let mut found = Vec::with_capacity(count);
+    for part in each.chunks(POSES_BETWEEN_SIGNALS) {
+        let first = found.len();
+        py.detach(|| {
+            for (i, m) in part.iter().enumerate() {
+                found.push(pose(name, first + i, m)?);
+            }
+            PyResult::Ok(())
+        })?;
+        py.check_signals()?;
     }
-    Ok(all)
+    Ok(found)
 }
 
 /// One pose from an array (4, 4) or (1, 4, 4).

@@ -123,7 +123,9 @@ pub(crate) fn done<R: Send + 'static>(
     manner: &Manner<'_>,
     work: impl FnOnce(&Course) -> R + Send + 'static,
 ) -> PyResult<R> {
-    if count <= FEW && manner.progress.is_none() {
+    // A number of threads that cannot be is refused of few postures too.
+    let threads_can_be = manner.threads.is_none_or(|n| n > 0);
+    if count <= FEW && manner.progress.is_none() && threads_can_be {
         return Ok(py.detach(|| work(&Course::default())));
     }
     away(py, manner, move |course| work(course))

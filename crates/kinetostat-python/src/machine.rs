@@ -222,7 +222,7 @@ impl Machine {
         target: Numbers<'_>,
         limbs: Vec<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Posture> {
-        let target = one("pose", &target)?;
+        let target = one_pose("pose", &target)?;
         let limbs = limbs.into_iter();
         let limbs = limbs.map(|(commands, coordinates)| LimbPosture {
             commands,

@@ -1,0 +1,70 @@
+//! Figures of the Python package: its wheel, its import, and what a call costs beside Rust.
+
+use anyhow::{Context, Result, bail};
+
+use super::environment::{Environment, folder};
+use super::interpreter::ends;
+use super::wheel;
+use crate::figures::{Figure, printed};
+use crate::{cargo, root, step};
+
+/// Measures them; says why where Python or the package index is missing.
+///
+/// # Errors
+/// A build or a script that fails.
+pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
+    let Some((oldest, newest)) = ends() else {
+        return left_out("there is no CPython from 3.10 with pip and venv");
+    };
+    let Some(tools) = Environment::with_test_tools(&oldest)? else {
+        return left_out("the package index cannot be reached");
+    };
+    let file = wheel::built(&tools, "wheel", &folder().join("dist"))?;
+    let size = wheel::megabytes(&file)?;
+    figures.push(Figure::at_most(
+        "Python: size of the wheel",
+        size,
+        wheel::LARGEST_MB,
+        "MB",
+    ));
+    let Some(alone) = Environment::bare(newest.as_ref().unwrap_or(&oldest))? else {
+        return left_out("pip could not install numpy");
+    };
+    let alone = alone.holding(&file)?;
+    step(
+        "the same calls in Rust",
+        cargo().args([
+            "build",
+            "--release",
+            "--quiet",
+            "-p",
+            "kinetostat-bench",
+            "--bin",
+            "python_calls",
+        ]),
+    )?;
+    let program = folder().with_file_name("release").join("python_calls");
+    let output = alone
+        .python()
+        .arg(root().join("benches/python/overhead.py"))
+        .arg(program)
+        .output()
+        .context("cannot start Python")?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    if !output.status.success() {
+        bail!(
+            "benches/python/overhead.py failed: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
+    for line in text.lines().filter(|line| !line.starts_with("figure {")) {
+        eprintln!("{line}");
+    }
+    figures.append(&mut printed(&text)?);
+    Ok(())
+}
+
+fn left_out(why: &str) -> Result<()> {
+    eprintln!("skipped: {why}, so the Python package is not measured");
+    Ok(())
+}
