@@ -34,6 +34,7 @@ mod program;
 mod reproduce;
 mod shell;
 mod stiffness;
+mod tolerance;
 mod ui;
 
 use std::ffi::OsString;
@@ -152,6 +153,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
         Command::Map(args) => map::run(&args),
+        Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),

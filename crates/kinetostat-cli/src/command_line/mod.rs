@@ -25,6 +25,7 @@ use crate::options::EXIT_CODES;
 use crate::reproduce::arguments::ReproduceArgs;
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
+use crate::tolerance::arguments::ToleranceArgs;
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
 /// that cuts where it should.
@@ -72,6 +73,7 @@ pub(crate) enum Command {
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
     Map(Box<MapArgs>),
+    Tolerance(Box<ToleranceArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),
