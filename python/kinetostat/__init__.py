@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os as _os
 
-from kinetostat import _core, commands, errors, spatial
+from kinetostat import _core, commands, errors, spatial, tolerance
 from kinetostat._core import Equilibrium, Posture, Stiffness
 from kinetostat.errors import (
     ArgumentError,
@@ -51,6 +51,7 @@ __all__ = [
     "rotation_from_vector",
     "rotation_vector",
     "spatial",
+    "tolerance",
     "wrench",
 ]
 

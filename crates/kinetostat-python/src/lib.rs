@@ -16,6 +16,7 @@ mod errors;
 mod machine;
 mod posture;
 mod stiffness;
+mod tolerance;
 mod work;
 
 use pyo3::prelude::*;
@@ -34,6 +35,8 @@ mod _core {
     use crate::posture::Posture;
     #[pymodule_export]
     use crate::stiffness::Stiffness;
+    #[pymodule_export]
+    use crate::tolerance::{drawn_numbers, sobol_design, sobol_of_answers, tolerance_of_machine};
     #[pymodule_export]
     use crate::work::forked;
 

@@ -188,14 +188,14 @@ pub fn answers(
     samples: &Samples,
     lines: Vec<Linear>,
 ) -> Vec<OutputAnswer> {
+    let values = |i| uncertainties.drawn(draws, i);
+    let inputs: Vec<Vec<f64>> = (0..draws.len()).into_par_iter().map(values).collect();
     lines
         .into_par_iter()
         .enumerate()
         .map(|(column, line)| {
             let values = samples.column(column);
-            let nonlinearity = nonlinearity(&values, |i| {
-                line.at(uncertainties, &uncertainties.drawn(draws, i))
-            });
+            let nonlinearity = nonlinearity(&values, |i| line.at(uncertainties, &inputs[i]));
             OutputAnswer {
                 draws: Summary::of(draws, &values),
                 verdict: Verdict {

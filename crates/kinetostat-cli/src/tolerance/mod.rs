@@ -68,6 +68,10 @@ pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let Some(first) = queries.first() else {
         return Err(Failure::input("give a place with --at"));
     };
+    // Within the limits of the actuators, as drawn.
+    for query in &queries {
+        query.posture()?;
+    }
     let name = args.uncertain.display().to_string();
     let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
     let file = UncertaintyFile::read(&text, &name, &model, &first.wrench)?;
