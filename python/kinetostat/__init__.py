@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os as _os
 
-from kinetostat import _core, commands, errors, maps, spatial, sweep
+from kinetostat import _core, commands, errors, maps, spatial, sweep, tolerance
 from kinetostat.build import LimbBuilder, MachineBuilder
 from kinetostat.errors import (
     ArgumentError,
@@ -68,6 +68,7 @@ __all__ = [
     "rotation_vector",
     "spatial",
     "sweep",
+    "tolerance",
     "wrench",
 ]
 

@@ -36,6 +36,7 @@ mod reproduce;
 mod shares;
 mod shell;
 mod stiffness;
+mod tolerance;
 mod ui;
 
 use std::ffi::OsString;
@@ -156,6 +157,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Shares(args) => shares::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
+        Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),

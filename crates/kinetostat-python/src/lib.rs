@@ -18,6 +18,7 @@ mod map;
 mod posture;
 mod program;
 mod stiffness;
+mod tolerance;
 mod work;
 
 use pyo3::prelude::*;
@@ -40,6 +41,8 @@ mod _core {
     use crate::program::correct_program;
     #[pymodule_export]
     use crate::stiffness::Stiffness;
+    #[pymodule_export]
+    use crate::tolerance::{drawn_numbers, sobol_design, sobol_of_answers, tolerance_of_machine};
     #[pymodule_export]
     use crate::work::forked;
 

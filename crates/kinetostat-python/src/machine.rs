@@ -20,8 +20,8 @@ use crate::posture::Posture;
 /// A model with its tool, and the machine compiled for many postures once one is asked for.
 #[pyclass(frozen, module = "kinetostat._core")]
 pub struct Machine {
-    model: Arc<Model>,
-    tool: Pose,
+    pub(crate) model: Arc<Model>,
+    pub(crate) tool: Pose,
     pub(crate) mechanism: Mechanism,
     compiled: OnceLock<Arc<Batch>>,
 }

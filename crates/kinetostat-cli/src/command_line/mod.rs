@@ -27,6 +27,7 @@ use crate::reproduce::arguments::ReproduceArgs;
 use crate::shares::arguments::SharesArgs;
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
+use crate::tolerance::arguments::ToleranceArgs;
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
 /// that cuts where it should.
@@ -76,6 +77,7 @@ pub(crate) enum Command {
     Shares(Box<SharesArgs>),
     Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
+    Tolerance(Box<ToleranceArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),

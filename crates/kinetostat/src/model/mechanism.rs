@@ -588,6 +588,70 @@ impl Mechanism {
 }
 
 impl Mechanism {
+    /// This machine as it was built, commanded by a controller that believes in another one: that of the drawing. Its links,
+    /// springs, loads and masses are its own; commands are computed from the geometry of `drawn`.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// let arm = |length: f64| {
+    ///     let chain = Chain::builder("arm")
+    ///         .actuator("slide", ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), 1e6)) // N/m
+    ///         .translation(vector![length, 0.0, 0.0])
+    ///         .build()?;
+    ///     Mechanism::serial(chain, Pose::translation(length, 0.0, 0.0), Vector3::zeros())
+    /// };
+    /// let drawn = arm(0.5)?;
+    /// let built = arm(0.501)?.commanded_as(&drawn)?;
+    /// let unloaded = built.posture(&Pose::translation(0.5, 0.0, 0.1))?.deflected_by(&Wrench::zero())?;
+    /// assert!((unloaded.displacement.linear() - vector![0.001, 0.0, 0.0]).norm() < 1e-12, "it came out 1 mm too long");
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Model`] if the two differ in more than numbers: in platforms, limbs, joints or springs.
+    pub fn commanded_as(&self, drawn: &Self) -> Result<Self> {
+        let differ = |what: &str| {
+            Err(Error::model(
+                self.place(),
+                format!("is not built as drawn: {what}"),
+            ))
+        };
+        let mut built = MechanismParts::clone(&self.parts);
+        let (ours, theirs) = (&mut built.limbs, drawn.limbs());
+        if ours.len() != theirs.len() || built.platforms.len() != drawn.platforms().len() {
+            return differ("it has other limbs or platforms");
+        }
+        for (own, other) in ours.iter_mut().zip(theirs) {
+            let (a, b) = (&mut own.actual, &other.nominal);
+            if (own.from, own.to) != (other.from, other.to)
+                || a.elements.len() != b.elements.len()
+                || a.coordinate_count() != b.coordinate_count()
+                || a.actuators().len() != b.actuators().len()
+            {
+                return differ("a limb has other elements");
+            }
+            // Where it is fixed to its platform is an error of the limb for who believes in the drawing.
+            if own.platform_from_tip != other.platform_from_tip {
+                let tip = own.platform_from_tip.inverse() * other.platform_from_tip;
+                own.nominal = other.nominal.clone();
+                for (chain, offset) in [(a, tip), (&mut own.nominal, Pose::identity())] {
+                    // Behind everything but the node of the tip, which is the last element.
+                    let at = chain.elements.len().saturating_sub(1);
+                    let rigid = crate::model::chain::Element::Rigid(offset);
+                    chain.elements.insert(at, rigid);
+                }
+                own.platform_from_tip = other.platform_from_tip;
+            } else {
+                own.nominal = other.nominal.clone();
+            }
+        }
+        for (own, other) in built.platforms.iter_mut().zip(drawn.platforms()) {
+            own.home = other.home;
+        }
+        Ok(built.into())
+    }
+
     /// The same mechanism with its tool platform's reference point and axes moved to `tool`
     /// (platform from tool): a spindle's tip, say. Results then refer to that point.
     ///

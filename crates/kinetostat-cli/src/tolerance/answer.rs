@@ -1,0 +1,67 @@
+//! The answer of `tolerance`, stable names with units.
+
+use kinetostat_machining::Warning;
+use kinetostat_tolerance::{Failures, OutputAnswer, SobolIndex, Uncertain};
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub(crate) struct ToleranceAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) machines: usize,
+    pub(crate) seed: u64,
+    /// Of all bounds.
+    pub(crate) confidence: f64,
+    pub(crate) uncertain: Vec<UncertainAnswer>,
+    pub(crate) correlated: bool,
+    /// Draws without a whole answer.
+    pub(crate) failures: Failures,
+    /// The same of the draws for Sobol indices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sobol_failures: Option<Failures>,
+    pub(crate) places: Vec<PlaceResults>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct UncertainAnswer {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+    pub(crate) unit: String,
+    pub(crate) distribution: &'static str,
+    /// Standard deviation of a normal one, half width of another.
+    pub(crate) spread: f64,
+}
+
+impl UncertainAnswer {
+    pub(crate) fn of(u: &Uncertain) -> Self {
+        Self {
+            name: u.name.clone(),
+            value: u.value,
+            unit: u.unit.clone(),
+            distribution: u.distribution.word(),
+            spread: u.distribution.spread(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+pub(crate) struct PlaceResults {
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) results: Vec<ColumnResult>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct ColumnResult {
+    /// With its unit.
+    pub(crate) name: &'static str,
+    #[serde(flatten)]
+    pub(crate) answer: OutputAnswer,
+    /// Of every uncertain number, in their order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sobol: Option<Vec<SobolIndex>>,
+}

@@ -1,0 +1,266 @@
+//! `kinetostat tolerance`: how far results scatter when the machine is not exactly as drawn.
+//!
+//! It takes a model, a file of uncertainties, places and perhaps a load, and gives mean, spread and quantiles of many machines beside
+//! linear propagation, a table of all machines and a histogram.
+
+mod answer;
+pub(crate) mod arguments;
+mod plot;
+mod text;
+
+use std::path::Path;
+
+use kinetostat::{Pose, Wrench};
+use kinetostat_machining::straight_tool;
+use kinetostat_tolerance::{
+    CONFIDENCE, Draws, Linear, MOST_DRAWS, Quantity, Samples, TaskError, UncertainMachine,
+    UncertaintyFile, answers, linearised, monte_carlo, sobol,
+};
+
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::place::arguments::PlaceArgs;
+use crate::place::query::{PlaceQuery, place_query_of};
+use crate::tolerance::answer::{ColumnResult, PlaceResults, ToleranceAnswer, UncertainAnswer};
+use crate::tolerance::arguments::{Asked, ToleranceArgs};
+use crate::ui::csv_table::{cell, written};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::Progress;
+use crate::ui::{json, threads};
+
+/// Numbers of all machines that are kept at a time, 1.6 GB.
+const MOST_NUMBERS: usize = 200_000_000;
+
+impl From<TaskError> for Failure {
+    fn from(error: TaskError) -> Self {
+        match error {
+            TaskError::Model(error) => error.into(),
+            TaskError::Core(error) => error.into(),
+            other => Self::unanswered(other.to_string()),
+        }
+    }
+}
+
+pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
+    let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    let mut queries = Vec::new();
+    let each: Vec<Option<Vec<f64>>> = match args.at.is_empty() {
+        true => vec![None],
+        false => args.at.chunks(3).map(|at| Some(at.to_vec())).collect(),
+    };
+    for at in each {
+        let place = PlaceArgs {
+            at,
+            rotation: args.rotation.clone(),
+            ..PlaceArgs::default()
+        };
+        let (force, moment) = (args.force.as_deref(), args.moment.as_deref());
+        queries.push(place_query_of(
+            &model,
+            path.clone(),
+            &args.model,
+            &place,
+            args.tool_length_mm,
+            force,
+            moment,
+        )?);
+    }
+    let Some(first) = queries.first() else {
+        return Err(Failure::input("give a place with --at"));
+    };
+    // Within the limits of the actuators, as drawn.
+    for query in &queries {
+        query.posture()?;
+    }
+    let name = args.uncertain.display().to_string();
+    let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
+    let file = UncertaintyFile::read(&text, &name, &model, &first.wrench)?;
+    let quantities = quantities(args);
+    let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
+    let poses: Vec<Pose> = queries.iter().map(|q| q.target).collect();
+    let machine = UncertainMachine::new(&model, &tool, &file, &poses, first.wrench, &quantities)?;
+    let draws = drawn(
+        "--machines",
+        args.machines.unwrap_or(4096),
+        args,
+        machine.width(),
+    )?;
+    let for_sobol = match args.sobol {
+        Some(_) if file.uncertainties.is_correlated() => {
+            return Err(Failure::input(
+                "--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
+            ));
+        }
+        Some(count) => {
+            let width = machine.width() * (file.uncertainties.each().len() + 2);
+            Some(drawn("--sobol", count, args, width)?)
+        }
+        None => None,
+    };
+    let inputs = path
+        .iter()
+        .cloned()
+        .chain([args.uncertain.clone()])
+        .collect();
+    let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
+    let csv = args
+        .csv
+        .as_ref()
+        .map(|p| outputs.claim("table", p))
+        .transpose()?;
+    let plot = args
+        .plot
+        .as_ref()
+        .map(|p| outputs.claim("plot", p))
+        .transpose()?;
+    let progress = Progress::new();
+    let work = || -> Answer<_> {
+        let samples =
+            monte_carlo(&machine, &file.uncertainties, &draws, &progress).map_err(Failure::from)?;
+        let indices = match &for_sobol {
+            Some(draws) => Some(
+                sobol(&machine, &file.uncertainties, draws, &progress).map_err(Failure::from)?,
+            ),
+            None => None,
+        };
+        let lines: Vec<Linear> = linearised(&machine, &file.uncertainties)?;
+        let each = answers(&file.uncertainties, &draws, &samples, lines);
+        Ok((samples, indices, each))
+    };
+    let (samples, indices, each) = threads::in_threads(args.threads, work)??;
+    progress.finish();
+    let columns = machine.columns();
+    let (indices, sobol_failures) = indices.map_or((None, None), |(i, f)| (Some(i), Some(f)));
+    let results: Vec<ColumnResult> = (each.into_iter().enumerate())
+        .map(|(k, answer)| ColumnResult {
+            name: columns[k % columns.len()],
+            answer,
+            sobol: indices.as_ref().map(|all| all[k].clone()),
+        })
+        .collect();
+    let answer = answer_of(
+        args,
+        &file,
+        first,
+        &draws,
+        &samples,
+        sobol_failures,
+        in_places(&queries, results, columns.len()),
+    );
+    if let Some(index) = csv {
+        outputs.fill(index, &table(&file, &draws, &samples, &columns)?)?;
+    }
+    if let Some(index) = plot {
+        let shown = &answer.places[0].results[0];
+        let linear = [
+            shown.answer.linear.nominal,
+            shown.answer.linear.standard_deviation,
+        ];
+        let title = format!(
+            "{}: {} of {} machines",
+            answer.model, shown.name, answer.machines
+        );
+        let picture = plot::histogram(title, shown.name, &samples.column(0), linear);
+        outputs.fill(index, picture.svg().as_bytes())?;
+    }
+    let paths = outputs.commit()?;
+    let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
+    json::print_answer(&text, &answer, args.json)
+}
+
+fn quantities(args: &ToleranceArgs) -> Vec<Quantity> {
+    let loaded = args.force.is_some() || args.moment.is_some();
+    let all = match (args.only.is_empty(), loaded) {
+        (true, true) => return Quantity::ALL.to_vec(),
+        (true, false) => return vec![Quantity::Error, Quantity::Stiffness],
+        _ => args.only.iter().map(|asked: &Asked| asked.quantity()),
+    };
+    Quantity::ALL
+        .into_iter()
+        .filter(|q| all.clone().any(|a| a == *q))
+        .collect()
+}
+
+fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answer<Draws> {
+    if !(16..=MOST_DRAWS).contains(&count) {
+        return Err(Failure::input(format!(
+            "{option} {count}: 16 to {MOST_DRAWS} can be drawn"
+        )));
+    }
+    if count.saturating_mul(width) > MOST_NUMBERS {
+        return Err(Failure::input(format!(
+            "{option} {count}: with all places and results these are {} numbers, and {MOST_NUMBERS} can be kept; take fewer places or machines, or ask for less with --only",
+            count.saturating_mul(width)
+        )));
+    }
+    Ok(Draws::new(count, args.seed.unwrap_or(0) as u64))
+}
+
+fn in_places(
+    queries: &[PlaceQuery],
+    results: Vec<ColumnResult>,
+    columns: usize,
+) -> Vec<PlaceResults> {
+    let mut results = results.into_iter();
+    let place = |query: &PlaceQuery| PlaceResults {
+        position_mm: (query.target.translation.vector * 1e3).into(),
+        results: results.by_ref().take(columns).collect(),
+    };
+    queries.iter().map(place).collect()
+}
+
+fn answer_of(
+    args: &ToleranceArgs,
+    file: &UncertaintyFile,
+    query: &PlaceQuery,
+    draws: &Draws,
+    samples: &Samples,
+    sobol_failures: Option<kinetostat_tolerance::Failures>,
+    places: Vec<PlaceResults>,
+) -> ToleranceAnswer {
+    let wrench: Wrench = query.wrench;
+    ToleranceAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        force_n: wrench.force().into(),
+        moment_n_m: wrench.moment().into(),
+        machines: draws.len(),
+        seed: args.seed.unwrap_or(0) as u64,
+        confidence: CONFIDENCE,
+        uncertain: file
+            .uncertainties
+            .each()
+            .iter()
+            .map(UncertainAnswer::of)
+            .collect(),
+        correlated: file.uncertainties.is_correlated(),
+        failures: samples.failures.clone(),
+        sobol_failures,
+        places,
+        warnings: query.warnings.clone(),
+    }
+}
+
+/// One row for each machine: the numbers drawn, then the results, empty where there is none.
+fn table(
+    file: &UncertaintyFile,
+    draws: &Draws,
+    samples: &Samples,
+    columns: &[&str],
+) -> Answer<Vec<u8>> {
+    let mut head: Vec<String> = vec!["machine".to_owned()];
+    head.extend(file.uncertainties.each().iter().map(|u| u.name.clone()));
+    let places = samples.width / columns.len().max(1);
+    for place in 1..=places {
+        head.extend(columns.iter().map(|c| format!("place_{place}_{c}")));
+    }
+    let mut rows = vec![head];
+    for (machine, numbers) in samples.numbers.chunks(samples.width.max(1)).enumerate() {
+        let values = file.uncertainties.drawn(draws, machine);
+        let each = values.iter().chain(numbers).map(|x| cell(*x));
+        rows.push(std::iter::once(machine.to_string()).chain(each).collect());
+    }
+    written(&rows)
+}

@@ -1,0 +1,65 @@
+//! A histogram of one result, with the linear one above it.
+
+use std::f64::consts::PI;
+
+use kinetostat_report::{Plot, PlotLine};
+
+/// Densities over the values: that of the draws in steps, and a normal one of the linear propagation.
+pub(crate) fn histogram(
+    title: String,
+    label: &str,
+    values: &[f64],
+    [nominal, deviation]: [f64; 2],
+) -> Plot {
+    let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    known.sort_unstable_by(f64::total_cmp);
+    let (Some(low), Some(high)) = (known.first().copied(), known.last().copied()) else {
+        return Plot {
+            title,
+            ..Plot::default()
+        };
+    };
+    // As many bars as draws fill (a cube root of them), at least ten.
+    let bars = ((2.0 * (known.len() as f64).cbrt()) as usize).clamp(10, 80);
+    let width = (high - low) / bars as f64;
+    let mut lines = Vec::new();
+    if width > 0.0 {
+        let mut counts = vec![0.0; bars];
+        for x in &known {
+            counts[(((x - low) / width) as usize).min(bars - 1)] += 1.0;
+        }
+        let mut steps = vec![(low, 0.0)];
+        for (k, count) in counts.iter().enumerate() {
+            let density = count / (known.len() as f64 * width);
+            let left = low + width * k as f64;
+            steps.extend([(left, density), (left + width, density)]);
+        }
+        steps.push((high, 0.0));
+        lines.push(PlotLine {
+            name: format!("{} machines", known.len()),
+            colour: 0,
+            dashed: false,
+            points: steps,
+        });
+    }
+    if deviation > 0.0 {
+        let at = |k: i32| {
+            let z = f64::from(k) / 20.0;
+            let density = (-0.5 * z * z).exp() / (deviation * (2.0 * PI).sqrt());
+            (nominal + z * deviation, density)
+        };
+        lines.push(PlotLine {
+            name: "linear, normal".to_owned(),
+            colour: 1,
+            dashed: true,
+            points: (-80..=80).map(at).collect(),
+        });
+    }
+    Plot {
+        title,
+        x_label: label.to_owned(),
+        y_label: "density".to_owned(),
+        lines,
+        marks: Vec::new(),
+    }
+}

@@ -1,0 +1,79 @@
+//! Quasi-random draws: Sobol's sequence, scrambled after Owen in Burley's way (JCGT 9(4), 2020), several times over.
+//!
+//! One scrambled sequence fills the cube evenly, and says nothing of its own error. Several, scrambled independently, do: the scatter
+//! of what each finds is the confidence of what all find together.
+
+use sobol_burley::sample;
+
+/// Sequences that are scrambled independently of each other.
+pub const REPLICATES: usize = 16;
+
+/// More draws than that the sequences do not have.
+pub const MOST_DRAWS: usize = REPLICATES << 16;
+
+const DIMENSIONS: usize = 256;
+
+/// Points in the unit cube, the same for the same seed on every machine and with any number of threads.
+///
+/// ```
+/// use kinetostat_tolerance::Draws;
+/// let draws = Draws::new(1600, 7);
+/// let mean = (0..1600).map(|i| draws.point(i, 3)).sum::<f64>() / 1600.0;
+/// assert!((mean - 0.5).abs() < 2e-3, "{mean}: independent draws would be off by 7e-3");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Draws {
+    count: usize,
+    seed: u64,
+}
+
+impl Draws {
+    /// So many draws, between [`REPLICATES`] and [`MOST_DRAWS`], rounded up so that all sequences are equally long.
+    #[must_use]
+    pub fn new(count: usize, seed: u64) -> Self {
+        let each = count.clamp(1, MOST_DRAWS).div_ceil(REPLICATES);
+        Self {
+            count: each * REPLICATES,
+            seed,
+        }
+    }
+
+    /// Number of draws.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// False: there are draws.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The sequence that a draw belongs to.
+    #[must_use]
+    pub fn replicate(&self, draw: usize) -> usize {
+        draw / (self.count / REPLICATES).max(1)
+    }
+
+    /// One coordinate of a draw, between 0 and 1, neither of them.
+    #[must_use]
+    pub fn point(&self, draw: usize, dimension: usize) -> f64 {
+        let each = (self.count / REPLICATES).max(1);
+        let scramble = [(draw / each) as u64, (dimension / DIMENSIONS) as u64];
+        let seed = scramble
+            .iter()
+            .fold(mixed(self.seed), |s, k| mixed(s ^ mixed(*k)));
+        let (index, axis) = ((draw % each) as u32, (dimension % DIMENSIONS) as u32);
+        // Points are whole multiples of 2^-24: the middle of what each stands for.
+        f64::from(sample(index, axis, seed as u32)) + 0.5_f64.powi(25)
+    }
+}
+
+/// A number whose bits depend on all bits of another (splitmix64).
+fn mixed(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}

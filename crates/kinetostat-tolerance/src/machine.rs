@@ -1,0 +1,309 @@
+//! A machine as a function of its uncertain numbers: built as drawn by chance, commanded as the drawing says.
+
+use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+use kinetostat::nalgebra::Vector3;
+use kinetostat::{Directions, Mechanism, Pose, Wrench};
+use kinetostat_model::{Model, ModelError, ParametricModel};
+use serde::Serialize;
+
+use crate::file::{Source, UncertaintyFile};
+
+/// What is asked of a machine at each place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// From where the unloaded tool is commanded to where it is (mm): errors of manufacture and assembly, and the machine's own
+    /// weight.
+    Error,
+    /// From where the unloaded tool is to where the load moves it (mm).
+    Deflection,
+    /// From where the tool is commanded to where it is under the load (mm): both together.
+    Deviation,
+    /// The same if the command is compensated with the numbers of the drawing (mm): what compensation leaves.
+    Compensated,
+    /// Force along x, y and z per motion along it, the tool free to turn, under the load (N/mm).
+    Stiffness,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Error,
+        Self::Deflection,
+        Self::Deviation,
+        Self::Compensated,
+        Self::Stiffness,
+    ];
+
+    /// Its columns, with units: length and components, or components only.
+    #[must_use]
+    pub fn columns(self) -> &'static [&'static str] {
+        match self {
+            Self::Error => &["error_mm", "error_x_mm", "error_y_mm", "error_z_mm"],
+            Self::Deflection => &[
+                "deflection_mm",
+                "deflection_x_mm",
+                "deflection_y_mm",
+                "deflection_z_mm",
+            ],
+            Self::Deviation => &[
+                "deviation_mm",
+                "deviation_x_mm",
+                "deviation_y_mm",
+                "deviation_z_mm",
+            ],
+            Self::Compensated => &[
+                "compensated_mm",
+                "compensated_x_mm",
+                "compensated_y_mm",
+                "compensated_z_mm",
+            ],
+            Self::Stiffness => &[
+                "stiffness_x_n_per_mm",
+                "stiffness_y_n_per_mm",
+                "stiffness_z_n_per_mm",
+            ],
+        }
+    }
+
+    /// What it is called in files and on the command line.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Deflection => "deflection",
+            Self::Deviation => "deviation",
+            Self::Compensated => "compensated",
+            Self::Stiffness => "stiffness",
+        }
+    }
+}
+
+/// Why nothing can be asked.
+#[derive(Debug, thiserror::Error)]
+pub enum TaskError {
+    /// The numbers make no machine.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The machine refuses.
+    #[error(transparent)]
+    Core(#[from] kinetostat::Error),
+    /// The machine as drawn has no answer at a place.
+    #[error("as drawn, the machine has no answer at place {place} (counted from 1): {reason}")]
+    Unanswered {
+        /// From 1.
+        place: usize,
+        /// What the general engine says.
+        reason: String,
+    },
+}
+
+/// A machine as a function of its uncertain numbers.
+#[derive(Clone, Debug)]
+pub struct UncertainMachine {
+    parametric: ParametricModel,
+    sources: Vec<Source>,
+    tool: Pose,
+    drawn: Mechanism,
+    places: Vec<Pose>,
+    /// Commands that compensate the load with the numbers of the drawing.
+    compensated: Vec<Pose>,
+    wrench: Wrench,
+    quantities: Vec<Quantity>,
+}
+
+/// Rooms that a thread uses again and again.
+#[derive(Debug, Default)]
+pub struct Room {
+    unloaded: BatchEquilibrium,
+    loaded: BatchEquilibrium,
+    compensated: BatchEquilibrium,
+    wrenches: Vec<Wrench>,
+}
+
+impl UncertainMachine {
+    /// A model with the pose of its tool, places of the tool (base from tool) and a load on it (base axes, about its reference point).
+    ///
+    /// # Errors
+    /// What is wrong with the numbers of the drawing, or where the machine as drawn has no answer.
+    pub fn new(
+        model: &Model,
+        tool: &Pose,
+        file: &UncertaintyFile,
+        places: &[Pose],
+        wrench: Wrench,
+        quantities: &[Quantity],
+    ) -> Result<Self, TaskError> {
+        let paths: Vec<&str> = file
+            .sources
+            .iter()
+            .filter_map(|s| match s {
+                Source::Parameter(path) => Some(path.as_str()),
+                _ => None,
+            })
+            .collect();
+        let parametric = model.parametric(&paths)?;
+        let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
+        let drawn = parametric.mechanism(&nominal)?.with_tool(tool);
+        let mut machine = Self {
+            parametric,
+            sources: file.sources.clone(),
+            tool: *tool,
+            drawn,
+            places: places.to_vec(),
+            compensated: Vec::new(),
+            wrench,
+            quantities: quantities.to_vec(),
+        };
+        if quantities.contains(&Quantity::Compensated) {
+            let positions = Directions::NONE.with(0).with(1).with(2);
+            let wrenches = vec![wrench; places.len()];
+            let found =
+                Batch::new(&machine.drawn).targets_under_load(places, &wrenches, positions)?;
+            machine.compensated = found.targets;
+        }
+        let mut out = vec![0.0; machine.width()];
+        machine.answer(
+            &file.uncertainties.nominal(),
+            &mut Room::default(),
+            &mut out,
+        )?;
+        if let Some(at) = out.iter().position(|x| !x.is_finite()) {
+            let place = at / machine.columns().len();
+            let posture = machine.drawn.posture(&places[place]);
+            let asked = posture.and_then(|p| p.deflected_by(&wrench));
+            let reason = asked
+                .err()
+                .map_or("it has no stiffness there".to_owned(), |e| e.to_string());
+            return Err(TaskError::Unanswered {
+                place: place + 1,
+                reason,
+            });
+        }
+        Ok(machine)
+    }
+
+    /// Names of the numbers of each place.
+    #[must_use]
+    pub fn columns(&self) -> Vec<&'static str> {
+        self.quantities
+            .iter()
+            .flat_map(|q| q.columns())
+            .copied()
+            .collect()
+    }
+
+    /// Numbers of one answer: places times columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.places.len() * self.columns().len()
+    }
+
+    /// Number of places.
+    #[must_use]
+    pub fn places(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The machine with these numbers: place after place, column after column; NaN where a place has no answer. Returns the places at
+    /// which the equilibrium under the load is not stable.
+    ///
+    /// # Errors
+    /// [`TaskError::Model`] where the numbers make no machine.
+    pub fn answer(
+        &self,
+        values: &[f64],
+        room: &mut Room,
+        out: &mut [f64],
+    ) -> Result<usize, TaskError> {
+        let mut numbers = Vec::with_capacity(values.len());
+        let (mut wrench, mut factor) = (self.wrench, 1.0);
+        for (source, value) in self.sources.iter().zip(values) {
+            match source {
+                Source::Parameter(_) => numbers.push(*value),
+                Source::Load(k) => wrench.0[*k] = *value,
+                Source::LoadFactor => factor = *value,
+            }
+        }
+        wrench.0 *= factor;
+        let built = self.parametric.mechanism(&numbers)?.with_tool(&self.tool);
+        let batch = Batch::new(&built.commanded_as(&self.drawn)?);
+        let asked = |some: &[Quantity]| self.quantities.iter().any(|q| some.contains(q));
+        let wrenches = &mut room.wrenches;
+        if asked(&[Quantity::Error, Quantity::Deflection]) {
+            refill(wrenches, Wrench::zero(), self.places.len());
+            batch.equilibrium_into(&self.places, wrenches, Details::Rest, &mut room.unloaded)?;
+        }
+        refill(wrenches, wrench, self.places.len());
+        let mut unstable = 0;
+        if asked(&[
+            Quantity::Deflection,
+            Quantity::Deviation,
+            Quantity::Stiffness,
+        ]) {
+            batch.equilibrium_into(&self.places, wrenches, Details::Stability, &mut room.loaded)?;
+            let stable = (0..self.places.len()).filter_map(|i| room.loaded.stability(i));
+            unstable = stable.filter(|s| !s.stable).count();
+        }
+        if asked(&[Quantity::Compensated]) {
+            batch.equilibrium_into(
+                &self.compensated,
+                wrenches,
+                Details::Rest,
+                &mut room.compensated,
+            )?;
+        }
+        let each = self.columns().len();
+        for (place, row) in out.chunks_exact_mut(each.max(1)).enumerate() {
+            self.put(place, room, row);
+        }
+        Ok(unstable)
+    }
+
+    fn put(&self, place: usize, room: &Room, row: &mut [f64]) {
+        let target = self.places[place].translation.vector;
+        let mut rest = row;
+        for quantity in &self.quantities {
+            let (own, after) = std::mem::take(&mut rest).split_at_mut(quantity.columns().len());
+            rest = after;
+            let moved = match quantity {
+                Quantity::Error => at(&room.unloaded, place) - target,
+                Quantity::Deflection => at(&room.loaded, place) - at(&room.unloaded, place),
+                Quantity::Deviation => at(&room.loaded, place) - target,
+                Quantity::Compensated => at(&room.compensated, place) - target,
+                Quantity::Stiffness => {
+                    own.copy_from_slice(&stiffness(&room.loaded, place));
+                    continue;
+                }
+            };
+            let mm = moved * 1e3;
+            own.copy_from_slice(&[mm.norm(), mm.x, mm.y, mm.z]);
+        }
+    }
+}
+
+fn refill(wrenches: &mut Vec<Wrench>, wrench: Wrench, count: usize) {
+    wrenches.clear();
+    wrenches.resize(count, wrench);
+}
+
+/// Position of the tool, m; NaN without an answer.
+fn at(found: &BatchEquilibrium, place: usize) -> Vector3<f64> {
+    match found.status[place].is_solved() {
+        true => Vector3::from_fn(|k, _| found.tool.get(place, 9 + k)),
+        false => Vector3::repeat(f64::NAN),
+    }
+}
+
+/// Force per motion along x, y and z with the tool free to turn, N/mm; NaN without an answer or where a direction is free.
+fn stiffness(found: &BatchEquilibrium, place: usize) -> [f64; 3] {
+    if !found.status[place].is_solved() {
+        return [f64::NAN; 3];
+    }
+    let matrix =
+        kinetostat::nalgebra::Matrix6::from_fn(|i, j| found.stiffness.get(place, 6 * i + j));
+    match matrix.try_inverse() {
+        Some(compliance) => [0, 1, 2].map(|k| 1e-3 / compliance[(k, k)]),
+        None => [f64::NAN; 3],
+    }
+}

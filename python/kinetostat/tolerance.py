@@ -1,0 +1,269 @@
+"""Tolerances: how far results scatter when a machine is not exactly as drawn.
+
+Numbers of the model are named by their paths and scatter in their own units; results are in mm and N/mm, as their names say.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kinetostat import _core
+from kinetostat._arrays import Floats, numbers, one
+from kinetostat.errors import ArgumentError
+from kinetostat.machine import Machine
+
+__all__ = ["Distribution", "MachineSamples", "SobolIndices", "draws", "machines", "normal", "sobol", "triangular", "uniform"]
+
+_QUANTITIES = ("error", "deflection", "deviation", "compensated", "stiffness")
+
+
+@dataclasses.dataclass(frozen=True)
+class Distribution:
+    """How a number scatters about its value."""
+
+    word: str
+    """``normal``, ``uniform`` or ``triangular``."""
+    spread: float
+    """Standard deviation of a normal one, half width of another."""
+    percent: bool = False
+    """The spread is a percentage of the value."""
+
+
+def normal(deviation: float, *, percent: bool = False) -> Distribution:
+    """Normal, by its standard deviation.
+
+    Examples
+    --------
+    >>> normal(0.02).word
+    'normal'
+    """
+    return Distribution("normal", float(deviation), percent)
+
+
+def uniform(half_width: float, *, percent: bool = False) -> Distribution:
+    """Everything from minus to plus the half width alike.
+
+    Examples
+    --------
+    >>> uniform(5, percent=True).spread
+    5.0
+    """
+    return Distribution("uniform", float(half_width), percent)
+
+
+def triangular(half_width: float, *, percent: bool = False) -> Distribution:
+    """Symmetric, zero at minus and plus the half width.
+
+    Examples
+    --------
+    >>> triangular(0.1).word
+    'triangular'
+    """
+    return Distribution("triangular", float(half_width), percent)
+
+
+@dataclasses.dataclass(frozen=True)
+class MachineSamples:
+    """Machines drawn by chance, and the linear function beside them. NaN where a machine has no answer at a place."""
+
+    names: tuple[str, ...]
+    """Of the uncertain numbers."""
+    columns: tuple[str, ...]
+    """Of the results, with units."""
+    values: Floats
+    """What the drawing states, shape (numbers,)."""
+    inputs: Floats
+    """Values drawn, shape (n, numbers), in their own units."""
+    samples: Floats
+    """Results, shape (n, places, columns)."""
+    nominal: Floats
+    """Results of the machine as drawn, shape (places, columns)."""
+    deviation: Floats
+    """Standard deviations by linear propagation, shape (places, columns)."""
+    derivatives: Floats
+    """Central differences, shape (places, columns, numbers), per unit of each number."""
+    no_machine: int
+    """Draws whose numbers make no machine."""
+    no_answer: int
+    """Draws without an answer at a place or more."""
+    unstable: int
+    """Draws that are not stable under the load at a place or more; their numbers count."""
+
+    def column(self, name: str) -> Floats:
+        """One result of all machines, shape (n, places).
+
+        Raises
+        ------
+        ArgumentError
+            If there is no such column.
+        """
+        if name not in self.columns:
+            raise ArgumentError(f"there is no column '{name}'; there are {', '.join(self.columns)}")
+        return self.samples[:, :, self.columns.index(name)]
+
+    def nonlinearity(self) -> Floats:
+        """Root mean square of exact minus linear in standard deviations, shape (places, columns); beyond 0.1 linear is not enough."""
+        line = self.nominal + np.einsum("pcd,nd->npc", self.derivatives, self.inputs - self.values)
+        off = np.sqrt(np.nanmean((self.samples - line) ** 2, axis=0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found: Floats = np.where(off <= 1e-10 * np.abs(self.nominal), 0.0, off / np.nanstd(self.samples, axis=0))
+        return found
+
+
+def _toml(spread: Mapping[str, Distribution], correlations: Mapping[tuple[str, str], float]) -> str:
+    lines = ["schema = 1"]
+    for name, own in spread.items():
+        key, word = ("load", name[5:]) if name.startswith("load ") else ("parameter", name)
+        lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {own.spread!r}"]
+    for (a, b), coefficient in correlations.items():
+        lines += ["[[correlation]]", f"between = [{json.dumps(a)}, {json.dumps(b)}]", f"coefficient = {float(coefficient)!r}"]
+    return "\n".join(lines) + "\n"
+
+
+def machines(
+    machine: Machine,
+    spread: Mapping[str, Distribution] | str,
+    poses: ArrayLike,
+    wrench: ArrayLike = (0.0,) * 6,
+    *,
+    quantities: Sequence[str] = _QUANTITIES,
+    correlations: Mapping[tuple[str, str], float] | None = None,
+    draws: int = 4096,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> MachineSamples:
+    """Machines whose numbers scatter, each commanded as the drawing says.
+
+    Parameters
+    ----------
+    machine : Machine
+        As drawn.
+    spread : mapping of str to Distribution, or str
+        By path of the model's number, or ``load force_n.x`` .. ``load moment_n_m.z``, ``load factor``; or the text of a file.
+    poses : array_like, shape (places, 4, 4) or (places, 3)
+        Where the tool is commanded to, m; positions with the orientation at home.
+    wrench : array_like, shape (6,)
+        Force and moment on the tool (N, N m), base axes.
+    quantities : sequence of str
+        Of ``error``, ``deflection``, ``deviation``, ``compensated``, ``stiffness``.
+    correlations : mapping of pairs of names to float, optional
+        Of the numbers' normal scores.
+    draws : int
+        Number of machines, rounded up to a multiple of 16.
+    seed : int
+        The same seed draws the same machines.
+    threads, progress
+        As for :meth:`kinetostat.Machine.stiffness`.
+
+    Returns
+    -------
+    MachineSamples
+
+    Raises
+    ------
+    ModelError
+        For an unknown number (with the nearest), a negative spread, contradicting correlations.
+    UnansweredError
+        If the machine as drawn has no answer.
+
+    Examples
+    --------
+    >>> orthoglide = Machine.preset("orthoglide")
+    >>> found = machines(orthoglide, {"chain.leg.q2.length_mm": normal(0.01)}, [[0, 0, 0]], [100, 0, 0, 0, 0, 0], draws=64)
+    >>> found.samples.shape[:2], found.inputs.shape
+    ((64, 1), (64, 1))
+    """
+    unknown = [name for name in quantities if name not in _QUANTITIES]
+    if unknown or isinstance(quantities, str):
+        raise ArgumentError(f"quantities is {quantities!r}, expected some of {', '.join(_QUANTITIES)}")
+    text = spread if isinstance(spread, str) else _toml(spread, correlations or {})
+    places, _ = machine._poses(poses)
+    load = one("wrench", wrench, (6,))[None]
+    found: dict[str, Any] = _core.tolerance_of_machine(
+        machine._native, text, "spread", places, load, list(quantities), draws, seed, threads, progress
+    )
+    found["names"], found["columns"] = tuple(found["names"]), tuple(found["columns"])
+    found["values"] = np.asarray(found["values"])
+    return MachineSamples(**found)
+
+
+def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlation: ArrayLike | None = None, seed: int = 0) -> Floats:
+    """Quasi-random draws (scrambled Sobol sequences), shape (n, numbers), n rounded up to a multiple of 16.
+
+    Examples
+    --------
+    >>> draws([1.0, 2.0], [normal(0.1), uniform(0.5)], 32).shape
+    (32, 2)
+    """
+    each = _each(values, spread)
+    pairs = []
+    if correlation is not None:
+        matrix = one("correlation", correlation, (len(each), len(each)))
+        if not (np.array_equal(matrix, matrix.T) and np.all(np.diag(matrix) == 1)):
+            raise ArgumentError("correlation is not symmetric with ones on its diagonal")
+        pairs = [(i, j, float(matrix[i, j])) for i in range(len(each)) for j in range(i)]
+    return _core.drawn_numbers(each, pairs, n, seed)
+
+
+def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float, str, float]]:
+    centre = one("values", values, (len(spread),))
+    return [(float(x), d.word, d.spread * abs(float(x)) / 100 if d.percent else d.spread) for x, d in zip(centre, spread, strict=True)]
+
+
+@dataclasses.dataclass(frozen=True)
+class SobolIndices:
+    """Which part of the variance each number explains, with half widths of 95 % confidence; shape (outputs, numbers)."""
+
+    first: Floats
+    """Alone."""
+    first_plus_minus: Floats
+    """Half widths."""
+    total: Floats
+    """Together with others."""
+    total_plus_minus: Floats
+    """Half widths."""
+    unanswered: int
+    """Draws that were left out because the function gave what is no number."""
+
+
+def sobol(
+    function: Callable[[Floats], ArrayLike], values: ArrayLike, spread: Sequence[Distribution], n: int, *, seed: int = 0
+) -> SobolIndices:
+    """Sobol indices (Saltelli, Jansen) of any function of independent numbers.
+
+    Parameters
+    ----------
+    function : callable
+        Takes values, shape (m, numbers), and gives (m,) or (m, outputs).
+    values : array_like, shape (numbers,)
+        About which the numbers scatter.
+    spread : sequence of Distribution
+        How.
+    n : int
+        Draws; the function is asked for ``n * (numbers + 2)`` rows.
+    seed : int
+        Of the draws.
+
+    Examples
+    --------
+    >>> found = sobol(lambda x: 3 * x[:, 0] + 4 * x[:, 1], [0, 0], [normal(1), normal(1)], 1024)
+    >>> [float(x) for x in found.first[0].round(2)]
+    [0.36, 0.64]
+    """
+    each = _each(values, spread)
+    design = _core.sobol_design(each, n, seed)
+    rows = design.reshape(-1, len(each))
+    answers = numbers("the function's answer", function(rows))
+    if answers.shape[:1] != rows.shape[:1] or answers.ndim > 2:
+        raise ArgumentError(f"the function gave shape {answers.shape} for {rows.shape}, expected ({len(rows)},) or ({len(rows)}, outputs)")
+    outputs = answers.reshape(len(rows), -1).T
+    found = [_core.sobol_of_answers(column.tolist(), len(each)) for column in outputs]
+    table = np.stack([own for own, _ in found])
+    return SobolIndices(*(table[:, :, k] for k in range(4)), unanswered=len(design) - min(used for _, used in found))

@@ -1,0 +1,88 @@
+"""Tolerances: against closed forms, SALib, and numbers computed apart."""
+
+from __future__ import annotations
+
+import doctest
+
+import numpy as np
+import pytest
+
+import kinetostat as ks
+from kinetostat import tolerance as tol
+
+
+def test_examples_run() -> None:
+    done = doctest.testmod(tol)
+    assert done.attempted >= 6
+    assert done.failed == 0
+
+
+def ishigami(x: np.ndarray) -> np.ndarray:
+    return np.sin(x[:, 0]) + 7 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
+
+
+def test_sobol_indices_of_ishigami() -> None:
+    found = tol.sobol(ishigami, [0, 0, 0], [tol.uniform(np.pi)] * 3, 8192)
+    v1, v2 = 0.5 * (1 + 0.1 * np.pi**4 / 5) ** 2, 49 / 8
+    v13 = 0.01 * np.pi**8 * (1 / 18 - 1 / 50)
+    v = v1 + v2 + v13
+    np.testing.assert_allclose(found.first[0], np.array([v1, v2, 0]) / v, atol=0.015)
+    np.testing.assert_allclose(found.total[0], np.array([v1 + v13, v2, v13]) / v, atol=0.015)
+    assert found.unanswered == 0
+
+
+def test_sobol_indices_of_ishigami_are_those_of_salib() -> None:
+    sample = pytest.importorskip("SALib.sample.sobol")
+    analyze = pytest.importorskip("SALib.analyze.sobol")
+    problem = {"num_vars": 3, "names": ["a", "b", "c"], "bounds": [[-np.pi, np.pi]] * 3}
+    rows = sample.sample(problem, 4096, calc_second_order=False, seed=1)
+    theirs = analyze.analyze(problem, ishigami(rows), calc_second_order=False, seed=1)
+    ours = tol.sobol(ishigami, [0, 0, 0], [tol.uniform(np.pi)] * 3, 8192)
+    np.testing.assert_allclose(ours.first[0], theirs["S1"], atol=0.03)
+    np.testing.assert_allclose(ours.total[0], theirs["ST"], atol=0.03)
+
+
+def test_a_correlated_pair() -> None:
+    drawn = tol.draws([1, 2], [tol.normal(0.1), tol.normal(10, percent=True)], 4096, correlation=[[1, 0.6], [0.6, 1]])
+    np.testing.assert_allclose(np.cov(drawn.T), [[0.01, 0.012], [0.012, 0.04]], rtol=0.02)
+
+
+def test_machines_linear_against_draws() -> None:
+    machine = ks.Machine.preset("orthoglide")
+    spread = {
+        "chain.leg.q2.length_mm": tol.normal(0.002),
+        "stiffness.bar.scale": tol.normal(1, percent=True),
+        "load force_n.x": tol.normal(1, percent=True),
+    }
+    found = tol.machines(machine, spread, [[0, 0, 0], [0.05, -0.03, 0.02]], [215, -10, -25, 0, 0, 0], draws=512, seed=3)
+    assert found.samples.shape == (512, 2, 19)
+    assert found.inputs.shape == (512, 3)
+    assert found.no_machine == found.no_answer == found.unstable == 0
+    at = found.columns.index("deflection_mm")
+    np.testing.assert_allclose(found.samples[:, :, at].std(axis=0), found.deviation[:, at], rtol=0.05)
+    assert (found.nonlinearity()[:, at] < 0.1).all()
+    # One machine anew, as a model of its own whose load is the drawn one: the deflection is what the machine itself says.
+    no_change = tol.machines(machine, {"load force_n.x": tol.normal(1e-12)}, [[0, 0, 0]], [215, -10, -25, 0, 0, 0], draws=16)
+    alone = machine.equilibrium([[0, 0, 0]], [215, -10, -25, 0, 0, 0]).displacement[0, :3] * 1e3
+    np.testing.assert_allclose(no_change.column("deviation_x_mm")[:, 0], alone[0], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("spread", "words"),
+    [
+        ({"chain.leg.q2.lenght_mm": tol.normal(1)}, "chain.leg.q2.length_mm"),
+        ({"chain.leg.q2.length_mm": tol.normal(-1)}, "negative"),
+        ({"chain.leg.slider.stiffness_n_per_mm": tol.normal(40, percent=True)}, "stiffness"),
+    ],
+)
+def test_what_is_wrong_is_refused(spread: dict[str, tol.Distribution], words: str) -> None:
+    with pytest.raises(ks.ModelError, match=words):
+        tol.machines(ks.Machine.preset("orthoglide"), spread, [[0, 0, 0]])
+
+
+def test_arguments_that_are_wrong() -> None:
+    c = [[1, 0.9, -0.9], [0.9, 1, 0.9], [-0.9, 0.9, 1]]
+    with pytest.raises(ks.ArgumentError, match="contradict"):
+        tol.draws([0, 0, 0], [tol.normal(1)] * 3, 16, correlation=c)
+    with pytest.raises(ks.ArgumentError, match="shape"):
+        tol.sobol(lambda x: x[:3], [0], [tol.normal(1)], 64)
