@@ -1,5 +1,7 @@
 //! The words of a program in G-code that are no motion.
 
+use std::collections::BTreeSet;
+
 use kinetostat_program::{Path, PauseKind, SpeedMode, Spindle, SpindleRotation};
 
 use crate::making::action::{Coolant, EventAction};
@@ -9,6 +11,7 @@ use crate::making::events::SourceEvent;
 /// The events of a program in G-code.
 #[must_use]
 pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Vec<SourceEvent> {
+    let moving: BTreeSet<usize> = path.moves.iter().map(|motion| motion.line).collect();
     let mut events = Vec::new();
     for line in 1..=program.line_count() {
         let Some(bytes) = program.line_bytes(line) else {
@@ -25,31 +28,49 @@ pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Ve
                 _ => None,
             });
         let event = words.event(line, dwell, path.spindle_on(line));
-        events.extend(stop_behind(event));
+        events.extend(split_behind(event, moving.contains(&line)));
     }
     events
 }
 
-/// A stop beside words that act before the motion is an event of its own behind it.
-fn stop_behind(mut event: SourceEvent) -> Vec<SourceEvent> {
-    let stops = |action: &EventAction| action.kind() == EventKind::Stop;
-    let own = event.actions.iter().copied().find(stops);
-    let Some(action) = own.filter(|_| !event.is_behind) else {
+/// What acts behind the motion, beside words that act before it, is an event of its own behind it.
+///
+/// Controllers disagree about M5 and M9 beside a motion: where one moves they come behind it, since a spindle that stops while
+/// the tool still cuts does harm, a little later does none.
+fn split_behind(mut event: SourceEvent, moves: bool) -> Vec<SourceEvent> {
+    let is_late = |action: &EventAction| text_behind(*action, moves).is_some();
+    let late: Vec<_> = event.actions.iter().copied().filter(is_late).collect();
+    let Some(first) = late.first().filter(|_| !event.is_behind) else {
         return vec![event];
     };
-    event.actions.retain(|action| !stops(action));
-    let text = match action {
-        EventAction::OptionalStop => "M1",
-        _ => "M0",
-    };
-    let stop = SourceEvent {
+    if late.len() == event.actions.len() && event.rest.is_none() {
+        event.is_behind = true;
+        return vec![event];
+    }
+    event.actions.retain(|action| !is_late(action));
+    let texts: Vec<_> = (late.iter())
+        .filter_map(|action| text_behind(*action, moves))
+        .collect();
+    let behind = SourceEvent {
         is_behind: true,
-        ..SourceEvent::acting(event.line, action, text)
+        actions: late.clone(),
+        ..SourceEvent::acting(event.line, *first, texts.join(" "))
     };
-    // Without it nothing may be left but words that are of no concern.
-    let speaks = !event.actions.is_empty() || event.rest.is_some();
-    event.rest = event.rest.or((!speaks).then_some(EventKind::Comment));
-    vec![event, stop]
+    vec![event, behind]
+}
+
+/// The word of what acts behind the motion of its block; none for what acts before it.
+fn text_behind(action: EventAction, moves: bool) -> Option<&'static str> {
+    match action {
+        EventAction::OptionalStop => Some("M1"),
+        EventAction::Stop => Some("M0"),
+        EventAction::Spindle {
+            rotation: SpindleRotation::Stopped,
+            ..
+        } if moves => Some("M5"),
+        EventAction::Coolant(Coolant::Off) if moves => Some("M9"),
+        _ => None,
+    }
 }
 
 /// The words of a block that are no motion.
