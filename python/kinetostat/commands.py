@@ -21,6 +21,7 @@ __all__ = [
     "Completed",
     "assemble",
     "check",
+    "compare",
     "compensate",
     "convert",
     "curve",
@@ -43,7 +44,9 @@ __all__ = [
     "model_show",
     "reproduce",
     "run",
+    "shares",
     "stiffness",
+    "tolerance",
 ]
 
 _Path = str | os.PathLike[str]
@@ -669,6 +672,162 @@ def stiffness(
     ]
     return answered(["stiffness"], options, progress)
 
+def shares(
+    model: _Path | Machine,
+    *,
+    at: Sequence[float] | None = None,
+    rotation: str | float | None = None,
+    joints: str | float | Sequence[str | float] | None = None,
+    controller: str | float | Sequence[str | float] | None = None,
+    pendant: str | float | Sequence[str | float] | None = None,
+    direction: Literal["x", "y", "z", "rx", "ry", "rz"] | None = None,
+    along: Sequence[float] | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    tool_length_mm: float | None = None,
+    sensitivities: bool = False,
+    reduce_percent: float | None = None,
+    csv: _Path | None = None,
+    plot: _Path | None = None,
+    force_overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> dict[str, Any]:
+    """Which link, drive, joint gives how much of the deflection in a direction.
+
+    Divides the compliance of the tool in one direction exactly among all springs of the machine, and
+    what loads add as they turn; all shares add to 100 %. Without a force it is that of the unloaded
+    machine as drawn; under one, what a further small load meets.
+
+    Parameters
+    ----------
+    model : path | Machine
+        Preset or model file
+    at : Sequence[float]
+        Place of the tool's tip in base axes, mm; home without it
+    rotation : str | float
+        Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90, or the
+        word follows: the one nearest to that at home which the machine can have there. Without it,
+        the orientation at home; it follows where the machine cannot hold one
+    joints : str | float | Sequence[str | float]
+        The place by the model's joint values instead, deg and mm, as in shoulder=30 rail=250;
+        joints that are not named stay at home
+    controller : str | float | Sequence[str | float]
+        The same by what the controller shows, as in J1=10 J2=31.324; the model declares it in its
+        section controller
+    pendant : str | float | Sequence[str | float]
+        The name of `--controller` before; it is taken for one version more, with a warning
+    direction : Literal["x", "y", "z", "rx", "ry", "rz"]
+        Along which axis of the base the tool is pushed, or about which it is turned
+    along : Sequence[float]
+        Any other direction of the push, base axes
+    force : Sequence[float]
+        Force on the tool's tip, N: shares under it
+    moment : Sequence[float]
+        Moment on the tool about its tip, N m
+    tool_length_mm : float
+        Distance of the tool's tip along z of the flange, mm
+    sensitivities : bool
+        Besides: what every number of the model file changes, the strongest first
+    reduce_percent : float
+        Besides: the cheapest stiffening that lowers the deflection by so many percent
+    csv : path
+        All points as a table (CSV)
+    plot : path
+        The drawing (SVG)
+    force_overwrite : bool
+        Overwrite outputs that exist (never an input)
+    progress : callable
+        Called with what is done, how much there is and the name of the stage.
+
+    Returns
+    -------
+    dict
+        What the command prints with ``--json``.
+    """
+    options: list[tuple[str, Any]] = [
+        ("", model),
+        ("--at", at),
+        ("--rotation", rotation),
+        ("--joints", joints),
+        ("--controller", controller),
+        ("--pendant", pendant),
+        ("--direction", direction),
+        ("--along", along),
+        ("--force", force),
+        ("--moment", moment),
+        ("--tool-length-mm", tool_length_mm),
+        ("--sensitivities", sensitivities),
+        ("--reduce-percent", reduce_percent),
+        ("--csv", csv),
+        ("--plot", plot),
+        ("--force-overwrite", force_overwrite),
+    ]
+    return answered(["shares"], options, progress)
+
+def compare(
+    a: _Path | Machine,
+    b: _Path | Machine,
+    *,
+    at: Sequence[float] | None = None,
+    x: Sequence[float] | None = None,
+    y: Sequence[float] | None = None,
+    z: Sequence[float] | None = None,
+    tool_length_mm: float | None = None,
+    csv: _Path | None = None,
+    plot: _Path | None = None,
+    force_overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> dict[str, Any]:
+    """Which of two designs is stiffer where, and by which parts.
+
+    Puts both at the same places: stiffness along the axes and the shares of their parts beside each
+    other, and over a grid the difference at every place that both reach. (`model compare` tells whether
+    two files describe one machine.)
+
+    Parameters
+    ----------
+    a : path | Machine
+        Preset or model file
+    b : path | Machine
+        Preset or model file
+    at : Sequence[float]
+        Position of the tool, base axes, mm; may be repeated. Without it, each at its home
+    x : Sequence[float]
+        Grid along x of the base, mm: from, to, and how many places
+    y : Sequence[float]
+        The same along y
+    z : Sequence[float]
+        The same along z
+    tool_length_mm : float
+        Distance of the tool's tip along z of the flange, mm, of both
+    csv : path
+        All points as a table (CSV)
+    plot : path
+        The drawing (SVG)
+    force_overwrite : bool
+        Overwrite outputs that exist (never an input)
+    progress : callable
+        Called with what is done, how much there is and the name of the stage.
+
+    Returns
+    -------
+    dict
+        What the command prints with ``--json``.
+    """
+    options: list[tuple[str, Any]] = [
+        ("", a),
+        ("", b),
+        ("--at", at),
+        ("--x", x),
+        ("--y", y),
+        ("--z", z),
+        ("--tool-length-mm", tool_length_mm),
+        ("--csv", csv),
+        ("--plot", plot),
+        ("--force-overwrite", force_overwrite),
+    ]
+    return answered(["compare"], options, progress)
+
 def map(
     model: _Path | Machine,
     *,
@@ -776,6 +935,91 @@ def map(
         ("--threads", threads),
     ]
     return answered(["map"], options, progress)
+
+def tolerance(
+    model: _Path | Machine,
+    *,
+    uncertain: _Path | None = None,
+    at: Sequence[float] | None = None,
+    rotation: str | float | None = None,
+    tool_length_mm: float | None = None,
+    force: Sequence[float] | None = None,
+    moment: Sequence[float] | None = None,
+    only: Literal["error", "deflection", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection", "deviation", "compensated", "stiffness"]] | None = None,
+    machines: int | None = None,
+    seed: int | None = None,
+    sobol: int | None = None,
+    csv: _Path | None = None,
+    plot: _Path | None = None,
+    force_overwrite: bool = False,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> dict[str, Any]:
+    """How far do results scatter when the machine is not exactly as drawn.
+
+    Builds thousands of machines whose numbers scatter as a file says, commands each as the drawing
+    says, and tells the spread of its error, its deflection and its stiffness, before and after
+    compensation; beside it what linear propagation says, and whether that is enough.
+
+    Parameters
+    ----------
+    model : path | Machine
+        Preset or model file
+    uncertain : path
+        What is uncertain (TOML, see below)
+    at : Sequence[float]
+        Place of the tool's tip in base axes, mm; once for each place; home without it
+    rotation : str | float
+        Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90
+    tool_length_mm : float
+        Distance of the tool's tip along z of the flange, mm
+    force : Sequence[float]
+        Force on the tool's tip, N, base axes
+    moment : Sequence[float]
+        Moment on the tool about its tip, N m, base axes
+    only : Literal["error", "deflection", "deviation", "compensated", "stiffness"] | Sequence[Literal["error", "deflection", "deviation", "compensated", "stiffness"]]
+        What is asked; without it, error and stiffness, and under a load everything
+    machines : int
+        Number of machines, rounded up to a multiple of 16 [default: 4096]
+    seed : int
+        Seed of the draws; the same seed draws the same machines [default: 0]
+    sobol : int
+        Sobol indices, too, from so many draws, each of which asks for as many machines as there are
+        uncertain numbers, and two
+    csv : path
+        All machines as a table (CSV): the numbers drawn, then the results at every place
+    plot : path
+        Histogram of the first result at the first place, with the linear one above it (SVG)
+    force_overwrite : bool
+        Overwrite outputs that exist (never an input)
+    threads : int
+        Number of threads; all cores without it. The result is the same
+    progress : callable
+        Called with what is done, how much there is and the name of the stage.
+
+    Returns
+    -------
+    dict
+        What the command prints with ``--json``.
+    """
+    options: list[tuple[str, Any]] = [
+        ("", model),
+        ("--uncertain", uncertain),
+        ("--at", at),
+        ("--rotation", rotation),
+        ("--tool-length-mm", tool_length_mm),
+        ("--force", force),
+        ("--moment", moment),
+        ("--only", only),
+        ("--machines", machines),
+        ("--seed", seed),
+        ("--sobol", sobol),
+        ("--csv", csv),
+        ("--plot", plot),
+        ("--force-overwrite", force_overwrite),
+        ("--threads", threads),
+    ]
+    return answered(["tolerance"], options, progress)
 
 def assemble(
     model: _Path | Machine,
