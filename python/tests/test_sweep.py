@@ -113,6 +113,7 @@ def test_a_failing_chunk_is_named_and_the_others_are_kept(tmp_path: Path) -> Non
     with ThreadPoolExecutor(1) as pool, pytest.raises(sweep.SweepError, match=r"chunk 6 \(rows 60 to 69\).*ZeroDivisionError"):
         sweep.to_folder(tmp_path / "out", functions.counted, 100, settings, chunk=10, executor=pool, under_way=1)
     assert sweep.verify(tmp_path / "out").sound == tuple(range(6))
+    assert (tmp_path / "log").read_text().split() == ["0", "10", "20", "30", "40", "50", "60", "60"]
 
 
 @pytest.mark.parametrize("harm", ["cut", "altered", "gone"])

@@ -76,7 +76,7 @@ def run(
     Raises
     ------
     SweepError
-        The function failed (the message says for which rows), or workers were lost and none can be made.
+        The function failed, on an executor twice (the message says for which rows), or workers were lost and none can be made.
 
     Examples
     --------

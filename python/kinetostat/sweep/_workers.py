@@ -71,6 +71,7 @@ class _Pool:
         self.under_way: dict[Future[Any], int] = {}
         # A queue and no wait(): it costs the same however many are under way, and takes the futures of every library.
         self.back: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
+        self.failed: set[int] = set()
         self.broken_since_progress = 0
 
     def work(self) -> None:
@@ -105,6 +106,11 @@ class _Pool:
             raise
         except Exception as failed:
             del self.under_way[future]
+            if index not in self.failed:
+                # Once more: Dask hands on a result that is lost with its worker as one of several errors, and nodes have faults.
+                self.failed.add(index)
+                self.waiting.appendleft(index)
+                return
             first, last = self.plan.rows(index)
             raise SweepError(f"chunk {index} (rows {first} to {last - 1}) failed: {type(failed).__name__}: {failed}") from failed
         # Not before it is kept: what interrupts here must not lose it.
