@@ -70,7 +70,8 @@ fn compared(name: &str, model: &Model, moved: [f64; 3], wrench: Wrench, tool: Po
         // What is solved anew is known to some 1e-10 of the figure: a number that changes it by less than 3 % of itself where it
         // doubles is compared beside these 3 %.
         let size = p.value.abs().max(0.1 / p.in_si.max(1.0));
-        let quantities: [(&str, fn(&Values) -> f64); 3] = [
+        type Quantity = (&'static str, fn(&Values) -> f64);
+        let quantities: [Quantity; 3] = [
             ("deflection", |v| v.deflection),
             ("compliance", |v| v.compliance),
             ("margin", |v| v.share_to_buckling.unwrap_or(0.0)),
@@ -101,7 +102,7 @@ fn compared(name: &str, model: &Model, moved: [f64; 3], wrench: Wrench, tool: Po
             counted += 1;
         }
     }
-    println!(
+    eprintln!(
         "{name}: {counted} derivatives of {} numbers, at worst {worst:?}",
         found.list.len()
     );
