@@ -119,7 +119,7 @@ pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     for at in args.at.chunks(3) {
         places.push(Some(vector("--at", at)? * 1e-3));
     }
-    let places = places.into_iter().map(|at| {
+    let places = places.into_iter().map(|at| -> Answer<AtPlace> {
         Ok(AtPlace {
             a: a.figures(at)?,
             b: b.figures(at)?,

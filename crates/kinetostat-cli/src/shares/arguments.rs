@@ -40,7 +40,7 @@ pub(crate) struct SharesArgs {
     #[arg(long)]
     pub(crate) sensitivities: bool,
     /// Besides: the cheapest stiffening that lowers the deflection by so many percent
-    #[arg(long, value_name = "PERCENT", value_parser = number)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
     pub(crate) reduce_percent: Option<f64>,
     #[command(flatten)]
     pub(crate) outputs: AnswerFiles,
