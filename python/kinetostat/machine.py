@@ -5,9 +5,10 @@ from __future__ import annotations
 import copy
 import dataclasses
 import json
+import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -318,7 +319,7 @@ class Machine:
         if length is not None:
             pose[2, 3] = float(one("length", length, ()))
         else:
-            pose = one("tool", np.asarray(tool), (4, 4))
+            pose = one("tool", cast(ArrayLike, tool), (4, 4))
         return self._of(self._native.with_tool(pose[None]))
 
     # What it does --------------------------------------------------------------------------------------------------
@@ -470,7 +471,7 @@ class Machine:
         if poses is not None:
             places, leading = self._poses(poses)
             return places, None, leading
-        commands, leading = rows("joints", np.asarray(joints), (len(self._native.actuators()),))
+        commands, leading = rows("joints", cast(ArrayLike, joints), (len(self._native.actuators()),))
         return None, commands, leading
 
     def equilibrium(
@@ -529,7 +530,7 @@ class Machine:
             return given.reshape(1, 6)
         if given.shape[:-1] != leading:
             raise ArgumentError(f"wrenches has shape {given.shape}, expected (6,) or {(*leading, 6)}")
-        return np.ascontiguousarray(given.reshape(-1, 6))
+        return np.ascontiguousarray(given.reshape(math.prod(leading), 6))
 
     def targets(
         self,

@@ -266,4 +266,6 @@ def sobol(
     outputs = answers.reshape(len(rows), -1).T
     found = [_core.sobol_of_answers(column.tolist(), len(each)) for column in outputs]
     table = np.stack([own for own, _ in found])
-    return SobolIndices(*(table[:, :, k] for k in range(4)), unanswered=len(design) - min(used for _, used in found))
+    first, first_plus_minus, total, total_plus_minus = (table[:, :, k] for k in range(4))
+    unanswered = len(design) - min(used for _, used in found)
+    return SobolIndices(first, first_plus_minus, total, total_plus_minus, unanswered)

@@ -418,6 +418,8 @@ fn no_example_escapes_the_tests() {
                     "console" | "math" => true,
                     // Parts of files that are compiled elsewhere.
                     "rs" => true,
+                    // Run by `python/tests/test_book.py`, but for those that say why not.
+                    "python" => true,
                     // Files that shell examples use.
                     "toml" | "text" | "csv" => before.starts_with("<!-- file: "),
                     _ => false,
