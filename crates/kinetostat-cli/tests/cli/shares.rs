@@ -67,7 +67,7 @@ fn directions_that_nothing_holds_or_that_are_none_are_refused() {
 fn a_design_is_compared_with_its_own_stiffer_self() {
     let here = workplace();
     let text = kinetostat_model::preset_text("orthoglide").expect("a preset");
-    let stiffer = text.replace("stiffness_n_per_mm = 1e6", "stiffness_n_per_mm = 2e6");
+    let stiffer = text.replace("stiffness_n_per_mm = 1.0e6", "stiffness_n_per_mm = 2.0e6");
     assert_ne!(text, stiffer);
     std::fs::write(here.path().join("stiffer.toml"), stiffer).expect("written");
     let line = "compare orthoglide stiffer.toml --at 10 20 30 --x -40 40 5 --y -40 40 5 --json --csv c.csv --plot c.svg";
