@@ -4,6 +4,9 @@ use std::f64::consts::PI;
 
 use kinetostat_report::{Plot, PlotLine};
 
+/// How many times as high as the histogram a linear density is drawn at most.
+const NEEDLE: f64 = 5.0;
+
 /// Densities over the values: that of the draws in steps, and a normal one of the linear propagation.
 pub(crate) fn histogram(
     title: String,
@@ -23,6 +26,7 @@ pub(crate) fn histogram(
     let bars = ((2.0 * (known.len() as f64).cbrt()) as usize).clamp(10, 80);
     let width = (high - low) / bars as f64;
     let mut lines = Vec::new();
+    let mut highest = 0.0;
     if width > 0.0 {
         let mut counts = vec![0.0; bars];
         for x in &known {
@@ -31,6 +35,7 @@ pub(crate) fn histogram(
         let mut steps = vec![(low, 0.0)];
         for (k, count) in counts.iter().enumerate() {
             let density = count / (known.len() as f64 * width);
+            highest = f64::max(highest, density);
             let left = low + width * k as f64;
             steps.extend([(left, density), (left + width, density)]);
         }
@@ -42,11 +47,12 @@ pub(crate) fn histogram(
             points: steps,
         });
     }
-    if deviation > 0.0 {
+    let peak = 1.0 / (deviation * (2.0 * PI).sqrt());
+    // Where the linear scatter is next to nothing beside that of the machines, its needle would hide them.
+    if deviation > 0.0 && (highest == 0.0 || peak < NEEDLE * highest) {
         let at = |k: i32| {
             let z = f64::from(k) / 20.0;
-            let density = (-0.5 * z * z).exp() / (deviation * (2.0 * PI).sqrt());
-            (nominal + z * deviation, density)
+            (nominal + z * deviation, peak * (-0.5 * z * z).exp())
         };
         lines.push(PlotLine {
             name: "linear, normal".to_owned(),
