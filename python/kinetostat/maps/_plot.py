@@ -137,7 +137,8 @@ def _single(found: xarray.Dataset, name: str) -> Variable:
 def _plane(ax: Any, found: xarray.Dataset, values: Any, outside: Any, levels: int, label: str) -> None:
     down, across = (str(dim) for dim in values.dims)
     x, y = found[across].values * 1e3, found[down].values * 1e3
-    numbers = np.ma.masked_invalid(values.values)
+    masked: Any = np.ma  # without types in older versions of numpy
+    numbers = masked.masked_invalid(values.values)
     mesh = ax.pcolormesh(x, y, numbers, shading="nearest", cmap="viridis", rasterized=True)
     ax.figure.colorbar(mesh, ax=ax, label=label)
     if min(numbers.shape) > 1 and numbers.count() and numbers.max() > numbers.min():

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 
-def squares(first: int, last: int, *, threads: int | None = None, power: float = 2.0) -> dict[str, np.ndarray]:
+def squares(first: int, last: int, *, threads: int | None = None, power: float = 2.0) -> dict[str, NDArray[Any]]:
     """Rows of a sweep that needs no machine.
 
     Examples
