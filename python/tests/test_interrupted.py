@@ -16,9 +16,11 @@ import kinetostat as ks
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="SIGINT is sent as POSIX systems do")
 
 CHILD = """
-import sys, time
+import signal, sys, time
 import numpy as np
 import kinetostat as ks
+# Programs that a shell starts in the background ignore it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 machine = ks.Machine.preset("orthoglide")
 places = np.random.default_rng(0).uniform(-0.05, 0.05, (2_000_000, 3))
 load = [100, -20, -30, 0, 0, 0]

@@ -1,9 +1,9 @@
 //! The difference of two designs over a common grid.
 
+use kinetostat::Mechanism;
 use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, map};
 use kinetostat_report::{Cell, Plot, PlotLine, Section};
 
-use crate::compare::Design;
 use crate::compare::answer::{Compared, Summary};
 use crate::compare::arguments::CompareArgs;
 use crate::ui::csv_table::{cell, written};
@@ -58,12 +58,12 @@ pub(crate) struct Difference {
     pub(crate) summary: Summary,
 }
 
-fn places(design: &Design, grid: Grid) -> Answer<Vec<MapPlace>> {
+fn places(mechanism: &Mechanism, grid: Grid) -> Answer<Vec<MapPlace>> {
     let task = MapTask {
-        mechanism: &design.mechanism,
+        mechanism,
         grid,
-        orientation: design.home().rotation,
-        orientation_follows: design.mechanism.turns_as_it_moves(),
+        orientation: mechanism.platforms()[mechanism.tool()].home.rotation,
+        orientation_follows: mechanism.turns_as_it_moves(),
         load: None,
         further: Vec::new(),
         variables: Vec::new(),
@@ -92,7 +92,7 @@ fn ratio(a: &MapPlace, b: &MapPlace) -> Option<f64> {
 }
 
 /// Solves both.
-pub(crate) fn difference(a: &Design, b: &Design, grid: Grid) -> Answer<Difference> {
+pub(crate) fn difference(a: &Mechanism, b: &Mechanism, grid: Grid) -> Answer<Difference> {
     let (of_a, of_b) = (places(a, grid)?, places(b, grid)?);
     let both = || of_a.iter().zip(&of_b);
     let ratios: Vec<(f64, [f64; 3])> = both()
@@ -103,7 +103,8 @@ pub(crate) fn difference(a: &Design, b: &Design, grid: Grid) -> Answer<Differenc
     let (Some(least), Some(most)) = (least, most) else {
         return Err(Failure::unanswered(format!(
             "no place of the grid is reached by both, {} and {}",
-            a.named, b.named
+            a.name(),
+            b.name()
         )));
     };
     let count = ratios.len() as f64;

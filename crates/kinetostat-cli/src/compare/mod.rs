@@ -127,7 +127,7 @@ pub(crate) fn run(args: &CompareArgs) -> Answer<()> {
     });
     let places = places.collect::<Answer<Vec<_>>>()?;
     let difference = match grid {
-        Some(grid) => Some(grid::difference(&a, &b, grid)?),
+        Some(grid) => Some(grid::difference(&a.mechanism, &b.mechanism, grid)?),
         None => None,
     };
     let warnings: Vec<Warning> = of_model(&a.model).chain(of_model(&b.model)).collect();

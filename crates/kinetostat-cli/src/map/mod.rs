@@ -171,7 +171,10 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     };
     if let Some(index) = plot {
         let outline = over::outline(&task, &picture);
-        outputs.fill(index, picture.svg(&answer, outline).as_bytes())?;
+        let mut lines = over::isolines(&picture);
+        lines.extend(outline);
+        let marks = over::extremes(&picture);
+        outputs.fill(index, picture.svg(&answer, lines, marks).as_bytes())?;
     }
     if let Some(fields) = gathering.map(Gathering::done) {
         if let Some(index) = vtk {

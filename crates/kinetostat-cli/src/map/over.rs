@@ -6,6 +6,8 @@ use kinetostat_analysis::outline::chain_outline;
 use kinetostat_machining::MapTask;
 use kinetostat_report::{Cell, PlotLine, PlotMark};
 
+use kinetostat::number::{larger, smaller};
+
 use crate::map::picture::Picture;
 use crate::ui::numbers::number;
 
@@ -26,8 +28,8 @@ pub(crate) fn isolines(picture: &Picture) -> Vec<PlotLine> {
     let values: Vec<f64> = picture.cells.iter().map(value).collect();
     let known = || values.iter().copied().filter(|x| !x.is_nan());
     let (low, high) = (
-        known().fold(f64::INFINITY, f64::min),
-        known().fold(f64::NEG_INFINITY, f64::max),
+        known().fold(f64::INFINITY, smaller),
+        known().fold(f64::NEG_INFINITY, larger),
     );
     let [nx, ny] = [0, 1].map(|k| picture.places[k].len());
     if !(high - low).is_normal() || high - low < 1e-9 * high.abs() || nx < 3 || ny < 3 {

@@ -1,12 +1,11 @@
 //! A map as a drawing of one section.
 
 use kinetostat_machining::{Grid, MapPlace, PlaceState};
-use kinetostat_report::{Cell, Plot, PlotLine, Section};
+use kinetostat_report::{Cell, Plot, PlotLine, PlotMark, Section};
 
 use crate::map::answer::MapAnswer;
 use crate::map::arguments::MapArgs;
 use crate::map::columns::Shown;
-use crate::map::over;
 use crate::map::query::AXES;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short};
@@ -84,7 +83,7 @@ impl Picture {
         places.map(|i| self.grid.position_mm(axis, *i)).collect()
     }
 
-    pub(crate) fn svg(&self, a: &MapAnswer, outline: Vec<PlotLine>) -> String {
+    pub(crate) fn svg(&self, a: &MapAnswer, lines: Vec<PlotLine>, marks: Vec<PlotMark>) -> String {
         let fixed: Vec<String> = (0..3)
             .filter(|k| self.grid.counts[*k] == 1 || *k == self.across.0)
             .map(|k| {
@@ -133,8 +132,6 @@ impl Picture {
             }
             .svg();
         }
-        let mut lines = over::isolines(self);
-        lines.extend(outline);
         Section {
             title,
             x_label: label(0),
@@ -149,7 +146,7 @@ impl Picture {
                 "not stable".into(),
             ],
             lines,
-            marks: over::extremes(self),
+            marks,
             ..Section::default()
         }
         .svg()

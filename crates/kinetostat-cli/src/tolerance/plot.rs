@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use kinetostat::number::larger;
 use kinetostat_report::{Plot, PlotLine};
 
 /// How many times as high as the histogram a linear density is drawn at most.
@@ -35,7 +36,7 @@ pub(crate) fn histogram(
         let mut steps = vec![(low, 0.0)];
         for (k, count) in counts.iter().enumerate() {
             let density = count / (known.len() as f64 * width);
-            highest = f64::max(highest, density);
+            highest = larger(highest, density);
             let left = low + width * k as f64;
             steps.extend([(left, density), (left + width, density)]);
         }

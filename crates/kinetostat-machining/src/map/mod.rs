@@ -5,6 +5,7 @@ mod evaluate;
 mod grid;
 mod nearness;
 mod place;
+mod principal;
 mod solved;
 mod variable;
 

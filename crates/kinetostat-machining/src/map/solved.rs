@@ -8,7 +8,7 @@ use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::map::place::PlaceState;
-use crate::map::variable::{NO_MOTION, principal, rotational};
+use crate::map::principal::{NO_MOTION, principal, rotational};
 
 /// What is known of a place, in SI units, base axes; NaN where it is not. It is kept and written over from place to place.
 #[derive(Clone, Debug)]

@@ -248,7 +248,7 @@ fn draws_without_an_answer_are_counted() {
     )
     .expect("a machine");
     let draws = Draws::new(64, 0);
-    let negative = |i: usize| vec![if i % 4 == 0 { -1.0 } else { 2000.0 }];
+    let negative = |i: usize| vec![if i.is_multiple_of(4) { -1.0 } else { 2000.0 }];
     let found =
         kinetostat_tolerance::sample(&machine, draws.len(), negative, &Unwatched, "machines")
             .expect("draws");

@@ -1,3 +1,5 @@
+//! Tolerances of machines against closed forms and against draws made apart.
+
 mod closed_forms;
 mod files;
 mod machines;

@@ -138,6 +138,27 @@ impl Posture {
 
     /// Tangents at an equilibrium of this posture.
     ///
+    /// ```
+    /// # use kinetostat::nalgebra::Vector3;
+    /// # use kinetostat::*;
+    /// # let slide = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 1e6); // N/m
+    /// # let chain = Chain::builder("rail").actuator("trolley", slide).build()?;
+    /// # let mut machine = Mechanism::builder("crane");
+    /// # let tool = machine.platform(Platform::new("tool", Pose::identity()));
+    /// # let machine = machine.limb(Limb::between("rail", 0, tool, chain)).build()?;
+    /// # let posture = machine.posture(&Pose::identity())?;
+    /// let wrench = Wrench::new(Vector3::x(), Vector3::zeros());
+    /// let loaded = posture.deflected_by(&wrench)?;
+    /// let tangent = posture.linearised(&loaded)?;
+    /// let again = posture.linearised_state(&loaded.state, &loaded.wrench)?;
+    /// // Nothing is missing for the equilibrium that was found.
+    /// let missing = posture.residual_at(&loaded.state, &loaded.wrench)?;
+    /// let same = posture.as_if_in_equilibrium(&loaded.state, &loaded.wrench)?;
+    /// assert_eq!(same.state, loaded.state);
+    /// # let _ = (tangent, again, missing);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// A state of another machine.
     pub fn linearised(&self, at: &MechanismEquilibrium) -> Result<LinearisedMachine<'_>> {
