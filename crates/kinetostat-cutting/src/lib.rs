@@ -31,7 +31,7 @@ pub use error::{CutError, CutErrorKind, Result};
 pub use fitting::{Coefficient, CoefficientFit, MeanForce, MeasuredCut, Series, fit_coefficients};
 pub use law::{
     Coolant, Corrected, Correction, CuttingMaterial, EdgeForce, Exponential, ForceLaw, Kienzle,
-    Law, Linear, RakeReference, Rational, force_as_printed, largest_force,
+    Law, Linear, RakeReference, Rational, Scaled, force_as_printed, largest_force,
 };
 pub use material::{Applied, AppliedFactor, Group, Material, Materials, MeasuredIn, Process};
 pub use measured::{

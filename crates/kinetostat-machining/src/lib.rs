@@ -80,6 +80,7 @@ pub use result::joints::{
 };
 pub use result::largest_change::LargestChange;
 pub use result::point::{PointKind, PointResult};
+pub use result::program_place::ProgramPlace;
 pub use result::run_inputs::{ActuatorColumn, FileRead, RunInputs, ToolAtCorners};
 pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
@@ -88,9 +89,11 @@ pub use result::summary::Summary;
 pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
+pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
 pub use run::compensate::{analyse, compensate_program};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
+pub use run::places::wrenches_at;
 pub use table::{TableCorrection, correct_by_table, wide_table};
 pub use task::{NoMotion, RunError, Task};
 pub use warning::{Warning, WarningCode};

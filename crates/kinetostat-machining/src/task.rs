@@ -35,6 +35,8 @@ pub struct Task<'a> {
     pub run_inputs: RunInputs,
     /// What its figures are compared with.
     pub bounds: Bounds,
+    /// About how many places [`crate::Run::places`] hands on; 0 where nobody asks for them.
+    pub places: usize,
 }
 
 impl<'a> Task<'a> {

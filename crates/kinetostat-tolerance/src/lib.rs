@@ -25,6 +25,8 @@
 //! assert!((found.standard_deviation.value / linear - 1.0).abs() < 0.02);
 //! ```
 
+mod along_program;
+mod band;
 mod distribution;
 mod draws;
 mod file;
@@ -35,9 +37,11 @@ mod statistics;
 mod study;
 mod uncertain;
 
+pub use along_program::{CuttingParts, UncertainRun};
+pub use band::band;
 pub use distribution::Distribution;
 pub use draws::{Draws, MOST_DRAWS, REPLICATES};
-pub use file::{Source, UncertaintyFile};
+pub use file::{CUTTING_PARTS, Source, UncertaintyFile};
 pub use linear::{ENOUGH, Linear, linear, linear_points, nonlinearity};
 pub use machine::{Quantity, Room, TaskError, UncertainMachine};
 pub use sensitivity::{SobolIndex, design_row, design_rows, sobol_indices};
@@ -45,6 +49,7 @@ pub use statistics::{
     CONFIDENCE, Estimate, Quantile, SHARES, Summary, mean_and_deviation, quantile,
 };
 pub use study::{
-    Failures, OutputAnswer, Samples, Verdict, answers, linearised, monte_carlo, sample, sobol,
+    DependsOnMachine, Failures, OutputAnswer, Samples, Verdict, answers, linearised, monte_carlo,
+    sample, sobol,
 };
 pub use uncertain::{Contradiction, Uncertain, Uncertainties};

@@ -96,6 +96,21 @@ pub enum TaskError {
         /// What the general engine says.
         reason: String,
     },
+    /// The machine as drawn does not stand as it stood along the program.
+    #[error(
+        "line {line}: the machine as drawn is {found_mm:.6} mm off there when it is solved for itself, and {stated_mm:.6} mm along the program: it stands otherwise, as an arm in another configuration does"
+    )]
+    StandsOtherwise {
+        /// Of the program, from 1.
+        line: usize,
+        /// By itself, mm.
+        found_mm: f64,
+        /// Along the program, mm.
+        stated_mm: f64,
+    },
+    /// It was stopped on request.
+    #[error(transparent)]
+    Stopped(#[from] kinetostat_machining::RunError),
 }
 
 /// A machine as a function of its uncertain numbers.
@@ -115,10 +130,10 @@ pub struct UncertainMachine {
 /// Rooms that a thread uses again and again.
 #[derive(Debug, Default)]
 pub struct Room {
-    unloaded: BatchEquilibrium,
-    loaded: BatchEquilibrium,
-    compensated: BatchEquilibrium,
-    wrenches: Vec<Wrench>,
+    pub(crate) unloaded: BatchEquilibrium,
+    pub(crate) loaded: BatchEquilibrium,
+    pub(crate) compensated: BatchEquilibrium,
+    pub(crate) wrenches: Vec<Wrench>,
 }
 
 impl UncertainMachine {
@@ -134,15 +149,7 @@ impl UncertainMachine {
         wrench: Wrench,
         quantities: &[Quantity],
     ) -> Result<Self, TaskError> {
-        let paths: Vec<&str> = file
-            .sources
-            .iter()
-            .filter_map(|s| match s {
-                Source::Parameter(path) => Some(path.as_str()),
-                _ => None,
-            })
-            .collect();
-        let parametric = model.parametric(&paths)?;
+        let parametric = model.parametric(&file.parameters())?;
         let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
         let drawn = parametric.mechanism(&nominal)?.with_tool(tool);
         let mut machine = Self {
@@ -223,6 +230,8 @@ impl UncertainMachine {
                 Source::Parameter(_) => numbers.push(*value),
                 Source::Load(k) => wrench.0[*k] = *value,
                 Source::LoadFactor => factor = *value,
+                // Of one wrench no parts are known: its file has none.
+                Source::CuttingPart(_) => {}
             }
         }
         wrench.0 *= factor;
@@ -288,7 +297,7 @@ fn refill(wrenches: &mut Vec<Wrench>, wrench: Wrench, count: usize) {
 }
 
 /// Position of the tool, m; NaN without an answer.
-fn at(found: &BatchEquilibrium, place: usize) -> Vector3<f64> {
+pub(crate) fn at(found: &BatchEquilibrium, place: usize) -> Vector3<f64> {
     match found.status[place].is_solved() {
         true => Vector3::from_fn(|k, _| found.tool.get(place, 9 + k)),
         false => Vector3::repeat(f64::NAN),

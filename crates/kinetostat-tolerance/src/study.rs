@@ -56,12 +56,34 @@ impl Samples {
     }
 }
 
+/// What depends on uncertain numbers.
+pub trait DependsOnMachine: Sync {
+    /// Numbers of one answer.
+    fn width(&self) -> usize;
+
+    /// The answer of the machine with these numbers, NaN where there is none. Returns the places at which it is not stable.
+    ///
+    /// # Errors
+    /// [`TaskError`] where the numbers make no machine.
+    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError>;
+}
+
+impl DependsOnMachine for UncertainMachine {
+    fn width(&self) -> usize {
+        Self::width(self)
+    }
+
+    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
+        Self::answer(self, values, room, out)
+    }
+}
+
 /// Answers of `count` machines, the i-th with `values(i)`: on all cores, in their order, the same with any number of threads.
 ///
 /// # Errors
 /// [`RunError::Cancelled`].
 pub fn sample(
-    machine: &UncertainMachine,
+    machine: &impl DependsOnMachine,
     count: usize,
     values: impl Fn(usize) -> Vec<f64> + Sync,
     watch: &dyn Watch,
@@ -126,7 +148,7 @@ pub fn sample(
 /// # Errors
 /// [`RunError::Cancelled`].
 pub fn monte_carlo(
-    machine: &UncertainMachine,
+    machine: &impl DependsOnMachine,
     uncertainties: &Uncertainties,
     draws: &Draws,
     watch: &dyn Watch,
@@ -145,7 +167,7 @@ pub fn monte_carlo(
 /// # Errors
 /// [`TaskError`] where a machine next to the drawing is none.
 pub fn linearised(
-    machine: &UncertainMachine,
+    machine: &impl DependsOnMachine,
     uncertainties: &Uncertainties,
 ) -> Result<Vec<Linear>, TaskError> {
     let mut room = Room::default();
@@ -213,7 +235,7 @@ pub fn answers(
 /// # Errors
 /// [`RunError::Cancelled`].
 pub fn sobol(
-    machine: &UncertainMachine,
+    machine: &impl DependsOnMachine,
     uncertainties: &Uncertainties,
     draws: &Draws,
     watch: &dyn Watch,

@@ -284,6 +284,39 @@ pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
     )
 }
 
+/// A number and its spread, with as many decimals as two digits of the spread have.
+///
+/// ```
+/// use kinetostat::number::plus_minus;
+///
+/// assert_eq!(plus_minus(0.403, 0.0712), "0.403 +- 0.071");
+/// assert_eq!(plus_minus(1234.0, 71.2), "1234 +- 71");
+/// ```
+#[must_use]
+pub fn plus_minus(value: f64, spread: f64) -> String {
+    if !(spread > 0.0 && spread.is_finite() && spread < 1e6) {
+        return format!("{} +- {}", short(value), short(spread));
+    }
+    let decimals = (1.0 - spread.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{} +- {}", fixed(value, decimals), fixed(spread, decimals))
+}
+
+/// A length and its spread in the unit that fits the length.
+///
+/// ```
+/// assert_eq!(kinetostat::number::length_plus_minus(0.403, 0.0712), "0.403 mm +- 0.071");
+/// assert_eq!(kinetostat::number::length_plus_minus(0.004, 0.0001), "4.00 um +- 0.10");
+/// ```
+#[must_use]
+pub fn length_plus_minus(value_mm: f64, spread_mm: f64) -> String {
+    let (unit, factor) = length_unit(value_mm);
+    let text = plus_minus(value_mm * factor, spread_mm * factor);
+    match text.split_once(' ') {
+        Some((value, rest)) => format!("{value} {unit} {rest}"),
+        None => text,
+    }
+}
+
 /// The larger of two numbers, NaN where one of them is: `f64::max` forgets it, and a maximum of residuals that
 /// are not numbers would look small.
 #[inline]

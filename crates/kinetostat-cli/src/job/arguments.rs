@@ -8,6 +8,7 @@ use crate::job::expansion::arguments::ExpandFlags;
 use crate::job::format::{ArcsWord, Axes, BlockDeleteWord, CornerWord};
 use crate::job::robot_arguments::RobotArgs;
 use crate::job::turn_arguments::TurnFlags;
+use crate::job::uncertain::UncertainFlags;
 use crate::job::units_word::UnitsWord;
 use crate::options::{number, whole};
 
@@ -81,6 +82,8 @@ pub(crate) struct ProgramArgs {
     /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]
     pub(crate) chord_tolerance_um: Option<f64>,
+    #[command(flatten)]
+    pub(crate) uncertain: UncertainFlags,
     /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
     /// tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
     /// longest_tool_mm. A program that leaves a limit is refused

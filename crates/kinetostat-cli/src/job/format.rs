@@ -14,6 +14,7 @@ use crate::job::cut_tables::{
 use crate::job::expand_table::ExpandTable;
 use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
+use crate::job::uncertain::UncertainTable;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
 
@@ -59,6 +60,8 @@ pub(crate) struct Job {
     pub robot: Option<Spanned<RobotTable>>,
     /// The program is run once and written flat.
     pub expand: Option<Spanned<ExpandTable>>,
+    /// What is uncertain about machine and load.
+    pub uncertain: Option<Spanned<UncertainTable>>,
     #[serde(default)]
     pub tolerances: TolerancesTable,
     #[serde(default)]

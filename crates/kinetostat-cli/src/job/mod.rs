@@ -35,5 +35,6 @@ pub(crate) mod target_word;
 mod toml_tree;
 mod tools;
 pub(crate) mod turn_arguments;
+pub(crate) mod uncertain;
 pub(crate) mod units_word;
 mod values;

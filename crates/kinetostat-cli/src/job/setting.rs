@@ -27,6 +27,7 @@ use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{RobotSource, robot_source};
 use crate::job::robot_arguments::CorrectWord;
 use crate::job::turn_arguments::FreeTurnWord;
+use crate::job::uncertain::{Uncertainty, uncertainty};
 use crate::job::values::{NotAllowed, above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
@@ -61,6 +62,8 @@ pub(crate) struct Setting {
     pub(crate) free_turn: FreeTurnWord,
     /// Forces of the cut that were found along the program before it was converted.
     pub(crate) forces: Option<ForceAlongPath>,
+    /// What is uncertain about machine and load, where it is said.
+    pub(crate) uncertain: Option<Uncertainty>,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
@@ -203,6 +206,7 @@ pub(crate) fn setting(
         above_zero,
     )?;
     write.max_blocks_per_s = max_blocks_per_second;
+    let uncertain = uncertainty(files, job, &flags.uncertain)?;
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
@@ -216,6 +220,10 @@ pub(crate) fn setting(
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     let mut program_files = vec![origin::file("program", &path, &program)];
+    if let Some(own) = &uncertain {
+        program_files.push(own.read.clone());
+        inputs.push(own.path.clone());
+    }
     let named = (path.as_path(), program_name.as_str(), program.as_slice());
     let robot = robot_source(files, job, flags, named)?;
     // Where faults of a job are looked for, what its program holds is none of them.
@@ -291,6 +299,7 @@ pub(crate) fn setting(
         targets,
         free_turn,
         forces: None,
+        uncertain,
         inputs,
     };
     // `check` and `deflect` take the same job.

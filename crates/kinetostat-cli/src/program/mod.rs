@@ -11,3 +11,4 @@ mod points_table;
 pub(crate) mod report;
 pub(crate) mod solve;
 pub(crate) mod summary;
+pub(crate) mod uncertainty;

@@ -23,6 +23,7 @@ use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
 use crate::program::flat_lines::of_warnings;
+use crate::program::uncertainty::{self, PLACES, put_band};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
@@ -163,6 +164,7 @@ pub(crate) fn with_task<R>(
                 limits: setting.limits,
                 ..machine.bounds.clone()
             },
+            places: setting.uncertain.as_ref().map_or(0, |_| PLACES),
         })
     };
     Ok(read.with(made))
@@ -212,13 +214,22 @@ pub(crate) fn turned(
     if aim == Aim::Compensate {
         refuse_what_breaks_the_tool(forces.as_ref(), setting)?;
     }
-    let result = with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
-        in_threads(threads, || match aim {
+    let uncertain = setting.uncertain.as_ref();
+    let uncertain = uncertain.map(|own| Answer::Ok((own, uncertainty::read(own, model, machine)?)));
+    let uncertain = uncertain.transpose()?;
+    let (result, parts) = with_task(aim, machine, setting, &read, forces.as_ref(), |task| {
+        let result = in_threads(threads, || match aim {
             Aim::Analyse => analyse(task, &progress),
             Aim::Compensate => compensate_program(task, &progress),
-        })
+        })?;
+        let parts = match (&uncertain, &result) {
+            (Some((_, file)), Ok(run)) => {
+                uncertainty::parts(file, (task, &run.places), (machine, setting), &progress)?
+            }
+            _ => None,
+        };
+        Ok::<_, Failure>((result, parts))
     })??;
-    progress.finish();
     let mut run = result.map_err(|error| {
         let of_machine = may_come_from_machine(&error);
         let failure = setting.within(Failure::from(error));
@@ -232,6 +243,13 @@ pub(crate) fn turned(
         };
         with_model_warning(failure, model)
     })?;
+    if let Some((own, file)) = &uncertain {
+        let with = (*own, file);
+        in_threads(threads, || {
+            put_band(&mut run, (machine, model), with, parts, &progress)
+        })??;
+    }
+    progress.finish();
     run.result.warnings.extend(warnings(forces.as_ref()));
     run.result.warnings.extend(setting.of_expansion());
     if let ReadProgram::Robot(read) = &read {

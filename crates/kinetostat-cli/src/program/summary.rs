@@ -80,6 +80,10 @@ pub(crate) fn result_text(result: &RunResult) -> String {
         text.push(' ');
         text.push_str(&band);
     }
+    if let Some(band) = result.uncertainty_text() {
+        text.push(' ');
+        text.push_str(&band);
+    }
     if !result.summary.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }

@@ -8,13 +8,16 @@ pub(crate) mod arguments;
 mod plot;
 mod text;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use kinetostat::{Pose, Wrench};
 use kinetostat_machining::straight_tool;
+use kinetostat_model::Model;
+use kinetostat_report::Plot;
 use kinetostat_tolerance::{
-    CONFIDENCE, Draws, Linear, MOST_DRAWS, Quantity, Samples, TaskError, UncertainMachine,
-    UncertaintyFile, answers, linearised, monte_carlo, sobol,
+    CONFIDENCE, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity, Samples, SobolIndex,
+    TaskError, UncertainMachine, UncertaintyFile, answers, linearised, monte_carlo,
+    sobol as sobol_of,
 };
 
 use crate::files::input_files::InputFiles;
@@ -43,129 +46,162 @@ impl From<TaskError> for Failure {
 
 pub(crate) fn run(args: &ToleranceArgs) -> Answer<()> {
     let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
-    let mut queries = Vec::new();
-    let each: Vec<Option<Vec<f64>>> = match args.at.is_empty() {
-        true => vec![None],
-        false => args.at.chunks(3).map(|at| Some(at.to_vec())).collect(),
-    };
-    for at in each {
-        let place = PlaceArgs {
-            at,
-            rotation: args.rotation.clone(),
-            ..PlaceArgs::default()
-        };
-        let (force, moment) = (args.force.as_deref(), args.moment.as_deref());
-        queries.push(place_query_of(
-            &model,
-            path.clone(),
-            &args.model,
-            &place,
-            args.tool_length_mm,
-            force,
-            moment,
-        )?);
-    }
+    let queries = queries(args, &model, path.as_ref())?;
     let Some(first) = queries.first() else {
         return Err(Failure::input("give a place with --at"));
     };
-    // Within the limits of the actuators, as drawn.
-    for query in &queries {
-        query.posture()?;
-    }
-    let name = args.uncertain.display().to_string();
-    let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
-    let file = UncertaintyFile::read(&text, &name, &model, &first.wrench)?;
-    let quantities = quantities(args);
-    let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
-    let poses: Vec<Pose> = queries.iter().map(|q| q.target).collect();
-    let machine = UncertainMachine::new(&model, &tool, &file, &poses, first.wrench, &quantities)?;
-    let draws = drawn(
-        "--machines",
-        args.machines.unwrap_or(4096),
-        args,
-        machine.width(),
-    )?;
-    let for_sobol = match args.sobol {
-        Some(_) if file.uncertainties.is_correlated() => {
-            return Err(Failure::input(
-                "--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
-            ));
-        }
-        Some(count) => {
-            let width = machine.width() * (file.uncertainties.each().len() + 2);
-            Some(drawn("--sobol", count, args, width)?)
-        }
-        None => None,
-    };
-    let inputs = path
-        .iter()
-        .cloned()
-        .chain([args.uncertain.clone()])
-        .collect();
-    let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs);
-    let csv = args
-        .csv
-        .as_ref()
-        .map(|p| outputs.claim("table", p))
-        .transpose()?;
-    let plot = args
-        .plot
-        .as_ref()
-        .map(|p| outputs.claim("plot", p))
-        .transpose()?;
-    let progress = Progress::new();
-    let work = || -> Answer<_> {
-        let samples =
-            monte_carlo(&machine, &file.uncertainties, &draws, &progress).map_err(Failure::from)?;
-        let indices = match &for_sobol {
-            Some(draws) => Some(
-                sobol(&machine, &file.uncertainties, draws, &progress).map_err(Failure::from)?,
-            ),
-            None => None,
-        };
-        let lines: Vec<Linear> = linearised(&machine, &file.uncertainties)?;
-        let each = answers(&file.uncertainties, &draws, &samples, lines);
-        Ok((samples, indices, each))
-    };
-    let (samples, indices, each) = threads::in_threads(args.threads, work)??;
-    progress.finish();
-    let columns = machine.columns();
-    let (indices, sobol_failures) = indices.map_or((None, None), |(i, f)| (Some(i), Some(f)));
-    let results: Vec<ColumnResult> = (each.into_iter().enumerate())
-        .map(|(k, answer)| ColumnResult {
-            name: columns[k % columns.len()],
-            answer,
-            sobol: indices.as_ref().map(|all| all[k].clone()),
-        })
-        .collect();
+    let study = Study::of(args, &model, &queries, &first.wrench)?;
+    let inputs = path.iter().cloned().chain([args.uncertain.clone()]);
+    let mut outputs = Outputs::new(Existing::forced(args.force_overwrite), inputs.collect());
+    let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
+    let csv = csv.transpose()?;
+    let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
+    let plot = plot.transpose()?;
+    let drawn = study.draw(args.threads)?;
+    let columns = study.machine.columns();
     let answer = answer_of(
         args,
-        &file,
+        (&study, &drawn),
         first,
-        &draws,
-        &samples,
-        sobol_failures,
-        in_places(&queries, results, columns.len()),
+        in_places(&queries, drawn.results(&columns), columns.len()),
     );
     if let Some(index) = csv {
-        outputs.fill(index, &table(&file, &draws, &samples, &columns)?)?;
+        let table = table(&study.file, &study.draws, &drawn.samples, &columns)?;
+        outputs.fill(index, &table)?;
     }
     if let Some(index) = plot {
-        let shown = &answer.places[0].results[0];
-        let linear = [
-            shown.answer.linear.nominal,
-            shown.answer.linear.standard_deviation,
-        ];
-        let title = format!(
-            "{}: {} of {} machines",
-            answer.model, shown.name, answer.machines
-        );
-        let picture = plot::histogram(title, shown.name, &samples.column(0), linear);
+        let picture = picture(&answer, &drawn.samples);
         outputs.fill(index, picture.svg().as_bytes())?;
     }
     let paths = outputs.commit()?;
     let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
     json::print_answer(&text, &answer, args.json)
+}
+
+/// The places, each within the limits of the actuators as drawn.
+fn queries(args: &ToleranceArgs, model: &Model, path: Option<&PathBuf>) -> Answer<Vec<PlaceQuery>> {
+    let each: Vec<Option<Vec<f64>>> = match args.at.is_empty() {
+        true => vec![None],
+        false => args.at.chunks(3).map(|at| Some(at.to_vec())).collect(),
+    };
+    let query = |at| {
+        let place = PlaceArgs {
+            at,
+            rotation: args.rotation.clone(),
+            ..PlaceArgs::default()
+        };
+        let query = place_query_of(
+            model,
+            path.cloned(),
+            &args.model,
+            &place,
+            args.tool_length_mm,
+            args.force.as_deref(),
+            args.moment.as_deref(),
+        )?;
+        query.posture()?;
+        Ok(query)
+    };
+    each.into_iter().map(query).collect()
+}
+
+/// What is drawn, and how often.
+struct Study {
+    file: UncertaintyFile,
+    machine: UncertainMachine,
+    draws: Draws,
+    for_sobol: Option<Draws>,
+}
+
+/// What was found of all machines.
+struct Drawn {
+    samples: Samples,
+    /// Sobol indices of every result, and draws without a whole answer.
+    sobol: Option<(Vec<Vec<SobolIndex>>, Failures)>,
+    each: Vec<OutputAnswer>,
+}
+
+impl Study {
+    fn of(
+        args: &ToleranceArgs,
+        model: &Model,
+        queries: &[PlaceQuery],
+        wrench: &Wrench,
+    ) -> Answer<Self> {
+        let name = args.uncertain.display().to_string();
+        let text = InputFiles::default().text("uncertainties", &args.uncertain)?;
+        let file = UncertaintyFile::read(&text, &name, model, wrench)?;
+        let quantities = quantities(args);
+        let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
+        let poses: Vec<Pose> = queries.iter().map(|q| q.target).collect();
+        let machine = UncertainMachine::new(model, &tool, &file, &poses, *wrench, &quantities)?;
+        let count = args.machines.unwrap_or(4096);
+        let draws = drawn("--machines", count, args, machine.width())?;
+        let for_sobol = match args.sobol {
+            Some(_) if file.uncertainties.is_correlated() => {
+                return Err(Failure::input(
+                    "--sobol: parts of the variance belong to single numbers only where none are correlated; leave out the correlations, or --sobol",
+                ));
+            }
+            Some(count) => {
+                let width = machine.width() * (file.uncertainties.each().len() + 2);
+                Some(drawn("--sobol", count, args, width)?)
+            }
+            None => None,
+        };
+        Ok(Self {
+            file,
+            machine,
+            draws,
+            for_sobol,
+        })
+    }
+
+    fn draw(&self, count: Option<usize>) -> Answer<Drawn> {
+        let progress = Progress::new();
+        let (machine, numbers) = (&self.machine, &self.file.uncertainties);
+        let work = || -> Answer<Drawn> {
+            let samples = monte_carlo(machine, numbers, &self.draws, &progress)?;
+            let sobol = self.for_sobol.as_ref();
+            let sobol = sobol.map(|draws| sobol_of(machine, numbers, draws, &progress));
+            let sobol = sobol.transpose()?;
+            let lines: Vec<Linear> = linearised(machine, numbers)?;
+            let each = answers(numbers, &self.draws, &samples, lines);
+            Ok(Drawn {
+                samples,
+                sobol,
+                each,
+            })
+        };
+        let drawn = threads::in_threads(count, work)??;
+        progress.finish();
+        Ok(drawn)
+    }
+}
+
+impl Drawn {
+    fn results(&self, columns: &[&'static str]) -> Vec<ColumnResult> {
+        let result = |(k, answer): (usize, &OutputAnswer)| ColumnResult {
+            name: columns[k % columns.len()],
+            answer: answer.clone(),
+            sobol: self.sobol.as_ref().map(|(all, _)| all[k].clone()),
+        };
+        self.each.iter().enumerate().map(result).collect()
+    }
+}
+
+/// Histogram of the first result at the first place.
+fn picture(answer: &ToleranceAnswer, samples: &Samples) -> Plot {
+    let shown = &answer.places[0].results[0];
+    let linear = [
+        shown.answer.linear.nominal,
+        shown.answer.linear.standard_deviation,
+    ];
+    let title = format!(
+        "{}: {} of {} machines",
+        answer.model, shown.name, answer.machines
+    );
+    plot::histogram(title, shown.name, &samples.column(0), linear)
 }
 
 fn quantities(args: &ToleranceArgs) -> Vec<Quantity> {
@@ -211,14 +247,12 @@ fn in_places(
 
 fn answer_of(
     args: &ToleranceArgs,
-    file: &UncertaintyFile,
+    (study, drawn): (&Study, &Drawn),
     query: &PlaceQuery,
-    draws: &Draws,
-    samples: &Samples,
-    sobol_failures: Option<kinetostat_tolerance::Failures>,
     places: Vec<PlaceResults>,
 ) -> ToleranceAnswer {
     let wrench: Wrench = query.wrench;
+    let numbers = &study.file.uncertainties;
     ToleranceAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -226,18 +260,13 @@ fn answer_of(
         model_source: query.source.clone(),
         force_n: wrench.force().into(),
         moment_n_m: wrench.moment().into(),
-        machines: draws.len(),
+        machines: study.draws.len(),
         seed: args.seed.unwrap_or(0) as u64,
         confidence: CONFIDENCE,
-        uncertain: file
-            .uncertainties
-            .each()
-            .iter()
-            .map(UncertainAnswer::of)
-            .collect(),
-        correlated: file.uncertainties.is_correlated(),
-        failures: samples.failures.clone(),
-        sobol_failures,
+        uncertain: numbers.each().iter().map(UncertainAnswer::of).collect(),
+        correlated: numbers.is_correlated(),
+        failures: drawn.samples.failures.clone(),
+        sobol_failures: drawn.sobol.as_ref().map(|(_, failed)| failed.clone()),
         places,
         warnings: query.warnings.clone(),
     }

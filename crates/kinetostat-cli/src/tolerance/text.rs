@@ -2,28 +2,21 @@
 
 use std::fmt::Write;
 
+use kinetostat_machining::number::plus_minus;
+
 use crate::tolerance::answer::{ColumnResult, ToleranceAnswer};
 use crate::ui::layout::{columns, item, wrapped};
-use crate::ui::numbers::{fixed, given, number, short, triple};
-
-/// A number and its spread with as many decimals as the spread's two digits have: `0.40 +- 0.07`.
-fn band(value: f64, spread: f64) -> String {
-    if !(spread > 0.0 && spread.is_finite() && spread < 1e6) {
-        return format!("{} +- {}", number(value, 3), number(spread, 2));
-    }
-    let decimals = (1.0 - spread.log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{} +- {}", fixed(value, decimals), fixed(spread, decimals))
-}
+use crate::ui::numbers::{given, number, short, triple};
 
 fn row(result: &ColumnResult) -> Vec<String> {
     let (draws, linear) = (&result.answer.draws, &result.answer.linear);
     let spread = draws.standard_deviation.value;
     vec![
         result.name.to_owned(),
-        band(draws.mean.value, spread),
+        plus_minus(draws.mean.value, spread),
         number(draws.quantile(0.025), 3),
         number(draws.quantile(0.975), 3),
-        band(linear.nominal, linear.standard_deviation),
+        plus_minus(linear.nominal, linear.standard_deviation),
         match result.answer.verdict.linear_is_enough {
             true => "yes".to_owned(),
             false => format!(
@@ -85,8 +78,8 @@ pub(crate) fn answer_text(a: &ToleranceAnswer) -> String {
             rows.extend(own.map(|(index, u)| {
                 vec![
                     u.name.clone(),
-                    band(index.first.value, index.first.plus_minus),
-                    band(index.total.value, index.total.plus_minus),
+                    plus_minus(index.first.value, index.first.plus_minus),
+                    plus_minus(index.total.value, index.total.plus_minus),
                 ]
             }));
             out.push('\n');

@@ -63,5 +63,6 @@ mod smallest_stiffness;
 mod stability;
 mod tables;
 mod tolerances;
+mod uncertain;
 mod without_motion;
 mod words;

@@ -10,6 +10,7 @@ mod force_law;
 mod kienzle;
 mod linear;
 mod rational;
+mod scaled;
 mod worst_case;
 
 pub use any::Law;
@@ -19,4 +20,5 @@ pub use force_law::{EdgeForce, ForceLaw};
 pub use kienzle::Kienzle;
 pub use linear::Linear;
 pub use rational::Rational;
+pub use scaled::Scaled;
 pub use worst_case::{force_as_printed, largest_force};

@@ -12,6 +12,7 @@ use crate::result::point::PointResult;
 use crate::result::run_inputs::RunInputs;
 use crate::result::summary::Summary;
 use crate::result::tolerance::ToleranceResult;
+use crate::result::uncertainty_band::UncertaintyBand;
 use crate::warning::Warning;
 
 /// Version of this structure; it changes when a name or a meaning changes.
@@ -40,6 +41,9 @@ pub struct RunResult {
     /// from a cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_band: Option<ForceBand>,
+    /// How far the errors scatter when machine and force are not exactly as stated; none where nothing is said to be uncertain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyBand>,
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.

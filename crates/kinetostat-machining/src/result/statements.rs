@@ -7,6 +7,7 @@ use crate::number::{counted, largest, largest_length};
 use crate::result::force_band::ForceBand;
 use crate::result::run_result::RunResult;
 use crate::result::tolerance::unchanged_text;
+use crate::result::uncertainty_band::UncertaintyBand;
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
@@ -137,6 +138,13 @@ impl RunResult {
     #[must_use]
     pub fn force_band_text(&self) -> Option<String> {
         self.force_band.as_ref().map(ForceBand::description)
+    }
+
+    /// How far the errors scatter when machine and force are not exactly as stated; none where nothing is said to be uncertain.
+    #[must_use]
+    pub fn uncertainty_text(&self) -> Option<String> {
+        let band = self.uncertainty.as_ref();
+        band.map(UncertaintyBand::description)
     }
 
     /// The reading of the load at corners that all tools share, if they share one, and which tools are read by

@@ -2,6 +2,7 @@
 
 use crate::load::ramp_findings::RampFindings;
 use crate::result::force_band::ForceBand;
+use crate::result::program_place::ProgramPlace;
 use crate::run::largest_change::Changes;
 use crate::warning::Warning;
 
@@ -16,6 +17,8 @@ pub(crate) struct Checked {
     pub(crate) if_follows_mm: Option<f64>,
     /// The errors with the force larger and smaller by its spread.
     pub(crate) force_band: Option<ForceBand>,
+    /// Places that the task asks for.
+    pub(crate) places: Vec<ProgramPlace>,
     /// What was divided again because the tool was found off.
     pub(crate) divided_again: Option<Warning>,
     /// The program as it is keeps the tolerance, and was left so.

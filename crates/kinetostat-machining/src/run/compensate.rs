@@ -23,6 +23,7 @@ use crate::run::first_look::FirstLook;
 use crate::run::following::jump;
 use crate::run::force_band::force_band;
 use crate::run::largest_change::changes;
+use crate::run::places::places;
 use crate::run::points::solve;
 use crate::run::sites::{of_path, sites_of_written, spacing_mm};
 use crate::run::summary::feed_arcs;
@@ -68,6 +69,7 @@ fn analysed(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let (mut points, _) = solve(task, sites, (false, course.as_ref()), watch)?;
     let checked = Checked {
         force_band: force_band(task, &mut points, sites, watch)?,
+        places: places(task, &points, sites),
         ramps,
         ..Checked::default()
     };
@@ -155,6 +157,7 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
         force_band: force_band(task, &mut points, sites, watch)?,
+        places: places(task, &points, sites),
         divided_again: match within_before {
             true => None,
             false => again.description(allowed_mm),

@@ -10,6 +10,7 @@ use crate::joints::figures::JointFigures;
 use crate::load::along_path::LoadAlongPath;
 use crate::load::ramp_findings::TooFast;
 use crate::result::point::{PointKind, PointResult};
+use crate::result::program_place::ProgramPlace;
 use crate::result::run_inputs::{ActuatorColumn, RunInputs, ToolAtCorners};
 use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 use crate::result::selection::{thinned, worst};
@@ -36,6 +37,8 @@ pub struct Run {
     pub points: Vec<PointResult>,
     /// The compensated program, checked; not yet on disk.
     pub written: Option<Corrected>,
+    /// Some of the places on cutting moves, as many as the task asks for: for other machines to be solved there.
+    pub places: Vec<ProgramPlace>,
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -85,6 +88,7 @@ pub(crate) fn conclude(
         summary,
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
+        uncertainty: None,
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,
@@ -101,6 +105,7 @@ pub(crate) fn conclude(
         result,
         points,
         written,
+        places: checked.places.clone(),
     }
 }
 

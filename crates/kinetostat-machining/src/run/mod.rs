@@ -18,6 +18,7 @@ pub(crate) mod largest_change;
 pub(crate) mod machines;
 pub(crate) mod nearest_singular;
 pub(crate) mod other_load;
+pub(crate) mod places;
 pub(crate) mod points;
 pub(crate) mod sites;
 pub(crate) mod summary;

@@ -72,6 +72,7 @@ fn run(bump: [f64; 2]) -> Run {
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     compensate_program(&task, &Unwatched).expect("run")
 }

@@ -47,6 +47,7 @@ fn run(mechanism: &Mechanism, text: &str, placement: Placement, turns_deg: &[f64
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     analyse(&task, &Unwatched).expect("run")
 }

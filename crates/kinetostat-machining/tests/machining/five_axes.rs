@@ -223,6 +223,7 @@ impl Machine {
             writing,
             run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
+            places: 0,
         };
         set(&mut task);
         compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))

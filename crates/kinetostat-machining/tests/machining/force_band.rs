@@ -71,6 +71,7 @@ fn run(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     work(&task, &Unwatched).expect("run")
 }

@@ -44,6 +44,7 @@ fn run(
             ratings,
             ..Bounds::default()
         },
+        places: 0,
     };
     analyse(&task, &Unwatched)
 }

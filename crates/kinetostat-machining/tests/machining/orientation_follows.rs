@@ -76,6 +76,7 @@ fn task<'a>(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     }
 }
 

@@ -73,6 +73,7 @@ fn run_with(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
 }

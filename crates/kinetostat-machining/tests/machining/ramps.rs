@@ -47,6 +47,7 @@ fn with_task<T>(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     })
 }
 

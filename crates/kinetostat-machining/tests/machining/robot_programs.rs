@@ -142,6 +142,7 @@ fn run(mechanism: &Mechanism, text: &str, corrected: Directions, load: ProgramLo
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}"))
 }

@@ -90,6 +90,7 @@ fn run(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     if write {
         compensate_program(&task, &Unwatched)
@@ -253,6 +254,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     let summary = compensate_program(&task, &Unwatched)
         .expect("run")
@@ -347,6 +349,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             writing: WriteOptions::default(),
             run_inputs: RunInputs::default(),
             bounds: Bounds::default(),
+            places: 0,
         };
         for written in [false, true] {
             let run = match written {

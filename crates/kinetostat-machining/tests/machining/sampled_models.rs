@@ -79,6 +79,7 @@ fn run(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     let run = compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (run, path)

@@ -68,6 +68,7 @@ fn run(
         writing: WriteOptions::default(),
         run_inputs: RunInputs::default(),
         bounds: Bounds::default(),
+        places: 0,
     };
     if write {
         compensate_program(&task, &Unwatched)

@@ -1,5 +1,7 @@
 //! Shares as horizontal bars.
 
+use kinetostat_machining::number::{larger, smaller};
+
 use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Svg};
 use crate::text;
@@ -55,8 +57,8 @@ impl Bars {
                 .map(|bar| bar.value)
                 .filter(|v| v.is_finite())
         };
-        let low = values().fold(0.0_f64, f64::min);
-        let high = values().fold(0.0_f64, f64::max);
+        let low = values().fold(0.0, smaller);
+        let high = values().fold(0.0, larger);
         let room = WIDTH - NAMES - FIGURES;
         let unit = room / (high - low).max(f64::MIN_POSITIVE);
         let zero = NAMES - low * unit;

@@ -1,14 +1,15 @@
 //! What changes along the path: errors, forces and corrections of actuators, stiffness and the share of the way to buckling.
 
 use kinetostat_machining::PointResult;
+use kinetostat_machining::number::larger;
 
 use crate::chart::axis::Span;
 use crate::chart::label::Frame;
 use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet};
 use crate::chart::stack::stack;
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::run::force_band;
 use crate::run::shown::Shown;
+use crate::run::{force_band, uncertainty};
 use crate::svg::Svg;
 use crate::text;
 
@@ -25,13 +26,15 @@ pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
     if result.run_inputs.compensated {
         panels.extend(after_panel(result, &along));
         panels.extend(force_band::panel(result, &along));
+        panels.extend(uncertainty::panel(result, &along));
     }
     let heights = if sheet.narrow() {
-        [170.0, 150.0, 130.0]
+        [170.0, 150.0, 130.0, 130.0]
     } else {
-        [210.0, 160.0, 140.0]
+        [210.0, 160.0, 140.0, 140.0]
     };
-    let names: Vec<_> = force_band::name(result).into_iter().collect();
+    let names = force_band::name(result).into_iter();
+    let names: Vec<_> = names.chain(uncertainty::name(result)).collect();
     stacked(
         &panels,
         (&heights, &names),
@@ -152,11 +155,22 @@ pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
 
 fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
     let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
-    let worst = force_band::largest_without_compensation(result).map_or(worst, |m| m.max(worst));
+    let bands = [
+        force_band::largest_without_compensation(result),
+        uncertainty::largest_without_compensation(result),
+    ];
+    let worst = bands.into_iter().flatten().fold(worst, larger);
     let (unit, factor) = number::length_unit(worst);
     let most = &result.figures.error_before;
+    let over_machines = uncertainty::before_text(result);
+    let over_machines = over_machines.map(|text| format!("; over all machines {text}"));
+    let mut areas = force_band::without_compensation(result, along, factor);
+    areas.extend(uncertainty::without_compensation(result, along, factor));
     Some(Panel {
-        title: format!("Without compensation: up to {most} off"),
+        title: format!(
+            "Without compensation: up to {most} off{}",
+            over_machines.unwrap_or_default()
+        ),
         y_label: format!("distance, {unit}"),
         span: Span {
             low: 0.0,
@@ -165,7 +179,7 @@ fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel
         .widened()
         .padded(0.0, 0.2),
         ticks: None,
-        areas: force_band::without_compensation(result, along, factor),
+        areas,
         series: vec![Series {
             class: "line before",
             values: along.values(result.points, |p| Some(norm(&p.error_before_mm) * factor)),

@@ -1,6 +1,6 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary};
+use kinetostat_machining::{FileRead, PointKind, PointResult, RunInputs, Summary, UncertaintyBand};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
@@ -168,6 +168,35 @@ fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
     columns
 }
 
+/// What is uncertain, and how far linear propagation goes.
+fn uncertain_words(band: &UncertaintyBand) -> String {
+    let numbers = band.uncertain.iter().map(|n| {
+        let unit = if n.unit.is_empty() { "" } else { " " };
+        format!(
+            "{} = {}{unit}{} ({} {}{unit}{})",
+            n.name,
+            number::setting(n.value),
+            n.unit,
+            n.distribution,
+            number::setting(n.spread),
+            n.unit
+        )
+    });
+    let numbers: Vec<String> = numbers.collect();
+    let linear = match band.before.linear_is_enough {
+        true => "Linear propagation agrees",
+        false => "Linear propagation is not enough: the errors are not linear in these numbers",
+    };
+    format!(
+        "Machines drawn with {}, seed {}. Mean and standard deviation of the largest error over {} machines, at {} places. {linear} (before compensation: a deviation of {}).",
+        numbers.join("; "),
+        band.seed,
+        number::count(band.machines),
+        number::count(band.places.len()),
+        number::length(band.before.deviation_by_line_mm, 2, Rounding::Nearest)
+    )
+}
+
 /// What the written program leaves: name, size, explanation.
 pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     let (summary, run_inputs) = (&result.summary, &result.run_inputs);
@@ -188,6 +217,14 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
                 |error| number::length(error, 3, Rounding::Up),
             ),
             text,
+        ));
+    }
+    if let Some(band) = &result.uncertainty {
+        let shown = band.after.as_ref().unwrap_or(&band.before);
+        rows.push(row(
+            "Machine and force as they may be",
+            number::typeset(&shown.band_text()),
+            uncertain_words(band),
         ));
     }
     if !run_inputs.compensated {

@@ -107,6 +107,10 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&band);
     }
+    if let Some(band) = result.uncertainty_text() {
+        meaning.sentence.push(' ');
+        meaning.sentence.push_str(&band);
+    }
     if cuts_without_load(result) {
         meaning.sentence = format!(
             "No cutting force acts on the tool in this run. {}",

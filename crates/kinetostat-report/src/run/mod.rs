@@ -14,3 +14,4 @@ pub(crate) mod page;
 pub(crate) mod plan;
 pub(crate) mod preview;
 pub(crate) mod shown;
+pub(crate) mod uncertainty;

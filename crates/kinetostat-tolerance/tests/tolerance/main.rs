@@ -2,4 +2,5 @@
 
 mod closed_forms;
 mod files;
+mod fixing_points;
 mod machines;

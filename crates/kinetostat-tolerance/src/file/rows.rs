@@ -1,176 +1,21 @@
-//! The file of uncertainties: TOML, refused by name and line.
+//! Rows of the file: one uncertain number each, and pairs of them.
 
 use std::ops::Range;
 
-use kinetostat::Wrench;
-use kinetostat_model::{Model, ModelError, ParameterKind, Problem, Severity};
-use serde::Deserialize;
+use kinetostat_model::{Model, ParameterKind};
 use serde_spanned::Spanned;
 
 use crate::distribution::Distribution;
-use crate::uncertain::{Uncertain, Uncertainties};
-
-/// What an uncertain number is of.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Source {
-    /// A number of the model file, by its path.
-    Parameter(String),
-    /// A component of the load on the tool: force (N), then moment (N m).
-    Load(usize),
-    /// A factor on the whole load, 1 in the drawing: how far all cutting coefficients may be off together.
-    LoadFactor,
-}
-
-/// What a file of uncertainties says.
-#[derive(Clone, Debug, PartialEq)]
-pub struct UncertaintyFile {
-    /// The numbers and their distributions.
-    pub uncertainties: Uncertainties,
-    /// What each is of.
-    pub sources: Vec<Source>,
-}
-
-/// Names of the load's components, and of its factor.
-const LOADS: [&str; 7] = [
-    "force_n.x",
-    "force_n.y",
-    "force_n.z",
-    "moment_n_m.x",
-    "moment_n_m.y",
-    "moment_n_m.z",
-    "factor",
-];
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    schema: Spanned<u32>,
-    #[serde(default)]
-    uncertain: Vec<Spanned<Row>>,
-    #[serde(default)]
-    correlation: Vec<Spanned<Pair>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    parameter: Option<Spanned<String>>,
-    load: Option<Spanned<String>>,
-    normal: Option<Spanned<f64>>,
-    normal_percent: Option<Spanned<f64>>,
-    uniform: Option<Spanned<f64>>,
-    uniform_percent: Option<Spanned<f64>>,
-    triangular: Option<Spanned<f64>>,
-    triangular_percent: Option<Spanned<f64>>,
-    #[serde(default, rename = "source")]
-    _source: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Pair {
-    between: Spanned<[String; 2]>,
-    coefficient: Spanned<f64>,
-}
-
-/// The text with its name: where problems are told.
-struct Reader<'a> {
-    text: &'a str,
-    file: &'a str,
-    problems: Vec<Problem>,
-}
+use crate::file::load::Load;
+use crate::file::{Pair, Reader, Row, Source};
+use crate::uncertain::Uncertain;
 
 impl Reader<'_> {
-    fn refuse(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        let words = [message.into(), help.into()];
-        let problem = Problem::found(Severity::Error, self.file, self.text, span, "", words);
-        self.problems.push(problem);
-    }
-}
-
-impl UncertaintyFile {
-    /// Reads the uncertainties of a model's numbers and of the load on its tool; `file` names the text in messages.
-    ///
-    /// # Errors
-    /// Every fault with its line: an unknown parameter (with the nearest that exist), a negative spread, one that makes a stiffness
-    /// negative, correlations that contradict each other.
-    pub fn read(text: &str, file: &str, model: &Model, load: &Wrench) -> Result<Self, ModelError> {
-        let mut reader = Reader {
-            text,
-            file,
-            problems: Vec::new(),
-        };
-        let written: Written = match toml::from_str(text) {
-            Ok(written) => written,
-            Err(error) => {
-                let span = error.span().unwrap_or(0..0);
-                reader.refuse(
-                    span,
-                    error.message(),
-                    "see `kinetostat tolerance --help` for what such a file says",
-                );
-                return Err(ModelError::new(reader.problems));
-            }
-        };
-        if *written.schema.get_ref() != 1 {
-            reader.refuse(
-                written.schema.span(),
-                "this version reads schema 1",
-                "write schema = 1",
-            );
-        }
-        if written.uncertain.is_empty() {
-            reader.refuse(
-                0..0,
-                "nothing is uncertain",
-                "add a table [[uncertain]] with a parameter and its spread",
-            );
-        }
-        let mut each: Vec<Uncertain> = Vec::new();
-        let mut sources = Vec::new();
-        for row in &written.uncertain {
-            let Some((uncertain, source)) = reader.row(row, model, load) else {
-                continue;
-            };
-            if each.iter().any(|u| u.name == uncertain.name) {
-                reader.refuse(
-                    row.span(),
-                    format!("'{}' is given twice", uncertain.name),
-                    "keep one of them",
-                );
-            }
-            each.push(uncertain);
-            sources.push(source);
-        }
-        let pairs = reader.pairs(&written.correlation, &each);
-        if !reader.problems.is_empty() {
-            return Err(ModelError::new(reader.problems));
-        }
-        match Uncertainties::correlated(each, &pairs) {
-            Ok(uncertainties) => Ok(Self {
-                uncertainties,
-                sources,
-            }),
-            Err(contradiction) => {
-                let first = written.correlation.first();
-                let span = first.map_or(0..0, |p| p.get_ref().coefficient.span());
-                reader.refuse(
-                    span,
-                    contradiction.to_string(),
-                    "of three numbers, two that both go with the third go with each other: make the coefficients smaller, or state the missing ones",
-                );
-                Err(ModelError::new(reader.problems))
-            }
-        }
-    }
-}
-
-impl Reader<'_> {
-    fn row(
+    pub(super) fn row(
         &mut self,
         row: &Spanned<Row>,
         model: &Model,
-        load: &Wrench,
+        load: Load<'_>,
     ) -> Option<(Uncertain, Source)> {
         let (span, own) = (row.span(), row.get_ref());
         let (name, value, unit, kind, source) = match (&own.parameter, &own.load) {
@@ -198,36 +43,35 @@ impl Reader<'_> {
                 }
             }
             (None, Some(word)) => {
-                let Some(at) = LOADS.iter().position(|l| l == word.get_ref()) else {
-                    let near = LOADS
+                let words = load.words();
+                let Some(at) = words.iter().position(|l| l == word.get_ref()) else {
+                    let near = words
                         .iter()
                         .min_by_key(|l| strsim::damerau_levenshtein(l, word.get_ref()));
                     let near = near.copied().unwrap_or_default();
-                    let help = format!("did you mean '{near}'? There are {}", LOADS.join(", "));
+                    let (here, there) = match load {
+                        Load::Stated(_) => ("", "along a program it may be of a part of its force"),
+                        Load::AlongProgram => (
+                            " along a program",
+                            "its force differs from place to place, so that only factors are known",
+                        ),
+                    };
+                    let help = format!(
+                        "did you mean '{near}'? There are {}; {there}",
+                        words.join(", ")
+                    );
                     self.refuse(
                         word.span(),
-                        format!("there is no load '{}'", word.get_ref()),
+                        format!("there is no load '{}'{here}", word.get_ref()),
                         help,
                     );
                     return None;
                 };
-                let name = format!("load {}", LOADS[at]);
-                match at {
-                    6 => (
-                        name,
-                        1.0,
-                        "",
-                        Some(ParameterKind::Factor),
-                        Source::LoadFactor,
-                    ),
-                    at => (
-                        name,
-                        load.0[at],
-                        if at < 3 { "N" } else { "N m" },
-                        None,
-                        Source::Load(at),
-                    ),
-                }
+                let name = format!("load {}", words[at]);
+                let (value, unit, source) = load.part(at);
+                let factor = !matches!(source, Source::Load(_));
+                let kind = factor.then_some(ParameterKind::Factor);
+                (name, value, unit, kind, source)
             }
             _ => {
                 self.refuse(
@@ -316,7 +160,11 @@ impl Reader<'_> {
         }))
     }
 
-    fn pairs(&mut self, written: &[Spanned<Pair>], each: &[Uncertain]) -> Vec<(usize, usize, f64)> {
+    pub(super) fn pairs(
+        &mut self,
+        written: &[Spanned<Pair>],
+        each: &[Uncertain],
+    ) -> Vec<(usize, usize, f64)> {
         let mut out: Vec<(usize, usize, f64)> = Vec::new();
         for pair in written {
             let own = pair.get_ref();

@@ -1,0 +1,33 @@
+//! Places of a run for questions beside it: where machines that are not as drawn have their tool, for instance.
+
+use kinetostat::{Pose, Wrench};
+
+/// A place at which a run was solved, as poses of the machine.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ProgramPlace {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Length of the path up to here, mm.
+    pub path_mm: f64,
+    /// Index of its move in the path.
+    pub move_index: usize,
+    /// Share of that move, 0 to 1.
+    pub share: f64,
+    /// Number of its tool; none where the run has one tool for all blocks.
+    pub tool: Option<u32>,
+    /// Where the tool should be, and where the program as it is commands it: base from tool, m.
+    pub wanted: Pose,
+    /// Where the written program commands it; `wanted` without one.
+    pub commanded: Pose,
+    /// Where the tool should be when the written program has turned the part; `wanted` unless a table turns it otherwise.
+    pub wanted_as_commanded: Pose,
+    /// What acts on the tool: base axes, about its tip, N and N m.
+    pub wrench: Wrench,
+    /// Distance of the tool from where it should be, with the program as it is, mm of the program.
+    pub error_before_mm: f64,
+    /// The same with the written program.
+    pub error_after_mm: f64,
+    /// Metres in the machine per millimetre of the program.
+    pub metres_per_mm: f64,
+}

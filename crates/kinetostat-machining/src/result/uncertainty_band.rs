@@ -1,0 +1,139 @@
+//! How far the errors of a program scatter when the machine and the force are not exactly as stated.
+
+use serde::{Deserialize, Serialize};
+
+use crate::number::{counted, largest_length, length_plus_minus};
+
+/// A number that is uncertain, as stated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct UncertainNumber {
+    /// Path in the model, or part of the load.
+    pub name: String,
+    /// As drawn.
+    pub value: f64,
+    /// Of value and spread.
+    pub unit: String,
+    /// Its distribution.
+    pub distribution: String,
+    /// Standard deviation of a normal one, half width of another.
+    pub spread: f64,
+}
+
+/// The largest error along the program, over many machines, mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ScatteredError {
+    /// Of the machine as drawn, at the same places.
+    pub as_drawn_mm: f64,
+    /// Mean over all machines.
+    pub mean_mm: f64,
+    /// Standard deviation.
+    pub deviation_mm: f64,
+    /// Half width of the interval in which that lies with the confidence stated.
+    pub deviation_plus_minus_mm: f64,
+    /// Nineteen in twenty machines have more.
+    pub low_mm: f64,
+    /// Nineteen in twenty machines have less.
+    pub high_mm: f64,
+    /// Upper bound of that, with the confidence stated; none where too few machines were drawn for one.
+    pub high_at_most_mm: Option<f64>,
+    /// Standard deviation by linear propagation.
+    pub deviation_by_line_mm: f64,
+    /// Whether that is enough.
+    pub linear_is_enough: bool,
+}
+
+/// A place of the program, with the errors of nineteen in twenty machines at least, of half of them, and of one in twenty, mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BandPlace {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Length of the path up to here, mm.
+    pub path_mm: f64,
+    /// With the program as it is.
+    pub before_mm: [f64; 3],
+    /// With the written program.
+    pub after_mm: Option<[f64; 3]>,
+}
+
+/// How far the errors of a program scatter: machines as chance draws them, commanded by the program as it is and by the one that was
+/// written for the machine as drawn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct UncertaintyBand {
+    /// Where it is said what is uncertain.
+    pub file: String,
+    /// What is.
+    pub uncertain: Vec<UncertainNumber>,
+    /// Machines that were drawn.
+    pub machines: usize,
+    /// Of those, without an answer at some place.
+    pub unanswered: usize,
+    /// Of those, not stable under the load at some place.
+    pub unstable: usize,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Of the bounds.
+    pub confidence: f64,
+    /// Places at which all machines were solved.
+    pub places: Vec<BandPlace>,
+    /// With the program as it is.
+    pub before: ScatteredError,
+    /// With the written program.
+    pub after: Option<ScatteredError>,
+}
+
+impl ScatteredError {
+    /// Mean and standard deviation, as `0.403 mm +- 0.071`.
+    ///
+    /// ```
+    /// let mut error = kinetostat_machining::ScatteredError::default();
+    /// (error.mean_mm, error.deviation_mm) = (0.403, 0.0712);
+    /// assert_eq!(error.band_text(), "0.403 mm +- 0.071");
+    /// ```
+    #[must_use]
+    pub fn band_text(&self) -> String {
+        length_plus_minus(self.mean_mm, self.deviation_mm)
+    }
+}
+
+impl UncertaintyBand {
+    /// What it says, in words.
+    pub(crate) fn description(&self) -> String {
+        let numbers = counted(self.uncertain.len(), "uncertain number");
+        let mut text = format!(
+            "With the {numbers} of {} ({} machines drawn, solved at {}), the tool is up to {} off its path as programmed",
+            self.file,
+            self.machines,
+            counted(self.places.len(), "place"),
+            self.before.band_text()
+        );
+        match &self.after {
+            Some(after) => text.push_str(&format!(
+                ", and up to {} with the compensated program (mean and standard deviation; nineteen in twenty machines stay within {}).",
+                after.band_text(),
+                largest_length(after.high_mm)
+            )),
+            None => text.push_str(&format!(
+                " (mean and standard deviation; nineteen in twenty machines stay within {}).",
+                largest_length(self.before.high_mm)
+            )),
+        }
+        if !self.before.linear_is_enough {
+            text.push_str(
+                " These errors are not linear in the numbers: linear propagation is not enough.",
+            );
+        }
+        let [unanswered, unstable] = [self.unanswered, self.unstable];
+        if unanswered > 0 {
+            text.push_str(&format!(
+                " {unanswered} of these machines have no answer somewhere and are not in these figures."
+            ));
+        }
+        if unstable > 0 {
+            text.push_str(&format!(
+                " {unstable} OF THESE MACHINES ARE NOT STABLE somewhere on the program."
+            ));
+        }
+        text
+    }
+}

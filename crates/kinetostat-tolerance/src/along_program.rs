@@ -1,0 +1,217 @@
+//! Machines as functions of uncertain numbers, along a program: commanded by the program as it is, and by the one that was written for the
+//! machine as drawn.
+
+use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+use kinetostat::nalgebra::Vector3;
+use kinetostat::number::larger;
+use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat_machining::ProgramPlace;
+use kinetostat_model::{Model, ParametricModel};
+
+use crate::file::{CUTTING_PARTS, Source, UncertaintyFile};
+use crate::machine::{Room, TaskError, at};
+use crate::study::DependsOnMachine;
+
+/// Parts of the force of the cut at every place: what one of them would be more by, if it were as large again.
+pub type CuttingParts = [Vec<Wrench>; CUTTING_PARTS.len()];
+
+/// What the same error may differ by when it is solved once more: mm, and a share of it.
+const SAME_MM: f64 = 1e-6;
+const SAME: f64 = 1e-6;
+
+/// Places that are cut with one tool.
+#[derive(Clone, Debug)]
+struct OfTool {
+    /// Platform from tool, m.
+    tool: Pose,
+    /// The machine as drawn, with the tool.
+    drawn: Mechanism,
+    /// Their indices among all places.
+    indices: Vec<usize>,
+    wanted: Vec<Pose>,
+    commanded: Vec<Pose>,
+}
+
+/// A run along a program as a function of uncertain numbers. Its numbers are the largest error before compensation and, of a program that
+/// was compensated, after it, then both at every place: distances of the tool from where it should be, mm of the program.
+#[derive(Clone, Debug)]
+pub struct UncertainRun {
+    parametric: ParametricModel,
+    sources: Vec<Source>,
+    places: Vec<ProgramPlace>,
+    parts: Option<CuttingParts>,
+    tools: Vec<OfTool>,
+    compensated: bool,
+}
+
+impl UncertainRun {
+    /// A model, the poses of its tools (number, platform from tool; the first without a number is that of all other places), the places of a
+    /// run, whether it was compensated, and the parts of the cutting force there, where they are known.
+    ///
+    /// # Errors
+    /// What is wrong with the numbers of the drawing, or where the machine as drawn has no answer.
+    pub fn new(
+        model: &Model,
+        tools: &[(Option<u32>, Pose)],
+        file: &UncertaintyFile,
+        (places, compensated): (&[ProgramPlace], bool),
+        parts: Option<CuttingParts>,
+    ) -> Result<Self, TaskError> {
+        let parametric = model.parametric(&file.parameters())?;
+        let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
+        let drawn = parametric.mechanism(&nominal)?;
+        let mut of_tools: Vec<(Option<u32>, OfTool)> = Vec::new();
+        for (i, place) in places.iter().enumerate() {
+            let known = of_tools
+                .iter()
+                .position(|(number, _)| *number == place.tool);
+            let own = known.unwrap_or_else(|| {
+                let tool = pose_of(tools, place.tool);
+                of_tools.push((
+                    place.tool,
+                    OfTool {
+                        tool,
+                        drawn: drawn.with_tool(&tool),
+                        indices: Vec::new(),
+                        wanted: Vec::new(),
+                        commanded: Vec::new(),
+                    },
+                ));
+                of_tools.len() - 1
+            });
+            let own = &mut of_tools[own].1;
+            own.indices.push(i);
+            own.wanted.push(place.wanted);
+            own.commanded.push(place.commanded);
+        }
+        let run = Self {
+            parametric,
+            sources: file.sources.clone(),
+            places: places.to_vec(),
+            parts,
+            tools: of_tools.into_iter().map(|(_, own)| own).collect(),
+            compensated,
+        };
+        let mut out = vec![0.0; run.width()];
+        run.answer(
+            &file.uncertainties.nominal(),
+            &mut Room::default(),
+            &mut out,
+        )?;
+        let each = run.columns();
+        if let Some(at) = out[each..].iter().position(|x| !x.is_finite()) {
+            return Err(TaskError::Unanswered {
+                place: at / each + 1,
+                reason: format!("line {} of the program", run.places[at / each].line),
+            });
+        }
+        for (place, row) in run.places.iter().zip(out[each..].chunks_exact(each)) {
+            let stated = [place.error_before_mm, place.error_after_mm];
+            for (found_mm, stated_mm) in row.iter().zip(stated) {
+                if (found_mm - stated_mm).abs() > SAME_MM + SAME * stated_mm {
+                    return Err(TaskError::StandsOtherwise {
+                        line: place.line,
+                        found_mm: *found_mm,
+                        stated_mm,
+                    });
+                }
+            }
+        }
+        Ok(run)
+    }
+
+    /// Numbers of a place: before, and after compensation.
+    pub(crate) fn columns(&self) -> usize {
+        1 + usize::from(self.compensated)
+    }
+
+    /// Where they are.
+    pub(crate) fn places(&self) -> &[ProgramPlace] {
+        &self.places
+    }
+
+    /// The load at a place with these values.
+    fn wrench(&self, place: usize, values: &[f64]) -> Wrench {
+        let own = self.places[place].wrench;
+        let (mut sum, mut factor) = (own.0, 1.0);
+        for (source, value) in self.sources.iter().zip(values) {
+            match (source, &self.parts) {
+                (Source::LoadFactor, _) => factor = *value,
+                (Source::CuttingPart(k), Some(parts)) => {
+                    sum += parts[*k][place].0 * (value - 1.0);
+                }
+                _ => {}
+            }
+        }
+        Wrench(sum * factor)
+    }
+}
+
+fn pose_of(tools: &[(Option<u32>, Pose)], number: Option<u32>) -> Pose {
+    let own = tools.iter().find(|(n, _)| *n == number);
+    let other = || tools.iter().find(|(n, _)| n.is_none());
+    own.or_else(other)
+        .map_or_else(Pose::identity, |(_, pose)| *pose)
+}
+
+impl DependsOnMachine for UncertainRun {
+    fn width(&self) -> usize {
+        (1 + self.places.len()) * self.columns()
+    }
+
+    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
+        let of_model = self.sources.iter().zip(values);
+        let of_model = of_model.filter(|(source, _)| matches!(source, Source::Parameter(_)));
+        let numbers: Vec<f64> = of_model.map(|(_, value)| *value).collect();
+        let built = self.parametric.mechanism(&numbers)?;
+        let each = self.columns();
+        let (largest, of_places) = out.split_at_mut(each);
+        let mut unstable = 0;
+        for own in &self.tools {
+            let batch = Batch::new(&built.with_tool(&own.tool).commanded_as(&own.drawn)?);
+            room.wrenches.clear();
+            let loads = own.indices.iter().map(|i| self.wrench(*i, values));
+            room.wrenches.extend(loads);
+            let last = if self.compensated {
+                &own.commanded
+            } else {
+                &own.wanted
+            };
+            if self.compensated {
+                batch.equilibrium_into(
+                    &own.wanted,
+                    &room.wrenches,
+                    Details::Rest,
+                    &mut room.loaded,
+                )?;
+            }
+            batch.equilibrium_into(
+                last,
+                &room.wrenches,
+                Details::Stability,
+                &mut room.compensated,
+            )?;
+            let stable = (0..last.len()).filter_map(|i| room.compensated.stability(i));
+            unstable += stable.filter(|s| !s.stable).count();
+            for (k, i) in own.indices.iter().enumerate() {
+                let place = &self.places[*i];
+                let row = &mut of_places[each * i..each * (i + 1)];
+                let off = |found: &BatchEquilibrium, wanted: &Pose| {
+                    let away: Vector3<f64> = at(found, k) - wanted.translation.vector;
+                    away.norm() / place.metres_per_mm
+                };
+                if self.compensated {
+                    row[0] = off(&room.loaded, &place.wanted);
+                    row[1] = off(&room.compensated, &place.wanted_as_commanded);
+                } else {
+                    row[0] = off(&room.compensated, &place.wanted);
+                }
+            }
+        }
+        for (column, largest) in largest.iter_mut().enumerate() {
+            let all = of_places.iter().skip(column).step_by(each);
+            *largest = all.copied().fold(0.0, larger);
+        }
+        Ok(unstable)
+    }
+}

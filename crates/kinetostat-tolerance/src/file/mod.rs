@@ -1,0 +1,191 @@
+//! The file of uncertainties: TOML, refused by name and line.
+
+mod load;
+mod rows;
+
+use std::ops::Range;
+
+use kinetostat::Wrench;
+use kinetostat_model::{Model, ModelError, Problem, Severity};
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+use crate::file::load::Load;
+use crate::uncertain::{Uncertain, Uncertainties};
+
+pub use load::CUTTING_PARTS;
+
+/// What an uncertain number is of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// A number of the model file, by its path.
+    Parameter(String),
+    /// A component of the load on the tool: force (N), then moment (N m).
+    Load(usize),
+    /// A factor on the whole load, 1 in the drawing: how far all cutting coefficients may be off together.
+    LoadFactor,
+    /// A factor on one part of the force of the cut, 1 in the drawing, as an index into [`CUTTING_PARTS`]: how far its coefficients
+    /// may be off.
+    CuttingPart(usize),
+}
+
+/// What a file of uncertainties says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertaintyFile {
+    /// The numbers and their distributions.
+    pub uncertainties: Uncertainties,
+    /// What each is of.
+    pub sources: Vec<Source>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    schema: Spanned<u32>,
+    #[serde(default)]
+    uncertain: Vec<Spanned<Row>>,
+    #[serde(default)]
+    correlation: Vec<Spanned<Pair>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    parameter: Option<Spanned<String>>,
+    load: Option<Spanned<String>>,
+    normal: Option<Spanned<f64>>,
+    normal_percent: Option<Spanned<f64>>,
+    uniform: Option<Spanned<f64>>,
+    uniform_percent: Option<Spanned<f64>>,
+    triangular: Option<Spanned<f64>>,
+    triangular_percent: Option<Spanned<f64>>,
+    #[serde(default, rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pair {
+    between: Spanned<[String; 2]>,
+    coefficient: Spanned<f64>,
+}
+
+/// The text with its name: where problems are told.
+struct Reader<'a> {
+    text: &'a str,
+    file: &'a str,
+    problems: Vec<Problem>,
+}
+
+impl Reader<'_> {
+    fn refuse(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        let words = [message.into(), help.into()];
+        let problem = Problem::found(Severity::Error, self.file, self.text, span, "", words);
+        self.problems.push(problem);
+    }
+}
+
+impl UncertaintyFile {
+    /// Paths of the model's numbers that are uncertain, in their order.
+    pub(crate) fn parameters(&self) -> Vec<&str> {
+        let all = self.sources.iter();
+        all.filter_map(|source| match source {
+            Source::Parameter(path) => Some(path.as_str()),
+            _ => None,
+        })
+        .collect()
+    }
+
+    /// Reads the uncertainties of a model's numbers and of the load on its tool; `file` names the text in messages.
+    ///
+    /// # Errors
+    /// Every fault with its line: an unknown parameter (with the nearest that exist), a negative spread, one that makes a stiffness
+    /// negative, correlations that contradict each other.
+    pub fn read(text: &str, file: &str, model: &Model, load: &Wrench) -> Result<Self, ModelError> {
+        Self::read_with(text, file, model, Load::Stated(load))
+    }
+
+    /// The same for a run along a program, where the load differs from place to place: `load` is then `factor`, or one of
+    /// [`CUTTING_PARTS`].
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_along_program(text: &str, file: &str, model: &Model) -> Result<Self, ModelError> {
+        Self::read_with(text, file, model, Load::AlongProgram)
+    }
+
+    fn read_with(
+        text: &str,
+        file: &str,
+        model: &Model,
+        load: Load<'_>,
+    ) -> Result<Self, ModelError> {
+        let mut reader = Reader {
+            text,
+            file,
+            problems: Vec::new(),
+        };
+        let written: Written = match toml::from_str(text) {
+            Ok(written) => written,
+            Err(error) => {
+                let span = error.span().unwrap_or(0..0);
+                reader.refuse(
+                    span,
+                    error.message(),
+                    "see `kinetostat tolerance --help` for what such a file says",
+                );
+                return Err(ModelError::new(reader.problems));
+            }
+        };
+        if *written.schema.get_ref() != 1 {
+            reader.refuse(
+                written.schema.span(),
+                "this version reads schema 1",
+                "write schema = 1",
+            );
+        }
+        if written.uncertain.is_empty() {
+            reader.refuse(
+                0..0,
+                "nothing is uncertain",
+                "add a table [[uncertain]] with a parameter and its spread",
+            );
+        }
+        let mut each: Vec<Uncertain> = Vec::new();
+        let mut sources = Vec::new();
+        for row in &written.uncertain {
+            let Some((uncertain, source)) = reader.row(row, model, load) else {
+                continue;
+            };
+            if each.iter().any(|u| u.name == uncertain.name) {
+                reader.refuse(
+                    row.span(),
+                    format!("'{}' is given twice", uncertain.name),
+                    "keep one of them",
+                );
+            }
+            each.push(uncertain);
+            sources.push(source);
+        }
+        let pairs = reader.pairs(&written.correlation, &each);
+        if !reader.problems.is_empty() {
+            return Err(ModelError::new(reader.problems));
+        }
+        match Uncertainties::correlated(each, &pairs) {
+            Ok(uncertainties) => Ok(Self {
+                uncertainties,
+                sources,
+            }),
+            Err(contradiction) => {
+                let first = written.correlation.first();
+                let span = first.map_or(0..0, |p| p.get_ref().coefficient.span());
+                reader.refuse(
+                    span,
+                    contradiction.to_string(),
+                    "of three numbers, two that both go with the third go with each other: make the coefficients smaller, or state the missing ones",
+                );
+                Err(ModelError::new(reader.problems))
+            }
+        }
+    }
+}
