@@ -29,6 +29,9 @@ pub(crate) fn typeset(text: &str) -> String {
     if text == MISSING {
         return text.to_owned();
     }
+    if let Some((value, spread)) = text.split_once(" +- ") {
+        return format!("{} ± {}", typeset(value), typeset(spread));
+    }
     let (number, unit) = match text.strip_prefix("below ") {
         Some(rest) => return format!("below {}", typeset(rest)),
         None => text.split_once(' ').unwrap_or((text, "")),
@@ -188,6 +191,7 @@ mod tests {
         assert_eq!(fixed(-1234.5, 1), "\u{2212}1\u{202f}234.5");
         assert_eq!(typeset("-12.5e-9 mm"), "\u{2212}12.5 × 10⁻⁹\u{202f}mm");
         assert_eq!(typeset("0.539 um"), "0.539\u{202f}µm");
+        assert_eq!(typeset("0.40 mm +- 0.07"), "0.40\u{202f}mm ± 0.07");
         assert_eq!(typeset("below 0.001 um"), "below 0.001\u{202f}µm");
         assert_eq!(typeset("1234.5 N m"), "1\u{202f}234.5\u{202f}N m");
         assert_eq!(significant(f64::INFINITY, 3, Rounding::Up), MISSING);

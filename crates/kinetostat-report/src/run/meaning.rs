@@ -109,7 +109,7 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     }
     if let Some(band) = result.uncertainty_text() {
         meaning.sentence.push(' ');
-        meaning.sentence.push_str(&band);
+        meaning.sentence.push_str(&band.replace("+-", "±"));
     }
     if cuts_without_load(result) {
         meaning.sentence = format!(
