@@ -13,7 +13,7 @@
 # %% [markdown]
 # # First stiffness: which way may this arm be pushed?
 #
-# An arm of two steel tubes and two geared drives holds a tool 1 m from its base. A process pushes the tool with 200 N. How far does it go, and does it go where it is pushed?
+# An arm of two steel tubes and two geared drives holds a tool about 1 m from its base. A process pushes the tool with 200 N. How far does it go, and does it go where it is pushed?
 #
 # Needs `pip install "kinetostat[plot]"`.
 #
@@ -52,14 +52,13 @@ angle = np.radians(np.arange(0, 361, 3))
 push = ks.wrench(np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * LOAD)
 moved = 1e3 * push @ posture.stiffness().compliance.T  # mm
 length = np.linalg.norm(moved[:, :2], axis=1)
-most, least = length.argmax(), length[:60].argmin()
-for k in (most % 60, least):
+for k in (length[:60].argmax(), length[:60].argmin()):
     print(f"pushed towards {np.degrees(angle[k]):3.0f} deg: {length[k]:.3f} mm")
 
 # The same by the core, which bends the arm and solves its equilibrium, for all directions at once.
 loaded = machine.equilibrium(np.broadcast_to(posture.target, (len(push), 4, 4)), push)
 off = np.abs(1e3 * loaded.displacement[:, :2] - moved[:, :2]).max()
-print(f"small displacements are off by at most {1e3 * off:.2f} um: linear is enough here")
+print(f"the bent arm goes elsewhere by at most {1e3 * off:.2f} um: linear is enough here")
 
 # %% alt="The arm from above; around its tool the slender ellipse of the places to which 200 N in all directions move it, and arrows: a push along x moves the tool mostly along the ellipse"
 figure, axes = plt.subplots(figsize=(7, 4.2))

@@ -90,7 +90,7 @@ for name, beta, printed in (("A", np.radians(30), 3), ("B", 0.0, 6)):
     print(f"{name}: rank {found.rank} (printed: {printed}); K along x {k[0]:.0f}, z {k[2]:.0f} N/m")
 
 # %% [markdown]
-# A has rank 3: it turns freely about the vertical, and about two more axes. The report's formulas give for A $K_{xx} = 300000$, $K_{zz} = 5400000$ N/m and no stiffness about z [R 3.34], for B $K_{xx} = 1036364$, $K_{zz} = 3927273$ N/m [R 3.35] with these lengths.
+# A has rank 3: it turns freely about the vertical, and about two horizontal axes through the point where the lines of its legs meet. The report's formulas give for A $K_{xx} = 300000$, $K_{zz} = 5400000$ N/m and no stiffness about z [R 3.34], for B $K_{xx} = 1036364$, $K_{zz} = 3927273$ N/m [R 3.35] with these lengths.
 #
 # ## How far from the pair is too far?
 

@@ -36,7 +36,7 @@ print(f"it buckles at {buckles.displacement:.6f} m under {buckles.force:.6f} N")
 # %% [markdown]
 # ## What Table 5.1 of the report prints
 #
-# Stable Z at 0.2 m: force 1.05, stiffness 0.21 (units of $K/L$ and $K/L^2$). The cell compares with more digits of that, and of the unstable Z, from the book's reference numbers.
+# Stable Z at 0.2 m: force 1.05, stiffness 0.21 (units of $K/L$ and $K/L^2$). The cell compares with more digits of that, and of the unstable Z, by an independent program (golden file `z_chain` of the tests).
 
 # %%
 shorter = posture.curve(direction=[-1, 0, 0], displacement=(0.0, 0.2))
@@ -91,7 +91,7 @@ for branch in curve.branches:
     at = np.abs(branch.displacement - 0.2).argmin()
     hand = [force for _, force in equilibria(length - branch.displacement[at])]
     assert np.min(np.abs(np.array(hand) - branch.force[at])) < 1e-5
-# The pitchfork and the equilibria of the book's reference numbers.
+# The pitchfork by an independent program with many digits (the book's errata of chapter 5).
 assert abs(buckles.displacement - 0.110931613194) < 1e-9
 assert abs(buckles.force - 1.03347699957) < 1e-9
 
@@ -116,7 +116,7 @@ axes.annotate(
 axes.set(
     xlabel="end pushed in by, mm", ylabel="force, N (units of K/L)", xlim=(0, 400), ylim=(0, 2.2)
 )
-axes.set_title("Beyond 111 mm the Z leans over and holds no more than it did")
+axes.set_title("Beyond 111 mm the Z leans over and holds hardly more")
 axes.legend(loc="lower right")
 plt.show()
 

@@ -55,7 +55,7 @@ for name, place in POINTS.items():
     print(f"{name}  {text[0]}    {text[1]}    {moment:10.2f} {printed[1]:12.2f}")
 
 # %% [markdown]
-# There is no force on the tool, and up to 9 N m sit in the legs. The report's numbers are those of its linear formulas; at Q3 and Q4 it took the parallelogram of leg 1 for all three legs (see the book's reference numbers), which is why its moments there are a few percent low.
+# There is no force on the tool, and up to 9 N m sit in the legs. The report's numbers are those of its linear formulas; at Q3 and Q4 it took the parallelogram of leg 1 for all three legs (see the book's errata), which is why its moments there are a few percent low.
 #
 # ## Check
 #

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Milling compensation: which program cuts the pocket that was programmed?
 #
-# An Orthoglide mills the outline of a hexagonal pocket. The cutting force turns with the path, the machine bends, and the pocket comes out wrong by a quarter of a millimetre. Which program has to be loaded so that it comes out right?
+# An Orthoglide mills the outline of a hexagonal pocket. The cutting force turns with the path, the machine bends, and the pocket comes out wrong by 0.3 mm. Which program has to be loaded so that it comes out right?
 #
 # Needs `pip install "kinetostat[plot]"`.
 #
@@ -90,7 +90,7 @@ assert steps[0] > 100
 assert steps[-1] < 1e-3
 assert off < 2
 
-# %% alt="Left: the programmed hexagon and where the tool goes without compensation, its error drawn 40 times larger, outside it by up to 11 mm in the drawing. Right: error along the path on a logarithmic scale, about 250 um before and below 1 um after"
+# %% alt="Left: the programmed hexagon and where the tool goes without compensation, its error drawn 40 times larger, outside it by up to 12 mm in the drawing. Right: error along the path on a logarithmic scale, 100 to 300 um before and below 1 um after"
 figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2), width_ratios=(1, 1.15))
 cut = found.position[:, 2] < 0
 GROWN = 40

@@ -46,7 +46,7 @@ print(f"softest stiffness from {1e-6 * soft.min():.3f} to {1e-6 * soft.max():.3f
 # %% [markdown]
 # ## Check: two published places
 #
-# At the isotropic point the compliance of the identified machine is $3.331344 \cdot 10^{-4}$ mm/N in all directions; at Q1 = (126.35, 126.35, 126.35) mm it has $28.86266$ on the diagonal and $-13.84484$ beside it, both $10^{-4}$ mm/N (book, reference numbers). The eigenvalues of such a matrix are $a - b$ twice and $a + 2b$.
+# At the isotropic point the compliance of the identified machine is $3.331344 \cdot 10^{-4}$ mm/N in all directions; at Q1 = (126.35, 126.35, 126.35) mm it has $28.86266$ on the diagonal and $-13.84484$ beside it, both $10^{-4}$ mm/N, by an independent program (golden file `orthoglide_unloaded` of the tests). The eigenvalues of such a matrix are $a - b$ twice and $a + 2b$.
 
 # %%
 q1 = 0.12635

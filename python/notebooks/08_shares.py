@@ -25,10 +25,10 @@ import numpy as np
 
 import kinetostat as ks
 
-FORCE = np.array([0, 0, -800.0])  # N
+LOAD = 800.0  # N, along z
 machine = ks.Machine.preset("heavy_6r")
 shares = machine.shares(direction="z")
-print(f"{1e3 * shares.compliance * 800:.3f} mm under 800 N along z")
+print(f"{1e3 * shares.compliance * LOAD:.3f} mm under {LOAD:.0f} N along z")
 for part in shares.parts[:6]:
     print(f"{part.name:10} {part.kind:6} {100 * part.share:5.1f} %")
 assert abs(sum(part.share for part in shares.parts) - 1) < 1e-12
@@ -89,7 +89,7 @@ for column, x in enumerate(reach):
     here = machine.shares(position=[x, 0, home[2]], direction="z")
     for part in here.parts:
         row = groups.index(part.name) if part.name in groups else len(groups) - 1
-        stack[row, column] += 1e3 * 800 * part.compliance  # mm
+        stack[row, column] += 1e3 * LOAD * part.compliance  # mm
 total = stack.sum(axis=0)
 print(f"at {reach[0]:.1f} m {total[0]:.2f} mm, at {reach[-1]:.1f} m {total[-1]:.2f} mm")
 change = reach[np.argmax(stack[0] > stack[1])]
@@ -103,7 +103,7 @@ for row, (name, color) in enumerate(zip(groups, colors, strict=True)):
     axes.fill_between(reach, edges[row], edges[row + 1], color=color, label=name, linewidth=0)
 axes.axvline(home[0], color="black", linestyle=":", linewidth=1.2)
 axes.text(home[0] + 0.02, 0.92 * total.max(), "home")
-axes.set(xlabel="tool's distance from the base's axis, m", ylabel="down by, mm (800 N along z)")
+axes.set(xlabel="tool's distance from the base's axis, m", ylabel="yields by, mm (800 N along z)")
 axes.set(xlim=(reach[0], reach[-1]), ylim=(0, 1.05 * total.max()))
 axes.set_title("Near the base the elbow bends, far out the shoulder")
 axes.legend(loc="upper center")

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # An arm from a URDF: how far does it sag?
 #
-# A robot's URDF has lengths, masses and limits, but nothing that bends. With one stiffness for each drive we learn how far the tool of a light arm hangs down, by its own weight and by a gripper with a part of 3 kg, and whether the reach of the data sheet can be used.
+# A robot's URDF has lengths, masses and limits, but nothing that bends. With one stiffness for each drive we learn how far the tool of a light arm hangs down, by its own weight and by a gripper with a part of 3 kg.
 #
 # Needs `pip install "kinetostat[plot]"`.
 #
@@ -154,7 +154,7 @@ right.plot(radius, -1e3 * own.displacement[:, 2], label="own weight")
 right.plot(radius, -1e3 * held.displacement[:, 2], "--", label="with a part of 3 kg")
 right.set(xlabel="reach of the tool, m", ylabel="tool hangs down by, mm", ylim=(0, None))
 ratio = held.displacement[30, 2] / held.displacement[0, 2]
-right.set_title(f"Stretched out it sags {ratio:.0f} times as far")
+right.set_title(f"Stretched out it sags {ratio:.1f} times as far")
 right.legend(loc="upper left")
 plt.show()
 

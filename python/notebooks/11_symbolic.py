@@ -126,6 +126,6 @@ plt.show()
 # %% [markdown]
 # ## What to try
 #
-# - `stiffness.matrix[1, 1]`: across the line it is *not* zero under load, as the report says for the unloaded chain.
+# - `stiffness.matrix[1, 1]`: across the line it is zero without a load, as the report says, but not under one.
 # - `small.latex()`, `.rust()`, `.python()`.
 # - `symbolic.from_machine(machine)` names the parts of a machine of one limb; `symbolic.beam()` and `with_passive_joint` give Tables 3.1 to 3.3.

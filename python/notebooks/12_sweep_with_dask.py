@@ -11,7 +11,7 @@
 # ---
 
 # %% [markdown]
-# # A sweep with Dask: may a worker die?
+# # A sweep with Dask: what if it is stopped?
 #
 # A map of a whole workspace in many variables is a night's work for a slow model, and a cluster's for a large one. Workers come and go there. Is the answer complete, is it the same, and what happens to a run that was stopped?
 #
