@@ -56,3 +56,40 @@ def test_every_notebook_has_its_page_in_the_summary() -> None:
     assert len(NOTEBOOKS) == 12
     for notebook in NOTEBOOKS:
         assert f"(notebooks/{notebook.stem}.md)" in summary
+
+
+PROBES = """
+import pathlib
+import make_notebooks as tool
+
+def said(source):
+    path = pathlib.Path("probe.py")
+    path.write_text('# %% alt="a picture"\\n' + source)
+    try:
+        tool.pictures(tool.executed(path), "probe")
+    except (tool.CellExecutionError, tool.NotebookFaultError) as fault:
+        return str(fault)
+    return "nothing"
+
+assert "a cell warns" in said("import warnings; warnings.warn('careful')")
+assert "ZeroDivisionError" in said("1 / 0")
+assert "0 pictures, and 1 cells" in said("1")
+
+page = "text\\n\\n<!-- output -->\\n```text\\n{}\\n```\\n\\nmore\\n"
+shown = page.format("0.418 mm off, residual 3e-16, stable")
+same = lambda printed: not tool.differences("probe", page.format(printed), shown)
+assert same("0.4185 mm  off, residual -1e-15, stable")
+assert not same("0.43 mm off, residual 3e-16, stable")
+assert not same("0.418 mm off, residual 3e-16, unstable")
+assert not same("nan mm off, residual 3e-16, stable")
+assert tool.differences("probe", shown.replace("more", "else"), shown)
+assert tool.differences("probe", "text\\n\\nmore\\n", shown)
+"""
+
+
+def test_errors_warnings_missing_pictures_and_stale_pages_are_found(tmp_path: Path) -> None:
+    needed(TOOLS, "notebooks are executed with")
+    environment = os.environ | {"PYTHONPATH": str(TOOL.parent)}
+    command = [sys.executable, "-c", PROBES]
+    done = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True, timeout=SECONDS)
+    assert done.returncode == 0, done.stdout + done.stderr

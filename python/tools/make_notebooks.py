@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import jupytext
+import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
@@ -49,9 +50,9 @@ class NotebookFaultError(Exception):
 def executed(path: Path) -> Any:
     """A notebook with its outputs, run in a folder of its own beside nothing but the style of the pictures."""
     notebook = jupytext.read(path)
-    setup = jupytext.reads(_SETUP, fmt="py:percent").cells[0]
-    setup.source = _SETUP
-    notebook.cells.insert(0, setup)
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(_SETUP))
+    # The kernel of this Python, whatever kernels the user has.
+    os.environ["JUPYTER_PREFER_ENV_PATH"] = "1"
     with tempfile.TemporaryDirectory(prefix="notebook-") as folder:
         shutil.copy(NOTEBOOKS / "matplotlibrc", folder)
         environment = {name: value for name, value in os.environ.items() if name not in ("MPLBACKEND", "MATPLOTLIBRC")}
