@@ -126,7 +126,7 @@ axes.plot(0, 100, "ko", clip_on=False, zorder=5)
 axes.annotate("B: pairs, rank 6", (0, 100), (5, 122), arrowprops={"arrowstyle": "->"})
 axes.set(xlabel="angle between the two joints of a pair, deg", ylabel="share of that of B, %")
 axes.set(xlim=(0, 60), ylim=(0, 150))
-axes.set_title("Each degree between the joints costs stiffness, until nothing is left")
+axes.set_title("The farther apart, the less holds the platform about z")
 axes.legend(loc="lower left")
 plt.show()
 
