@@ -84,6 +84,13 @@ def machine_html(machine: Machine) -> str:
     return f"<div><h4>{html.escape(machine.name)}</h4><p>{html.escape(machine.file)}</p>{drives}{parts}{picture}</div>"
 
 
+def _without_rounding(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Zero where a number is nothing beside the stiffest translation and rotation: what is left of a sum by rounding."""
+    stiffest = np.abs(np.diag(matrix)).reshape(2, 3).max(axis=1)
+    size = np.sqrt(np.repeat(stiffest, 3))
+    return np.where(np.abs(matrix) > 1e-12 * np.outer(size, size), matrix, 0.0)
+
+
 def stiffness_html(stiffness: Stiffness) -> str:
     """Matrix and principal directions of a stiffness.
 
@@ -93,8 +100,10 @@ def stiffness_html(stiffness: Stiffness) -> str:
     >>> "N/m" in stiffness_html(ks.Machine.preset("two_link").posture().stiffness())
     True
     """
-    matrix = _matrix(stiffness.matrix, "stiffness: N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point")
-    rows = [[d.kind.value, d.stiffness, *map(float, d.twist)] for d in stiffness.directions]
+    caption = "stiffness: N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point"
+    matrix = _matrix(_without_rounding(stiffness.matrix), caption)
+    # The longest part of a twist is 1 m.
+    rows = [[d.kind.value, d.stiffness, *(0.0 if abs(x) < 1e-12 else float(x) for x in d.twist)] for d in stiffness.directions]
     directions = table(["direction", "N/m", "x, m", "y, m", "z, m", "rx, rad", "ry, rad", "rz, rad"], rows, f"rank {stiffness.rank}")
     return f"<div>{matrix}{directions}</div>"
 

@@ -171,6 +171,10 @@ def test_what_notebooks_show(posture: ks.Posture) -> None:
     assert "<svg" in shown
     assert "leg x.slider" in shown
     assert "N/m" in posture.stiffness()._repr_html_()
+    # Rounding of sums is not shown as stiffness about a free axis.
+    free = ks.Machine.preset("stewart_gough_a").posture().stiffness()
+    assert np.abs(free.matrix[5]).max() < 1e-9
+    assert "<td>mz</td>" + 6 * "<td>0</td>" in free._repr_html_()
     assert "stable" in posture.deflected_by([1, 0, 0, 0, 0, 0])._repr_html_()
 
 

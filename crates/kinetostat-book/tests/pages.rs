@@ -418,8 +418,10 @@ fn no_example_escapes_the_tests() {
                     "console" | "math" => true,
                     // Parts of files that are compiled elsewhere.
                     "rs" => true,
-                    // Run by `python/tests/test_book.py`, but for those that say why not.
+                    // Run by `python/tests/test_book.py`, but for those that say why not, and those of
+                    // notebooks by `python/tests/test_notebooks.py`, with what they print.
                     "python" => true,
+                    "text" if name.starts_with("notebooks/") => before == "<!-- output -->",
                     // Files that shell examples use.
                     "toml" | "text" | "csv" => before.starts_with("<!-- file: "),
                     _ => false,
