@@ -114,7 +114,7 @@ for name, style in (("climb", "-"), ("conventional", "--")):
         right.plot(widths, wall[name][:, k], f"C{k}{style}", label=f"{name}, {along}")
 right.axhline(0, color="black", linewidth=0.8)
 right.set(xlabel="width of the cut, mm", ylabel="mean force on the tool, N", ylim=(-1000, 1900))
-right.set_title("Climb pushes off the wall, conventional into it")
+right.set_title("Climb pushes off, conventional pulls in")
 right.legend(fontsize=9, loc="upper left")
 plt.show()
 
