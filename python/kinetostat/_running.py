@@ -111,6 +111,16 @@ def answered(
     return answer
 
 
+def listed(
+    command: Sequence[str],
+    options: Sequence[tuple[str, Any]],
+    progress: Callable[[int, int, str], object] | None,
+) -> list[dict[str, Any]]:
+    """The answers of a command whose ``--json`` is a list."""
+    answers: list[dict[str, Any]] = _done(command, options, progress, ["--json"]).json()
+    return answers
+
+
 def texted(
     command: Sequence[str],
     options: Sequence[tuple[str, Any]],
