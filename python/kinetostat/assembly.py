@@ -23,7 +23,15 @@ _DEG = np.pi / 180
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Assembly:
-    """A machine put together although its parts do not fit."""
+    """A machine put together although its parts do not fit.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").posture().assembly(deviations=["leg x:foot arm:1deg about x"], force=[100, 0, 0])
+    >>> found.platforms, found.displacement.shape, found.wrench_under_load.shape
+    (('tool',), (1, 6), (3, 6))
+    """
 
     over_constraint: int
     """Number of wrenches that the limbs can lock in against each other."""

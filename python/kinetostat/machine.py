@@ -39,7 +39,14 @@ _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
 @dataclasses.dataclass(frozen=True)
 class Actuator:
-    """A drive of a machine."""
+    """A drive of a machine.
+
+    Examples
+    --------
+    >>> drive = Machine.preset("orthoglide").actuators[0]
+    >>> drive.name, drive.kind, drive.unit
+    ('leg x.slider', 'prismatic', 'm')
+    """
 
     name: str
     """``limb.actuator``, or the actuator's own name in a machine of one limb."""
@@ -270,11 +277,24 @@ class Machine:
         return self._native.turns_as_it_moves()
 
     def to_toml(self) -> str:
-        """The model as a file: every key, no comments. The tool is not part of it."""
+        """The model as a file: every key, no comments. The tool is not part of it.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("two_link")
+        >>> Machine.from_toml(machine.to_toml()).actuators == machine.actuators
+        True
+        """
         return self._native.to_toml()
 
     def to_dict(self) -> dict[str, Any]:
-        """The model as a dictionary with the keys of a model file."""
+        """The model as a dictionary with the keys of a model file.
+
+        Examples
+        --------
+        >>> Machine.preset("two_link").to_dict()["mechanism"]["name"]
+        'two_link'
+        """
         found: dict[str, Any] = _without_none(json.loads(self._native.to_json()))
         return found
 
@@ -285,6 +305,16 @@ class Machine:
         ----------
         path : path
             File to write; an existing one is replaced.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> machine = Machine.preset("two_link")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = os.path.join(folder, "mine.toml")
+        ...     machine.save(path)
+        ...     Machine.open(path).name
+        'two_link'
         """
         target = os.fspath(path)
         beside = f"{target}.{os.getpid()}.part"
@@ -357,6 +387,12 @@ class Machine:
         ------
         UnansweredError
             The place is out of reach; the message says the nearest one that was found.
+
+        Examples
+        --------
+        >>> posture = Machine.preset("orthoglide").posture([0.01, 0, 0])
+        >>> posture.commands.round(4).tolist()
+        [-0.3405, -0.3503, -0.3503]
         """
         found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
         return Posture(self, found)
@@ -639,7 +675,20 @@ class Machine:
         )
 
     def compensate(self, program: str | os.PathLike[str], out: str | os.PathLike[str], **options: Any) -> CompensatedProgram:
-        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`."""
+        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> machine = Machine.preset("orthoglide")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     source = os.path.join(folder, "in.ngc")
+        ...     with open(source, "w") as file:
+        ...         print("G21 G90", "G0 X0 Y0 Z5", "G1 Z-1 F300", "G1 X50", "M2", sep=chr(10), file=file)
+        ...     found = machine.compensate(source, os.path.join(folder, "out.ngc"), force=[100, 0, 0])
+        >>> found.within_tolerance
+        True
+        """
         from kinetostat.compensation import compensate
 
         return compensate(self, program, out, **options)

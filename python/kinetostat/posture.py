@@ -26,7 +26,15 @@ __all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
 
 
 class Direction(NamedTuple):
-    """A principal direction of a stiffness."""
+    """A principal direction of a stiffness.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").posture().stiffness().directions[0]
+    >>> found.kind.value, found.twist.shape
+    ('finite', (6,))
+    """
 
     kind: DirectionKind
     stiffness: float
@@ -38,7 +46,14 @@ class Direction(NamedTuple):
 
 
 class LimitViolation(NamedTuple):
-    """An actuator outside its limits."""
+    """An actuator outside its limits.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.Machine.preset("orthoglide").posture([0.25, 0, 0]).limit_violations[0].actuator
+    'leg x.slider'
+    """
 
     actuator: str
     command: float
@@ -244,7 +259,14 @@ class Posture:
         return tuple((np.array(commands), np.array(coordinates)) for commands, coordinates in self._native.limbs)
 
     def limb_lines(self) -> list[Floats]:
-        """Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m."""
+        """Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> [line.shape[1] for line in ks.Machine.preset("orthoglide").posture().limb_lines()]
+        [3, 3, 3]
+        """
         return self._native.limb_lines()
 
     @property

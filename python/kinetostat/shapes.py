@@ -21,7 +21,14 @@ __all__ = ["Shapes", "shapes"]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shapes:
-    """Equilibria by rising energy; arrays have one row each."""
+    """Equilibria by rising energy; arrays have one row each.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.Machine.preset("three_link_z").posture().shapes(displaced=[-0.001, 0, 0])
+    <Shapes: 2 equilibria, 1 stable; search settled>
+    """
 
     energy: Floats
     """(n,): springs and loads up to a constant, J."""

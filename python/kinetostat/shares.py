@@ -23,7 +23,15 @@ Direction = Literal["x", "y", "z", "rx", "ry", "rz"]
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """What one part gives."""
+    """What one part gives.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> part = ks.Machine.preset("heavy_6r").shares(direction="z").parts[0]
+    >>> part.kind in ("drive", "link"), 0 < part.share < 1
+    (True, True)
+    """
 
     limb: str | None
     """Its limb; none for what acts on platforms."""
@@ -39,7 +47,15 @@ class Part:
 
 @dataclasses.dataclass(frozen=True)
 class Shares:
-    """The deflection in a direction, part by part, the largest first."""
+    """The deflection in a direction, part by part, the largest first.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("heavy_6r").shares(direction="z")
+    >>> abs(sum(part.share for part in found.parts) - 1) < 1e-12
+    True
+    """
 
     direction: str
     """In words."""
@@ -52,13 +68,29 @@ class Shares:
     """Whether the machine stays where the load puts it."""
 
     def by_name(self) -> dict[str, float]:
-        """Shares by ``limb: name``."""
+        """Shares by ``limb: name``.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("heavy_6r").shares(direction="z").by_name()
+        >>> found["arm: joint 2"] > found["arm: joint 6"]
+        True
+        """
         return {f"{p.limb}: {p.name}" if p.limb else p.name: p.share for p in self.parts}
 
 
 @dataclasses.dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives by one number of the model file, per its unit."""
+    """Derivatives by one number of the model file, per its unit.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = sensitivities(ks.Machine.preset("heavy_6r"), direction="z", wrench=[0, 0, -500, 0, 0, 0])[0]
+    >>> found.path.startswith("chain.arm."), abs(found.stiffness_by_percent) > 0
+    (True, True)
+    """
 
     path: str
     value: float

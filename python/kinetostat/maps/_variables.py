@@ -23,7 +23,13 @@ _NEITHER = ("principal_directions", "commands")
 
 @dataclasses.dataclass(frozen=True)
 class Variable:
-    """A result of a place."""
+    """A result of a place.
+
+    Examples
+    --------
+    >>> variables()["deflection"].worse, variables()["principal_compliance"].dims
+    ('larger', ('principal',))
+    """
 
     name: str
     unit: str
