@@ -16,6 +16,7 @@ from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple,
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
+    from kinetostat.machine import Progress
     from kinetostat.posture import Posture
 
 __all__ = ["Branch", "BranchEnd", "CriticalLoad", "ForceCurve", "Judged", "PointKind", "SpecialPoint", "critical_load", "curve"]
@@ -316,6 +317,7 @@ def curve(
     branches: int | None = None,
     points: int | None = None,
     search_all: bool = False,
+    progress: Progress | None = None,
 ) -> ForceCurve:
     """Pushes or turns the tool and tells which force it takes, or grows a load and tells where the tool goes.
 
@@ -341,6 +343,9 @@ def curve(
         Branches, and points of one branch, at most.
     search_all : bool
         Search for shapes that no branch connects with the start, too.
+
+    progress : callable, optional
+        Called with what is done, how much there is (0: nobody knows) and the name of the stage.
 
     Returns
     -------
@@ -382,6 +387,7 @@ def curve(
         branches=branches,
         points=points,
         all=search_all,
+        progress=progress,
     )
     names = answer["coordinates"]
     return ForceCurve(

@@ -480,12 +480,13 @@ class Machine:
         joints: ArrayLike | None = None,
         direction: Literal["x", "y", "z", "rx", "ry", "rz"] | Sequence[float] = "z",
         wrench: ArrayLike | None = None,
+        progress: Progress | None = None,
     ) -> Shares:
         """Which part gives how much of the deflection in a direction: :func:`kinetostat.shares.shares`.
 
         Parameters
         ----------
-        position, joints, direction, wrench
+        position, joints, direction, wrench, progress
             As for :func:`kinetostat.shares.shares`, m, rad, N, N m, base axes.
 
         Returns
@@ -499,7 +500,7 @@ class Machine:
         """
         from kinetostat.shares import shares
 
-        return shares(self, position, joints=joints, direction=direction, wrench=wrench)
+        return shares(self, position, joints=joints, direction=direction, wrench=wrench, progress=progress)
 
     def _places(self, poses: ArrayLike | None, joints: ArrayLike | None) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
         if (poses is None) == (joints is None):
