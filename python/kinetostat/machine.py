@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat._urdf import text_of
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import Posture
@@ -179,8 +180,11 @@ class Machine:
         Parameters
         ----------
         robot : path, str or object
-            Path of a URDF file, its text (beginning with ``<``), or an object with ``write_xml_string()`` (yourdfpy) or
-            ``to_xml_string()`` (urdf_parser_py).
+            Path of a URDF file, its text (beginning with ``<``), an object with ``write_xml_string()`` (yourdfpy) or
+            ``to_xml_string()`` (urdf_parser_py), or a model of Pinocchio (``pin.Model``, or a wrapper with one). A model has no text
+            any more: the tree of its joints, their placements, axes and limits, its inertias, its frames and its gravity are
+            taken. What stood at fixed joints has become one body with the link that carries it; shapes, friction and transmissions
+            are not taken, joints of several freedoms (a floating base) and coupled ones are refused.
         base, tip : str, optional
             Links that stand and that carry the tool.
         passive : sequence of str
@@ -208,7 +212,7 @@ class Machine:
         >>> round(float(loaded.displacement[2]), 6)
         -0.0005
         """
-        text, file = _urdf_text(robot)
+        text, file, gravity = text_of(robot)
         table = None
         if isinstance(stiffness, Mapping):
             lines = [f"{name},{value!r},{unit}" for name, (value, unit) in stiffness.items()]
@@ -216,7 +220,14 @@ class Machine:
         stands = {name: (kind == "revolute", at) for name, (kind, at) in (home or {}).items()}
         single = None if isinstance(stiffness, Mapping) else stiffness
         toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
-        return cls._of(_core.Machine.from_toml(toml, file))
+        made = cls._of(_core.Machine.from_toml(toml, file))
+        if gravity is None:
+            return made
+        document = made.to_dict()
+        if document["mechanism"].get("gravity_m_per_s2") == gravity.tolist():
+            return made
+        document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
+        return cls.from_dict(document, file)
 
     # What it is ----------------------------------------------------------------------------------------------------
 
@@ -779,17 +790,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     return copy.copy(value)
-
-
-def _urdf_text(robot: object) -> tuple[str, str]:
-    for method in ("write_xml_string", "to_xml_string"):
-        if hasattr(robot, method):
-            text = getattr(robot, method)()
-            return text.decode() if isinstance(text, bytes) else str(text), f"{type(robot).__name__}.urdf"
-    if isinstance(robot, str) and robot.lstrip().startswith("<"):
-        return robot, "text.urdf"
-    if isinstance(robot, (str, os.PathLike)):
-        path = os.fspath(robot)
-        with open(path, encoding="utf-8-sig") as file:
-            return file.read(), path
-    raise ArgumentError(f"robot is a {type(robot).__name__}, expected a path, the text of a URDF, or a yourdfpy object")
