@@ -32,7 +32,7 @@ from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wren
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if _TYPE_CHECKING:
-    from kinetostat import assembly, commands, compensation, curves, cutting, maps, plot, shapes, shares, sweep, tolerance
+    from kinetostat import assembly, commands, compensation, curves, cutting, maps, plot, shapes, shares, sweep, tolerance, view
     from kinetostat import symbolic as symbolic
 
 __version__ = _core.VERSION
@@ -83,6 +83,7 @@ __all__ = [
     "spatial",
     "sweep",
     "tolerance",
+    "view",
     "wrench",
 ]
 
@@ -104,6 +105,7 @@ _WHEN_ASKED = (
     "sweep",
     "symbolic",  # not in __all__: it needs SymPy, and `from kinetostat import *` does not
     "tolerance",
+    "view",
 )
 
 

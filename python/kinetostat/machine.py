@@ -727,6 +727,21 @@ class Machine:
         where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(posture)
         return commands.model_draw(**where, **options)
 
+    def to_pyvista(self, posture: Posture | None = None, *, axes: float | None = None) -> Any:
+        """The machine as a ``pyvista.MultiBlock``, at home or at a posture; see :func:`kinetostat.view.to_pyvista`.
+
+        Examples
+        --------
+        >>> blocks = Machine.preset("orthoglide").to_pyvista()
+        >>> blocks["leg x"].n_cells
+        1
+        """
+        from kinetostat.view import to_pyvista
+
+        if posture is not None and posture.machine != self:
+            raise ArgumentError(f"the posture is one of {posture.machine!r}, not of this machine")
+        return to_pyvista(self.posture() if posture is None else posture, axes=axes)
+
     def _repr_html_(self) -> str:
         return machine_html(self)
 

@@ -281,6 +281,20 @@ class Posture:
         """Whether all commands are within their limits."""
         return Status.OUTSIDE_LIMITS if self._native.limit_violations else Status.SOLVED
 
+    def to_pyvista(self, *, axes: float | None = None) -> Any:
+        """The machine at this posture as a ``pyvista.MultiBlock``; see :func:`kinetostat.view.to_pyvista`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> blocks = ks.Machine.preset("heavy_6r").posture().to_pyvista()
+        >>> blocks.keys()
+        ['arm', 'tool']
+        """
+        from kinetostat.view import to_pyvista
+
+        return to_pyvista(self, axes=axes)
+
     # What it answers ---------------------------------------------------------------------------------------------------
 
     def stiffness(self) -> Stiffness:

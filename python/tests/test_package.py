@@ -12,7 +12,21 @@ import pytest
 import kinetostat as ks
 
 HEAVY = ("matplotlib", "scipy", "sympy", "xarray", "pandas", "pyarrow", "dask", "meshio", "tqdm", "IPython", "vtk", "pyvista", "ray")
-LATER = ("assembly", "commands", "compensation", "curves", "cutting", "maps", "plot", "shapes", "shares", "sweep", "symbolic", "tolerance")
+LATER = (
+    "assembly",
+    "commands",
+    "compensation",
+    "curves",
+    "cutting",
+    "maps",
+    "plot",
+    "shapes",
+    "shares",
+    "sweep",
+    "symbolic",
+    "tolerance",
+    "view",
+)
 
 
 def python(text):
