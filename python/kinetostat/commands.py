@@ -2790,7 +2790,7 @@ def model_compare(
     *,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """Are two models one machine but for constant offsets of base, tool and joints?.
+    """Are two models one machine but for constant offsets of base, tool and joints.
 
     Parameters
     ----------

@@ -106,7 +106,7 @@ def function(path: list[str], command: dict[str, Any]) -> str:
     about = (command["about"] or "").strip()
     long = (command["long_about"] or "").strip()
     rest = long[len(about) :].strip() if long.startswith(about) else long
-    doc = [f'    """{about.rstrip(".")}.', ""]
+    doc = [f'    """{about.rstrip(".?")}.', ""]
     if rest:
         doc += [wrapped(paragraph, "    ") for paragraph in rest.split("\n\n")] + [""]
     doc += ["    Parameters", "    ----------"]
