@@ -75,7 +75,7 @@ def compensate(
     Parameters
     ----------
     machine : Machine
-        With a straight tool along z of the flange, or none.
+        With any tool or none.
     program, out : path
         Program to read, and file to write.
     force, moment : array_like, shape (3,), optional

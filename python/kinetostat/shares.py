@@ -242,7 +242,7 @@ def shares(
     Parameters
     ----------
     machine : Machine
-        With a straight tool or none.
+        With any tool or none.
     position : array_like, shape (3,), optional
         Of the tool, base axes, m; home without it.
     joints : array_like, shape (actuators,), optional
