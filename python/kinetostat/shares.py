@@ -341,7 +341,8 @@ def sensitivities(
     Parameters
     ----------
     machine, position, joints, direction, wrench, progress
-        As for :func:`shares`; the deflection is that under ``wrench`` and all that acts in the model.
+        As for :func:`shares`; the deflection is that under ``wrench`` and all that acts in the model. A tool that is not straight is
+        put into the model first: numbers at its last platform are those of that model.
 
     Returns
     -------
