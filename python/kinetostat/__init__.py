@@ -7,9 +7,12 @@ JSON, with units in the names.
 
 from __future__ import annotations
 
+import importlib as _importlib
 import os as _os
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
 
-from kinetostat import _core, commands, errors, maps, spatial, sweep, tolerance
+from kinetostat import _core, errors, spatial
 from kinetostat.build import LimbBuilder, MachineBuilder
 from kinetostat.errors import (
     ArgumentError,
@@ -27,6 +30,10 @@ from kinetostat.progress import bar
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wrench
 from kinetostat.status import DirectionKind, FoundBy, Status
+
+if _TYPE_CHECKING:
+    from kinetostat import assembly, commands, compensation, curves, cutting, maps, plot, shapes, shares, sweep, tolerance, view
+    from kinetostat import symbolic as symbolic
 
 __version__ = _core.VERSION
 
@@ -56,22 +63,57 @@ __all__ = [
     "ToleranceMissedWarning",
     "UnansweredError",
     "__version__",
+    "assembly",
     "bar",
     "commands",
+    "compensation",
     "correct_program",
+    "curves",
+    "cutting",
     "equilibrium_under",
     "errors",
     "maps",
+    "plot",
     "pose",
     "preset_names",
     "rotation_from_vector",
     "rotation_vector",
+    "shapes",
+    "shares",
     "spatial",
     "sweep",
     "tolerance",
+    "view",
     "wrench",
 ]
 
 # A child process has none of its parent's threads.
 if hasattr(_os, "register_at_fork"):
     _os.register_at_fork(after_in_child=_core.forked)
+
+# Modules that are imported when they are asked for: `import kinetostat` stays quick.
+_WHEN_ASKED = (
+    "assembly",
+    "commands",
+    "compensation",
+    "curves",
+    "cutting",
+    "maps",
+    "plot",
+    "shapes",
+    "shares",
+    "sweep",
+    "symbolic",  # not in __all__: it needs SymPy, and `from kinetostat import *` does not
+    "tolerance",
+    "view",
+)
+
+
+def __getattr__(name: str) -> _Any:
+    if name in _WHEN_ASKED:
+        return _importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_WHEN_ASKED})

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat._arrays import Floats, one
+from kinetostat._tool import with_tool_in_model
 from kinetostat.errors import ArgumentError
 from kinetostat.spatial import rotation_vector
 
@@ -31,14 +32,14 @@ def triple(name: str, value: ArrayLike | None, factor: float = 1.0) -> list[floa
 
 
 def bare(machine: Machine) -> tuple[Machine, float | None]:
-    """The machine without its tool, and the length of a straight one in mm."""
+    """The machine without its tool, and the length of a straight one in mm; another tool becomes part of the model."""
     tool = machine.tool
     if np.array_equal(tool, np.eye(4)):
         return machine, None
     straight = np.eye(4)
     straight[2, 3] = tool[2, 3]
     if not np.array_equal(tool, straight):
-        raise ArgumentError("this question takes a straight tool along z of the flange: use with_tool(length=...)")
+        return with_tool_in_model(machine), 0.0
     return machine._of(machine._native.with_tool(np.eye(4)[None])), float(1e3 * tool[2, 3])
 
 

@@ -21,7 +21,14 @@ _WRONG_INPUT, _UNANSWERED, _TOLERANCE_MISSED = 1, 2, 3
 
 @dataclasses.dataclass(frozen=True)
 class Completed:
-    """What a command leaves."""
+    """What a command leaves.
+
+    Examples
+    --------
+    >>> done = run(["model", "list"])
+    >>> done.code, b"orthoglide" in done.out
+    (0, True)
+    """
 
     code: int
     """Exit code: 0 answered, 1 wrong input, 2 no answer, 3 tolerance missed, 130 stopped."""
@@ -31,7 +38,13 @@ class Completed:
     """What it prints to the standard error."""
 
     def json(self) -> Any:
-        """Its answer, of a command with ``--json``."""
+        """Its answer, of a command with ``--json``.
+
+        Examples
+        --------
+        >>> run(["stiffness", "orthoglide", "--json"]).json()["rank"]
+        6
+        """
         return json.loads(self.out)
 
 
@@ -109,6 +122,16 @@ def answered(
     """The answer of a command with ``--json``."""
     answer: dict[str, Any] = _done(command, options, progress, ["--json"]).json()
     return answer
+
+
+def listed(
+    command: Sequence[str],
+    options: Sequence[tuple[str, Any]],
+    progress: Callable[[int, int, str], object] | None,
+) -> list[dict[str, Any]]:
+    """The answers of a command whose ``--json`` is a list."""
+    answers: list[dict[str, Any]] = _done(command, options, progress, ["--json"]).json()
+    return answers
 
 
 def texted(

@@ -14,6 +14,7 @@ from kinetostat._arrays import Floats
 from kinetostat._asking import place, triple
 
 if TYPE_CHECKING:
+    from kinetostat.machine import Progress
     from kinetostat.posture import Posture
 
 __all__ = ["Assembly", "assembly"]
@@ -23,7 +24,15 @@ _DEG = np.pi / 180
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Assembly:
-    """A machine put together although its parts do not fit."""
+    """A machine put together although its parts do not fit.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").posture().assembly(deviations=["leg x:foot arm:1deg about x"], force=[100, 0, 0])
+    >>> found.platforms, found.displacement.shape, found.wrench_under_load.shape
+    (('tool',), (1, 6), (3, 6))
+    """
 
     over_constraint: int
     """Number of wrenches that the limbs can lock in against each other."""
@@ -83,7 +92,12 @@ def _springs(limb: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def assembly(
-    posture: Posture, *, deviations: Sequence[str] = (), force: ArrayLike | None = None, moment: ArrayLike | None = None
+    posture: Posture,
+    *,
+    deviations: Sequence[str] = (),
+    force: ArrayLike | None = None,
+    moment: ArrayLike | None = None,
+    progress: Progress | None = None,
 ) -> Assembly:
     """Puts a machine together with the deviations of its model and further ones.
 
@@ -95,6 +109,9 @@ def assembly(
         More of them, as in ``"leg x:line:1deg about x"``, ``"leg y:q2:0.2mm longer"`` or ``"*:line:1mm along z"`` (* is every limb).
     force, moment : array_like, shape (3,), optional
         Load on the tool, N and N m, base axes.
+
+    progress : callable, optional
+        Called with what is done, how much there is (0: nobody knows) and the name of the stage.
 
     Returns
     -------
@@ -109,7 +126,12 @@ def assembly(
     (3, (3, 6))
     """
     answer = commands.assemble(
-        **place(posture), deviation=list(deviations) or None, force=triple("force", force), moment=triple("moment", moment), all=True
+        **place(posture),
+        deviation=list(deviations) or None,
+        force=triple("force", force),
+        moment=triple("moment", moment),
+        all=True,
+        progress=progress,
     )
     platforms, limbs = answer["platforms"], answer["limbs"]
     zero = np.zeros((len(platforms), 6))

@@ -71,6 +71,12 @@ class LimbBuilder:
     """A limb in the making: elements from its start to its end. Made by :meth:`MachineBuilder.limb`.
 
     Methods give the limb itself, so that it reads like the drawing.
+
+    Examples
+    --------
+    >>> arm = LimbBuilder("arm").actuator("shoulder", "revolute", "z", 2e5).rigid([0.5, 0, 0])
+    >>> len(arm.elements)
+    2
     """
 
     def __init__(self, name: str) -> None:

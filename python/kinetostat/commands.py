@@ -12,7 +12,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from kinetostat._running import Completed, answered, run, texted
+from kinetostat._running import Completed, answered, listed, run, texted
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -80,6 +80,16 @@ def demo(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     found = ks.commands.demo(out=folder)
+    ...     files = os.listdir(folder)
+    >>> found["tolerance"]["held"], "report.html" in files
+    (True, True)
     """
     options: list[tuple[str, Any]] = [
         ("--out", out),
@@ -151,7 +161,7 @@ def compensate(
     max_blocks_per_second: float | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """Write a program that cuts where it should.
+    r"""Write a program that cuts where it should.
 
     Reads model, program, placement and load from a job file, from options, or from both (options go
     over the job file), solves the machine along the program, writes the compensated program, reads it
@@ -306,6 +316,20 @@ def compensate(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "groove.ngc")
+    ...     _ = file.write_text('G21 G90 G54\nG0 X-20 Y0 Z10\nG1 Z-1 F600\nG1 X20\nG0 Z10\nM30\n')
+    ...     found = ks.commands.compensate(
+    ...         model="orthoglide", program=file, force=[100, -20, -30], out=Path(folder, "corrected.ngc")
+    ...     )
+    >>> found["tolerance"]["held"], found["summary"]["blocks"]
+    (True, 6)
     """
     options: list[tuple[str, Any]] = [
         ("", job),
@@ -555,6 +579,13 @@ def deflect(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.deflect("orthoglide", force=[100, 0, 0])
+    >>> found["stable"], round(found["displacement_mm"][0], 4)
+    (True, 0.0333)
     """
     options: list[tuple[str, Any]] = [
         ("", subject),
@@ -658,6 +689,13 @@ def stiffness(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.stiffness("orthoglide", at=[10, 0, 0])
+    >>> found["rank"], len(found["stiffness_n_m_rad"])
+    (6, 6)
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -743,6 +781,13 @@ def shares(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.shares("heavy_6r", direction="z")
+    >>> round(sum(part["share"] for part in found["parts"]), 12)
+    1.0
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -813,6 +858,14 @@ def compare(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.compare("stewart_gough_a", "stewart_gough_b")
+    >>> place = found["places"][0]
+    >>> place["b"]["smallest_stiffness_n_per_mm"] > place["a"]["smallest_stiffness_n_per_mm"]
+    True
     """
     options: list[tuple[str, Any]] = [
         ("", a),
@@ -912,6 +965,13 @@ def map(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.map("orthoglide", x=[-50, 50, 3])
+    >>> found["places"]["regular"], found["figures"][0]["unit"]
+    (3, 'N/mm')
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -955,7 +1015,7 @@ def tolerance(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """How far do results scatter when the machine is not exactly as drawn.
+    r"""How far do results scatter when the machine is not exactly as drawn.
 
     Builds thousands of machines whose numbers scatter as a file says, commands each as the drawing
     says, and tells the spread of its error, its deflection and its stiffness, before and after
@@ -1001,6 +1061,19 @@ def tolerance(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "uncertain.toml")
+    ...     _ = file.write_text('schema = 1\n[[uncertain]]\nparameter = "chain.leg.q2.length_mm"\nnormal = 0.02\n')
+    ...     found = ks.commands.tolerance("orthoglide", uncertain=file, force=[100, 0, 0], machines=256)
+    >>> error = next(r for r in found["places"][0]["results"] if r["name"] == "error_mm")
+    >>> error["draws"]["answered"], found["uncertain"][0]["distribution"]
+    (256, 'normal')
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -1096,6 +1169,13 @@ def assemble(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.assemble("orthoglide", deviation="leg x:foot arm:1deg about x")
+    >>> found["over_constraint"]["degree"], found["most_strained_limb"]
+    (3, 'leg x')
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -1228,6 +1308,13 @@ def curve(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.curve("three_link_z", direction=[1, 0, 0], displacement_mm=[0, -200])
+    >>> [point["kind"] for point in found["named_points"]]
+    ['start', 'pitchfork', 'end', 'end', 'end']
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -1353,6 +1440,13 @@ def equilibria(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.equilibria("three_link_z", displaced_mm=[-1, 0, 0])
+    >>> [shape["stable"] for shape in found["equilibria"]]
+    [True, False]
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -1560,6 +1654,16 @@ def force(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.force(
+    ...     material="soft aluminium", tool="flat", diameter_mm=10, teeth=2, helix_deg=30, width_mm=5, depth_mm=1, climb=True,
+    ...     rpm=6000, feed_per_tooth_mm=0.05,
+    ... )
+    >>> len(found["mean"]["force_n"]), found["cut"]["milling"]
+    (3, 'climb')
     """
     options: list[tuple[str, Any]] = [
         ("--list-materials", list_materials),
@@ -1676,7 +1780,7 @@ def engagement(
     force_overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """What a program cuts: engagement, force, torque and power along it.
+    r"""What a program cuts: engagement, force, torque and power along it.
 
     Takes a G-code program with tool, material and stock from options, or the job file of `compensate`;
     options go over the job file. The tools go through the stock as the program says; at every place the
@@ -1808,6 +1912,21 @@ def engagement(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "groove.ngc")
+    ...     _ = file.write_text('G21 G90 G54\nG0 X-20 Y0 Z10\nG1 Z-1 F600\nG1 X20\nG0 Z10\nM30\n')
+    ...     found = ks.commands.engagement(
+    ...         program=file, material="soft aluminium", tool="flat", diameter_mm=10, teeth=2, rpm=6000,
+    ...         width_mm=5, depth_mm=1, part="left", rotation="clockwise",
+    ...     )
+    >>> found["cutting"]["largest_force"]["depth_mm"], found["warnings"]
+    (1.0, [])
     """
     options: list[tuple[str, Any]] = [
         ("", subject),
@@ -1890,7 +2009,7 @@ def expand(
     g30_mm: Sequence[float] | None = None,
     progress: _Progress | None = None,
 ) -> str:
-    """A program with subprograms, variables and cycles as plain blocks.
+    r"""A program with subprograms, variables and cycles as plain blocks.
 
     Runs the program once and writes what it runs: subprograms, loops and branches as their blocks,
     expressions as numbers, canned cycles and polar words as moves, G41 and G42 as the way of the tool's
@@ -1944,6 +2063,18 @@ def expand(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "loop.ngc")
+    ...     _ = file.write_text('G21 G90\n#1=0\nO1 WHILE [#1 LT 3]\nG1 X[#1*10] F600\n#1=[#1+1]\nO1 ENDWHILE\nM30\n')
+    ...     text = ks.commands.expand(file)
+    >>> text.count("X")
+    3
     """
     options: list[tuple[str, Any]] = [
         ("", program),
@@ -2003,7 +2134,7 @@ def convert(
     flat_program: _Path | None = None,
     progress: _Progress | None = None,
 ) -> str:
-    """A program of one language in another: G-code for a robot, KRL as RAPID.
+    r"""A program of one language in another: G-code for a robot, KRL as RAPID.
 
     Lines stay lines, arcs stay arcs where the language has them, feeds stay; what stands beside the
     moves becomes notes with their lines, and what is lost is named. The new program is read again and
@@ -2093,6 +2224,19 @@ def convert(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "groove.ngc")
+    ...     _ = file.write_text('G21 G90 G54\nG0 X-20 Y0 Z10\nG1 Z-1 F600\nG1 X20\nG0 Z10\nM30\n')
+    ...     said = ks.commands.convert(file, to="apt", out=Path(folder, "groove.apt"))
+    ...     text = Path(folder, "groove.apt").read_text()
+    >>> text.count("GOTO/")
+    4
     """
     options: list[tuple[str, Any]] = [
         ("", program),
@@ -2145,6 +2289,12 @@ def dialect_list(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> "krl" in ks.commands.dialect_list()
+    True
     """
     options: list[tuple[str, Any]] = [
     ]
@@ -2168,6 +2318,13 @@ def dialect_show(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.dialect_show("krl")
+    >>> next(word["treatment"] for word in found["words"] if word["word"] == "LIN")
+    'followed'
     """
     options: list[tuple[str, Any]] = [
         ("", name),
@@ -2208,6 +2365,13 @@ def check(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.check("orthoglide", force=[100, 0, 0])
+    >>> found["home"]["mobility"], found["home"]["degrees_of_over_constraint"], found["warnings"]
+    (3, 3, [])
     """
     options: list[tuple[str, Any]] = [
         ("", model),
@@ -2268,6 +2432,18 @@ def import_urdf(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "crane.urdf")
+    ...     _ = file.write_text('<robot name="crane"><link name="post"/><link name="boom"/><joint name="shoulder" type="revolute"><parent link="post"/><child link="boom"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="0" velocity="1"/></joint></robot>')
+    ...     found = ks.commands.import_urdf(file, joint_stiffness=2e5)
+    >>> found["robot"], found["actuators"]
+    ('crane', ['shoulder'])
     """
     options: list[tuple[str, Any]] = [
         ("", file),
@@ -2302,7 +2478,7 @@ def import_matrix(
     force_overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """The stiffness of a link from a matrix: 6 x 6 (CSV, JSON), or of a mesh's interfaces.
+    r"""The stiffness of a link from a matrix: 6 x 6 (CSV, JSON), or of a mesh's interfaces.
 
     Writes a table [stiffness.NAME] for a model file. A 6 x 6 says its units in its header. A matrix of
     many degrees of freedom (Nastran DMIG, CalculiX .sti or .mtx, Harwell-Boeing) is condensed: the
@@ -2350,6 +2526,20 @@ def import_matrix(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> import kinetostat as ks
+    >>> rows = [",".join(str(x) for x in row) for row in np.diag([1e5, 1e4, 1e4, 1e7, 1e8, 1e8])]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "boom.csv")
+    ...     _ = file.write_text("\n".join(rows))
+    ...     found = ks.commands.import_matrix(file, units="n-mm")
+    >>> found["name"], found["rank"]
+    ('boom', 6)
     """
     options: list[tuple[str, Any]] = [
         ("", file),
@@ -2387,7 +2577,7 @@ def import_link_displacements(
     force_overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """The stiffness of a link from displacements of its interface under six loads.
+    r"""The stiffness of a link from displacements of its interface under six loads.
 
     FILE has the columns case,node,x_mm,y_mm,z_mm,ux_mm,uy_mm,uz_mm (units mm, m; displacements also
     um), or is the .dat file of CalculiX with one step per case. A rigid motion is fitted to the nodes
@@ -2430,6 +2620,27 @@ def import_link_displacements(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import numpy as np
+    >>> import kinetostat as ks
+    >>> arms = np.array([[0, 5, 0], [0, -5, 3], [0, 0, -6], [2, 1, 1]])  # of nodes from the end at 10 mm along x
+    >>> lines = ["case,node,x_mm,y_mm,z_mm,ux_mm,uy_mm,uz_mm"]
+    >>> for case, shift, turn in [(f"f{a}", e / 20, 0 * e) for a, e in zip("xyz", np.eye(3))] + [
+    ...     (f"m{a}", 0 * e, e / 5000) for a, e in zip("xyz", np.eye(3))
+    ... ]:
+    ...     for node, arm in enumerate(arms):
+    ...         numbers = [*(arm + [10, 0, 0]), *(shift + np.cross(turn, arm))]
+    ...         lines.append(",".join([case, str(node), *(repr(float(x)) for x in numbers)]))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "u.csv")
+    ...     _ = file.write_text("\n".join(lines))
+    ...     found = ks.commands.import_link_displacements(file, end_mm=[10, 0, 0], force_n=100, moment_n_mm=1000)
+    >>> round(found["stiffness_n_mm_rad"][0][0]), round(found["stiffness_n_mm_rad"][3][3])
+    (2000, 5000000)
     """
     options: list[tuple[str, Any]] = [
         ("", file),
@@ -2454,7 +2665,7 @@ def reproduce(
     html: _Path | None = None,
     force_overwrite: bool = False,
     progress: _Progress | None = None,
-) -> dict[str, Any]:
+) -> list[dict[str, Any]]:
     """The numbers of the COROUSSO report L1.1, computed again and set beside their print.
 
     Each table, each equation with a number in it and each figure of chapters 2 to 7: what is printed,
@@ -2473,15 +2684,22 @@ def reproduce(
 
     Returns
     -------
-    dict
+    list of dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.reproduce("eq-3.34")
+    >>> found[0]["id"], next(item["status"] for item in found[0]["items"] if item["name"] == "K11")
+    ('eq-3.34', 'agrees')
     """
     options: list[tuple[str, Any]] = [
         ("", id),
         ("--html", html),
         ("--force-overwrite", force_overwrite),
     ]
-    return answered(["reproduce"], options, progress)
+    return listed(["reproduce"], options, progress)
 
 def model_list(
     *,
@@ -2498,6 +2716,12 @@ def model_list(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> "orthoglide" in ks.commands.model_list()
+    True
     """
     options: list[tuple[str, Any]] = [
     ]
@@ -2521,6 +2745,12 @@ def model_show(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> "[mechanism]" in ks.commands.model_show("two_link")
+    True
     """
     options: list[tuple[str, Any]] = [
         ("", name),
@@ -2542,6 +2772,13 @@ def model_schema(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import json
+    >>> import kinetostat as ks
+    >>> "mechanism" in json.loads(ks.commands.model_schema())["properties"]
+    True
     """
     options: list[tuple[str, Any]] = [
     ]
@@ -2553,7 +2790,7 @@ def model_compare(
     *,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """Are two models one machine but for constant offsets of base, tool and joints?.
+    """Are two models one machine but for constant offsets of base, tool and joints.
 
     Parameters
     ----------
@@ -2568,6 +2805,13 @@ def model_compare(
     -------
     dict
         What the command prints with ``--json``.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.commands.model_compare("heavy_6r", "heavy_6r")
+    >>> found["same"]
+    True
     """
     options: list[tuple[str, Any]] = [
         ("", a),
@@ -2640,6 +2884,12 @@ def model_draw(
     -------
     str
         What it prints.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.commands.model_draw("two_link").lstrip().startswith("<svg")
+    True
     """
     options: list[tuple[str, Any]] = [
         ("", model),

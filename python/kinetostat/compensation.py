@@ -21,7 +21,20 @@ __all__ = ["CompensatedProgram", "compensate"]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class CompensatedProgram:
-    """A compensated program; arrays have one row for each point at which the machine was solved."""
+    """A compensated program; arrays have one row for each point at which the machine was solved.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import kinetostat as ks
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     source, target = os.path.join(folder, "in.ngc"), os.path.join(folder, "out.ngc")
+    ...     with open(source, "w") as file:
+    ...         _ = file.write("G21 G90 G0 X0 Y0 Z5 G1 Z-1 F300 G1 X50 M2".replace(" G", chr(10) + "G"))
+    ...     found = ks.Machine.preset("orthoglide").compensate(source, target, force=[100, 0, 0])
+    >>> found.error_before.shape == found.error_after.shape == (len(found.line), 3)
+    True
+    """
 
     within_tolerance: bool
     """Whether the error after compensation, measured on the written program, is within what is allowed."""
@@ -62,7 +75,7 @@ def compensate(
     Parameters
     ----------
     machine : Machine
-        With a straight tool along z of the flange, or none.
+        With any tool or none.
     program, out : path
         Program to read, and file to write.
     force, moment : array_like, shape (3,), optional

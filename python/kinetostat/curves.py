@@ -16,6 +16,7 @@ from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple,
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
+    from kinetostat.machine import Progress
     from kinetostat.posture import Posture
 
 __all__ = ["Branch", "BranchEnd", "CriticalLoad", "ForceCurve", "Judged", "PointKind", "SpecialPoint", "critical_load", "curve"]
@@ -24,7 +25,13 @@ _DEG = np.pi / 180
 
 
 class PointKind(enum.Enum):
-    """What a named point of a curve is."""
+    """What a named point of a curve is.
+
+    Examples
+    --------
+    >>> PointKind("pitchfork")
+    <PointKind.PITCHFORK: 'pitchfork'>
+    """
 
     START = "start"
     LOAD_LIMIT = "load_limit"
@@ -44,7 +51,13 @@ class PointKind(enum.Enum):
 
 
 class BranchEnd(enum.Enum):
-    """Why a branch ends."""
+    """Why a branch ends.
+
+    Examples
+    --------
+    >>> BranchEnd.RANGE.value
+    'range'
+    """
 
     RANGE = "range"
     ANGLE = "angle"
@@ -55,7 +68,13 @@ class BranchEnd(enum.Enum):
 
 
 class Judged(enum.Enum):
-    """What loses its stability at a critical load."""
+    """What loses its stability at a critical load.
+
+    Examples
+    --------
+    >>> Judged.SHAPE.value
+    'shape'
+    """
 
     SHAPE = "shape"
     """The shape, with the tool held where it is."""
@@ -65,7 +84,16 @@ class Judged(enum.Enum):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SpecialPoint:
-    """A named point of a curve."""
+    """A named point of a curve.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    >>> point = found.special[0]
+    >>> point.kind.value, round(point.force, 4), point.mode.shape
+    ('pitchfork', -1.0335, (4,))
+    """
 
     name: str
     kind: PointKind
@@ -86,7 +114,16 @@ class SpecialPoint:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Branch:
-    """A path of equilibria; arrays have one row a point."""
+    """A path of equilibria; arrays have one row a point.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    >>> branch = found.branches[0]
+    >>> branch.begins_at, branch.coordinates.shape == (len(branch.force), 4)
+    (None, True)
+    """
 
     displacement: Floats
     """(n,): m or rad, along the direction."""
@@ -119,7 +156,16 @@ class Branch:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class CriticalLoad:
-    """How many times a load can grow."""
+    """How many times a load can grow.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> posture = ks.Machine.preset("three_link_z").posture()
+    >>> found = critical_load(posture, [-1, 0, 0], most=3).critical_loads[0]
+    >>> found.factor > 1, found.conservative
+    (True, True)
+    """
 
     judged: Judged
     factor: float
@@ -138,7 +184,15 @@ class CriticalLoad:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ForceCurve:
-    """Force against displacement, or displacement against a growing load."""
+    """Force against displacement, or displacement against a growing load.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    >>> len(found.branches), found.coordinates
+    (2, ('q', 'th1', 'th2', 'e'))
+    """
 
     branches: tuple[Branch, ...]
     """The start's own first."""
@@ -160,7 +214,17 @@ class ForceCurve:
         return tuple(p for p in self.points if p.kind not in (PointKind.START, PointKind.LANDING, PointKind.END))
 
     def plot(self, axes: Any = None) -> Any:
-        """Draws force over displacement with matplotlib; see :func:`kinetostat.plot.force_curve`."""
+        """Draws force over displacement with matplotlib; see :func:`kinetostat.plot.force_curve`.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("Agg")
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+        >>> found.plot().get_xlabel()
+        'displacement, mm'
+        """
         from kinetostat.plot import force_curve
 
         return force_curve(self, axes)
@@ -253,6 +317,7 @@ def curve(
     branches: int | None = None,
     points: int | None = None,
     search_all: bool = False,
+    progress: Progress | None = None,
 ) -> ForceCurve:
     """Pushes or turns the tool and tells which force it takes, or grows a load and tells where the tool goes.
 
@@ -278,6 +343,9 @@ def curve(
         Branches, and points of one branch, at most.
     search_all : bool
         Search for shapes that no branch connects with the start, too.
+
+    progress : callable, optional
+        Called with what is done, how much there is (0: nobody knows) and the name of the stage.
 
     Returns
     -------
@@ -319,6 +387,7 @@ def curve(
         branches=branches,
         points=points,
         all=search_all,
+        progress=progress,
     )
     names = answer["coordinates"]
     return ForceCurve(

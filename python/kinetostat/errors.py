@@ -9,20 +9,70 @@ __all__ = ["ArgumentError", "KinetostatError", "ModelError", "ToleranceMissedWar
 
 
 class KinetostatError(Exception):
-    """Any error of this package."""
+    """Any error of this package.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> try:
+    ...     ks.Machine.preset("none of these")
+    ... except KinetostatError as error:
+    ...     print(type(error).__name__)
+    ModelError
+    """
 
 
 class ModelError(KinetostatError, ValueError):
-    """A model that is none; the message has the line, what was expected and what to do."""
+    """A model that is none; the message has the line, what was expected and what to do.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> try:
+    ...     ks.Machine.from_toml("schema = 1")
+    ... except ModelError as error:
+    ...     print("mechanism" in str(error))
+    True
+    """
 
 
 class ArgumentError(KinetostatError, ValueError):
-    """An argument of the wrong shape, unit or value; the message says what was expected and what was found."""
+    """An argument of the wrong shape, unit or value; the message says what was expected and what was found.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> try:
+    ...     ks.Machine.preset("orthoglide").posture([0, 0])
+    ... except ArgumentError as error:
+    ...     print(error)
+    position has shape (2,), expected (3,)
+    """
 
 
 class UnansweredError(KinetostatError, RuntimeError):
-    """The question is right but has no answer: a place out of reach, or an iteration that did not converge."""
+    """The question is right but has no answer: a place out of reach, or an iteration that did not converge.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> try:
+    ...     ks.Machine.preset("orthoglide").posture([9, 0, 0])
+    ... except UnansweredError:
+    ...     print("out of reach")
+    out of reach
+    """
 
 
 class ToleranceMissedWarning(UserWarning):
-    """A program was written, but it misses the tolerance that was asked for; the answer says where."""
+    """A program was written, but it misses the tolerance that was asked for; the answer says where.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always")
+    ...     warnings.warn("worst at line 3", ToleranceMissedWarning, stacklevel=1)
+    >>> str(found[0].message)
+    'worst at line 3'
+    """

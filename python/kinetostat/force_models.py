@@ -29,7 +29,17 @@ _STEP = 1e-6
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ModelEquilibria:
-    """Equilibria under a model of force, and which of them were found."""
+    """Equilibria under a model of force, and which of them were found.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> def cable(poses):  # 1 N/mm towards the origin
+    ...     return ks.wrench(-1000 * poses[..., :3, 3])
+    >>> found = ks.Machine.preset("orthoglide").posture([0.05, 0, 0]).under(cable)
+    >>> bool(np.abs(found.unbalanced).max() < 1e-6)
+    True
+    """
 
     converged: NDArray[np.bool_]
     """(...,): the wrench is that of the model at the tool's pose. Where not, all numbers of ``equilibria`` are those of the last

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat._urdf import text_of
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError
 from kinetostat.posture import Posture
@@ -39,7 +40,14 @@ _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
 @dataclasses.dataclass(frozen=True)
 class Actuator:
-    """A drive of a machine."""
+    """A drive of a machine.
+
+    Examples
+    --------
+    >>> drive = Machine.preset("orthoglide").actuators[0]
+    >>> drive.name, drive.kind, drive.unit
+    ('leg x.slider', 'prismatic', 'm')
+    """
 
     name: str
     """``limb.actuator``, or the actuator's own name in a machine of one limb."""
@@ -172,8 +180,11 @@ class Machine:
         Parameters
         ----------
         robot : path, str or object
-            Path of a URDF file, its text (beginning with ``<``), or an object with ``write_xml_string()`` (yourdfpy) or
-            ``to_xml_string()`` (urdf_parser_py).
+            Path of a URDF file, its text (beginning with ``<``), an object with ``write_xml_string()`` (yourdfpy) or
+            ``to_xml_string()`` (urdf_parser_py), or a model of Pinocchio (``pin.Model``, or a wrapper with one). A model has no text
+            any more: the tree of its joints, their placements, axes and limits, its inertias, its frames and its gravity are
+            taken. What stood at fixed joints has become one body with the link that carries it; shapes, friction and transmissions
+            are not taken, joints of several freedoms (a floating base) and coupled ones are refused.
         base, tip : str, optional
             Links that stand and that carry the tool.
         passive : sequence of str
@@ -201,7 +212,7 @@ class Machine:
         >>> round(float(loaded.displacement[2]), 6)
         -0.0005
         """
-        text, file = _urdf_text(robot)
+        text, file, gravity = text_of(robot)
         table = None
         if isinstance(stiffness, Mapping):
             lines = [f"{name},{value!r},{unit}" for name, (value, unit) in stiffness.items()]
@@ -209,7 +220,14 @@ class Machine:
         stands = {name: (kind == "revolute", at) for name, (kind, at) in (home or {}).items()}
         single = None if isinstance(stiffness, Mapping) else stiffness
         toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
-        return cls._of(_core.Machine.from_toml(toml, file))
+        made = cls._of(_core.Machine.from_toml(toml, file))
+        if gravity is None:
+            return made
+        document = made.to_dict()
+        if document["mechanism"].get("gravity_m_per_s2") == gravity.tolist():
+            return made
+        document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
+        return cls.from_dict(document, file)
 
     # What it is ----------------------------------------------------------------------------------------------------
 
@@ -270,11 +288,24 @@ class Machine:
         return self._native.turns_as_it_moves()
 
     def to_toml(self) -> str:
-        """The model as a file: every key, no comments. The tool is not part of it."""
+        """The model as a file: every key, no comments. The tool is not part of it.
+
+        Examples
+        --------
+        >>> machine = Machine.preset("two_link")
+        >>> Machine.from_toml(machine.to_toml()).actuators == machine.actuators
+        True
+        """
         return self._native.to_toml()
 
     def to_dict(self) -> dict[str, Any]:
-        """The model as a dictionary with the keys of a model file."""
+        """The model as a dictionary with the keys of a model file.
+
+        Examples
+        --------
+        >>> Machine.preset("two_link").to_dict()["mechanism"]["name"]
+        'two_link'
+        """
         found: dict[str, Any] = _without_none(json.loads(self._native.to_json()))
         return found
 
@@ -285,6 +316,16 @@ class Machine:
         ----------
         path : path
             File to write; an existing one is replaced.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> machine = Machine.preset("two_link")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = os.path.join(folder, "mine.toml")
+        ...     machine.save(path)
+        ...     Machine.open(path).name
+        'two_link'
         """
         target = os.fspath(path)
         beside = f"{target}.{os.getpid()}.part"
@@ -357,6 +398,12 @@ class Machine:
         ------
         UnansweredError
             The place is out of reach; the message says the nearest one that was found.
+
+        Examples
+        --------
+        >>> posture = Machine.preset("orthoglide").posture([0.01, 0, 0])
+        >>> posture.commands.round(4).tolist()
+        [-0.3405, -0.3503, -0.3503]
         """
         found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
         return Posture(self, found)
@@ -444,12 +491,13 @@ class Machine:
         joints: ArrayLike | None = None,
         direction: Literal["x", "y", "z", "rx", "ry", "rz"] | Sequence[float] = "z",
         wrench: ArrayLike | None = None,
+        progress: Progress | None = None,
     ) -> Shares:
         """Which part gives how much of the deflection in a direction: :func:`kinetostat.shares.shares`.
 
         Parameters
         ----------
-        position, joints, direction, wrench
+        position, joints, direction, wrench, progress
             As for :func:`kinetostat.shares.shares`, m, rad, N, N m, base axes.
 
         Returns
@@ -463,7 +511,7 @@ class Machine:
         """
         from kinetostat.shares import shares
 
-        return shares(self, position, joints=joints, direction=direction, wrench=wrench)
+        return shares(self, position, joints=joints, direction=direction, wrench=wrench, progress=progress)
 
     def _places(self, poses: ArrayLike | None, joints: ArrayLike | None) -> tuple[Floats | None, Floats | None, tuple[int, ...]]:
         if (poses is None) == (joints is None):
@@ -639,7 +687,20 @@ class Machine:
         )
 
     def compensate(self, program: str | os.PathLike[str], out: str | os.PathLike[str], **options: Any) -> CompensatedProgram:
-        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`."""
+        """Writes a program that cuts where it should; see :func:`kinetostat.compensation.compensate`.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> machine = Machine.preset("orthoglide")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     source = os.path.join(folder, "in.ngc")
+        ...     with open(source, "w") as file:
+        ...         print("G21 G90", "G0 X0 Y0 Z5", "G1 Z-1 F300", "G1 X50", "M2", sep=chr(10), file=file)
+        ...     found = machine.compensate(source, os.path.join(folder, "out.ngc"), force=[100, 0, 0])
+        >>> found.within_tolerance
+        True
+        """
         from kinetostat.compensation import compensate
 
         return compensate(self, program, out, **options)
@@ -665,6 +726,21 @@ class Machine:
         model, length = bare(self)
         where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(posture)
         return commands.model_draw(**where, **options)
+
+    def to_pyvista(self, posture: Posture | None = None, *, axes: float | None = None) -> Any:
+        """The machine as a ``pyvista.MultiBlock``, at home or at a posture; see :func:`kinetostat.view.to_pyvista`.
+
+        Examples
+        --------
+        >>> blocks = Machine.preset("orthoglide").to_pyvista()
+        >>> blocks["leg x"].n_cells
+        1
+        """
+        from kinetostat.view import to_pyvista
+
+        if posture is not None and posture.machine != self:
+            raise ArgumentError(f"the posture is one of {posture.machine!r}, not of this machine")
+        return to_pyvista(self.posture() if posture is None else posture, axes=axes)
 
     def _repr_html_(self) -> str:
         return machine_html(self)
@@ -729,17 +805,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     return copy.copy(value)
-
-
-def _urdf_text(robot: object) -> tuple[str, str]:
-    for method in ("write_xml_string", "to_xml_string"):
-        if hasattr(robot, method):
-            text = getattr(robot, method)()
-            return text.decode() if isinstance(text, bytes) else str(text), f"{type(robot).__name__}.urdf"
-    if isinstance(robot, str) and robot.lstrip().startswith("<"):
-        return robot, "text.urdf"
-    if isinstance(robot, (str, os.PathLike)):
-        path = os.fspath(robot)
-        with open(path, encoding="utf-8-sig") as file:
-            return file.read(), path
-    raise ArgumentError(f"robot is a {type(robot).__name__}, expected a path, the text of a URDF, or a yourdfpy object")

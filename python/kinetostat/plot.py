@@ -25,6 +25,15 @@ def force_curve(curve: ForceCurve, axes: Any = None) -> Any:
     Returns
     -------
     matplotlib.axes.Axes
+
+    Examples
+    --------
+    >>> import matplotlib
+    >>> matplotlib.use("Agg")
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("three_link_z").posture().curve(direction=[1, 0, 0], displacement=(0, -0.2))
+    >>> force_curve(found).get_ylabel()
+    'force, N'
     """
     import matplotlib.pyplot as plt
 

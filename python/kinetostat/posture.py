@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple, final
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,15 +19,24 @@ if TYPE_CHECKING:
     from kinetostat.assembly import Assembly
     from kinetostat.curves import ForceCurve
     from kinetostat.force_models import ForceModel, ModelEquilibria
-    from kinetostat.machine import Machine
+    from kinetostat.machine import Machine, Progress
     from kinetostat.problem import EquilibriumProblem
     from kinetostat.shapes import Shapes
+    from kinetostat.shares import Shares
 
 __all__ = ["Direction", "Equilibrium", "LimitViolation", "Posture", "Stiffness"]
 
 
 class Direction(NamedTuple):
-    """A principal direction of a stiffness."""
+    """A principal direction of a stiffness.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").posture().stiffness().directions[0]
+    >>> found.kind.value, found.twist.shape
+    ('finite', (6,))
+    """
 
     kind: DirectionKind
     stiffness: float
@@ -38,7 +48,14 @@ class Direction(NamedTuple):
 
 
 class LimitViolation(NamedTuple):
-    """An actuator outside its limits."""
+    """An actuator outside its limits.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.Machine.preset("orthoglide").posture([0.25, 0, 0]).limit_violations[0].actuator
+    'leg x.slider'
+    """
 
     actuator: str
     command: float
@@ -244,7 +261,14 @@ class Posture:
         return tuple((np.array(commands), np.array(coordinates)) for commands, coordinates in self._native.limbs)
 
     def limb_lines(self) -> list[Floats]:
-        """Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m."""
+        """Each limb as a line (n, 3) through its joints and the ends of its links; base axes, m.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> [line.shape[1] for line in ks.Machine.preset("orthoglide").posture().limb_lines()]
+        [3, 3, 3]
+        """
         return self._native.limb_lines()
 
     @property
@@ -256,6 +280,20 @@ class Posture:
     def status(self) -> Status:
         """Whether all commands are within their limits."""
         return Status.OUTSIDE_LIMITS if self._native.limit_violations else Status.SOLVED
+
+    def to_pyvista(self, *, axes: float | None = None) -> Any:
+        """The machine at this posture as a ``pyvista.MultiBlock``; see :func:`kinetostat.view.to_pyvista`.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> blocks = ks.Machine.preset("heavy_6r").posture().to_pyvista()
+        >>> blocks.keys()
+        ['arm', 'tool']
+        """
+        from kinetostat.view import to_pyvista
+
+        return to_pyvista(self, axes=axes)
 
     # What it answers ---------------------------------------------------------------------------------------------------
 
@@ -370,6 +408,40 @@ class Posture:
         from kinetostat.shapes import shapes
 
         return shapes(self, **question)
+
+    def shares(
+        self,
+        direction: Literal["x", "y", "z", "rx", "ry", "rz"] | Sequence[float] = "z",
+        wrench: ArrayLike | None = None,
+        *,
+        progress: Progress | None = None,
+    ) -> Shares:
+        """Which part gives how much of the deflection in a direction; see :func:`kinetostat.shares.shares`.
+
+        Parameters
+        ----------
+        direction : {"x", "y", "z", "rx", "ry", "rz"} or array_like, shape (3,)
+            A force along, or a moment about, an axis of the base; or the direction of a force, base axes.
+        wrench : array_like, shape (6,), optional
+            Force (N) and moment (N m) on the tool: shares of what a further small load meets. Of the unloaded machine without it.
+        progress : callable, optional
+            As for :meth:`kinetostat.Machine.stiffness`.
+
+        Returns
+        -------
+        Shares
+            With arrays ``share`` and ``part_compliance`` in the order of ``parts``; shares add to 1.
+
+        Examples
+        --------
+        >>> import kinetostat as ks
+        >>> found = ks.Machine.preset("orthoglide").posture([0.02, 0.01, 0.03]).shares("x")
+        >>> abs(float(found.share.sum()) - 1) < 1e-12, found.parts[0].name
+        (True, 'foot')
+        """
+        from kinetostat.shares import shares_of_posture
+
+        return shares_of_posture(self, direction=direction, wrench=wrench, progress=progress)
 
     def assembly(self, **question: Any) -> Assembly:
         """What assembly with errors locks in; see :func:`kinetostat.assembly.assembly`.

@@ -17,7 +17,14 @@ __all__ = ["Corrected", "correct_program"]
 
 @dataclasses.dataclass(frozen=True)
 class Corrected:
-    """A program whose path is its own plus a correction, and what was measured when it was read again."""
+    """A program whose path is its own plus a correction, and what was measured when it was read again.
+
+    Examples
+    --------
+    >>> found = correct_program("G21 G90 G1 X10 F300", lambda places, directions: 0 * places)
+    >>> found.error_after <= found.allowed
+    True
+    """
 
     text: str
     """The program."""

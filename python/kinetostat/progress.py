@@ -22,6 +22,15 @@ def bar(**options: Any) -> Iterator[Callable[[int, int, str], None]]:
     ------
     callable
         Called with what is done, how much there is (0: nobody knows) and the name of the stage.
+
+    Examples
+    --------
+    >>> import os
+    >>> import kinetostat as ks
+    >>> with open(os.devnull, "w") as nowhere, bar(file=nowhere) as progress:
+    ...     found = ks.Machine.preset("orthoglide").stiffness([[0, 0, 0], [0.01, 0, 0]], progress=progress)
+    >>> found.solved.tolist()
+    [True, True]
     """
     from tqdm.auto import tqdm
 

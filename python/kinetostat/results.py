@@ -39,7 +39,14 @@ class _OfMany:
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Stiffnesses(_OfMany):
-    """Cartesian stiffness of many unloaded postures of the machine as drawn."""
+    """Cartesian stiffness of many unloaded postures of the machine as drawn.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.Machine.preset("orthoglide").stiffness([[0, 0, 0], [9, 0, 0]])
+    <Stiffnesses: 1 of 2 solved; matrix (2, 6, 6), commands (2, 3)>
+    """
 
     matrix: Floats
     """(..., 6, 6): N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point. NaN where unsolved."""
@@ -63,7 +70,15 @@ class Stiffnesses(_OfMany):
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Equilibria(_OfMany):
-    """Equilibria of many postures under load: of the machine as it is, with its own loads and deviations."""
+    """Equilibria of many postures under load: of the machine as it is, with its own loads and deviations.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").equilibrium([[0, 0, 0], [9, 0, 0]], [100, 0, 0, 0, 0, 0])
+    >>> found.solved.tolist(), found.stable.tolist()
+    ([True, False], [True, False])
+    """
 
     tool: Floats
     """(..., 4, 4): pose of the tool under the load, base from tool, m. NaN where unsolved."""
@@ -86,7 +101,15 @@ class Equilibria(_OfMany):
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Targets(_OfMany):
-    """Poses to command so that the loaded tool is where it should be."""
+    """Poses to command so that the loaded tool is where it should be.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = ks.Machine.preset("orthoglide").targets([[0, 0, 0]], [100, 0, 0, 0, 0, 0])
+    >>> bool(found.targets[0, 0, 3] < 0)  # against the force
+    True
+    """
 
     targets: Floats
     """(..., 4, 4): pose to command, base from tool, m."""

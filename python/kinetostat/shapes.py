@@ -14,6 +14,7 @@ from kinetostat._arrays import Floats
 from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple, wrenches
 
 if TYPE_CHECKING:
+    from kinetostat.machine import Progress
     from kinetostat.posture import Posture
 
 __all__ = ["Shapes", "shapes"]
@@ -21,7 +22,14 @@ __all__ = ["Shapes", "shapes"]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shapes:
-    """Equilibria by rising energy; arrays have one row each."""
+    """Equilibria by rising energy; arrays have one row each.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> ks.Machine.preset("three_link_z").posture().shapes(displaced=[-0.001, 0, 0])
+    <Shapes: 2 equilibria, 1 stable; search settled>
+    """
 
     energy: Floats
     """(n,): springs and loads up to a constant, J."""
@@ -69,6 +77,7 @@ def shapes(
     loads: Sequence[str] | None = None,
     starts: int | None = None,
     fruitless: int | None = None,
+    progress: Progress | None = None,
 ) -> Shapes:
     """Finds all equilibria with the tool held at a place, or under a load.
 
@@ -86,6 +95,9 @@ def shapes(
         As for :func:`kinetostat.curves.curve`.
     starts, fruitless : int, optional
         Starts at most; starts in a row without anything new after which the search ends.
+
+    progress : callable, optional
+        Called with what is done, how much there is (0: nobody knows) and the name of the stage.
 
     Returns
     -------
@@ -112,6 +124,7 @@ def shapes(
         load=loads,
         starts=starts,
         fruitless=fruitless,
+        progress=progress,
     )
     each = answer["equilibria"]
     names = answer["coordinates"]

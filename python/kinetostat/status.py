@@ -8,7 +8,13 @@ __all__ = ["DirectionKind", "FoundBy", "Status"]
 
 
 class Status(enum.IntEnum):
-    """What became of one posture of many."""
+    """What became of one posture of many.
+
+    Examples
+    --------
+    >>> Status.UNSOLVED == 2
+    True
+    """
 
     SOLVED = 0
     """There is an answer, and all commands are within their limits."""
@@ -19,7 +25,13 @@ class Status(enum.IntEnum):
 
 
 class FoundBy(enum.Enum):
-    """How an equilibrium was found. Where several exist it tells which of them this is."""
+    """How an equilibrium was found. Where several exist it tells which of them this is.
+
+    Examples
+    --------
+    >>> FoundBy("directly")
+    <FoundBy.DIRECTLY: 'directly'>
+    """
 
     DIRECTLY = "directly"
     """Newton's iteration from the commanded posture."""
@@ -34,7 +46,13 @@ class FoundBy(enum.Enum):
 
 
 class DirectionKind(enum.Enum):
-    """What a principal direction of a stiffness is."""
+    """What a principal direction of a stiffness is.
+
+    Examples
+    --------
+    >>> [kind.value for kind in DirectionKind]
+    ['free', 'finite', 'negative', 'rigid']
+    """
 
     FREE = "free"
     """Nothing resists."""

@@ -36,21 +36,36 @@ assert machine.stiffness(places[:1000]).solved.all()
 print("answers", flush=True)
 """
 
+FILES = """
+with open("spread.toml", "w") as file:
+    file.write('schema = 1\\n[[uncertain]]\\nparameter = "chain.leg.q2.length_mm"\\nnormal = 0.02\\n')
+with open("long.ngc", "w") as file:
+    file.write("G21 G90\\nG0 X0 Y0 Z5\\nG1 Z-1 F300\\n" + "".join(f"G1 X{50 * (i % 2)} Y{i / 400:.4f}\\n" for i in range(20000)) + "M2\\n")
+"""
+
 CALLS = {
     "equilibria": ("", "machine.equilibrium(places, load)"),
     "targets": ("", "machine.targets(places, load)"),
     "one thread": ("", "machine.equilibrium(places, load, threads=1)"),
+    # Commands of the command line in this process; each takes far longer than a test by itself.
+    "command map": ("", "ks.commands.map('orthoglide', x=[-50, 50, 300], y=[-50, 50, 300], z=[-50, 50, 20], force=load[:3])"),
+    "command equilibria": ("", "ks.commands.equilibria('orthoglide', force=load[:3], starts=1_000_000, fruitless=1_000_000)"),
+    "command tolerance": (FILES, "ks.commands.tolerance('orthoglide', uncertain='spread.toml', machines=1_000_000)"),
+    "command compensate": (FILES, "ks.commands.compensate(model='orthoglide', program='long.ngc', out='out.ngc', force=load[:3])"),
+    "shapes": ("", "machine.posture().shapes(force=load[:3], starts=1_000_000, fruitless=1_000_000)"),
 }
 
 
-@pytest.mark.parametrize("name", ["equilibria", "targets", "one thread"])
-def test_ctrl_c(name):
+@pytest.mark.parametrize("name", CALLS)
+def test_ctrl_c(name, tmp_path):
     before, call = CALLS[name]
     child = subprocess.Popen(
         [sys.executable, "-c", CHILD.format(before=before, call=call)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(os.path.abspath(path) for path in sys.path if path)},
     )
     try:
         assert child.stdout is not None
@@ -66,6 +81,8 @@ def test_ctrl_c(name):
     word, at = first.split()
     assert word == "interrupted", (out, err)
     assert second == "answers"
+    left = {path.name for path in tmp_path.iterdir()} - {"spread.toml", "long.ngc"}
+    assert not left, f"half written: {left}"
     seconds = float(at) - sent
     print(f"{name}: KeyboardInterrupt after {seconds:.3f} s, 0.5 s are asked for")
     # Other programs of this machine take their time too.

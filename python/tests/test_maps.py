@@ -318,3 +318,21 @@ def test_memory_is_at_most_four_times_the_answer() -> None:
     env = {**os.environ, "PYTHONPATH": str(Path(ks.__file__).parents[1])}
     run = subprocess.run([sys.executable, "-c", MEMORY, "56"], capture_output=True, text=True, check=True, env=env)
     assert 0.5 < float(run.stdout) < 4, run.stdout
+
+
+def test_which_value_is_worse_is_told_by_the_core():
+    worse = {name: variable.worse for name, variable in ks.maps.variables().items()}
+    assert set(worse.values()) == {"smaller", "larger", "larger size", "neither"}
+    known = {
+        "stiffness_softest": "smaller",
+        "margin": "smaller",
+        "stable": "smaller",
+        "deflection": "larger",
+        "share_to_buckling": "larger",
+        "principal_compliance": "larger",
+        "deflection_xyz": "larger size",
+        "joint_efforts": "larger size",
+        "commands": "neither",
+        "principal_directions": "neither",
+    }
+    assert {name: worse[name] for name in known} == known

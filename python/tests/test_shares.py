@@ -69,3 +69,67 @@ def test_wrong_words_are_refused() -> None:
         of.shares(machine, [0.0, 0.0])
     with pytest.raises(ks.UnansweredError, match="nothing"):
         of.shares(ks.Machine.preset("two_link"), direction="z")
+
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@pytest.mark.parametrize("loaded", [False, True])
+@pytest.mark.parametrize("name", ["orthoglide", "heavy_6r", "stewart_gough_b", "puu3"])
+def test_shares_of_a_posture_add_to_one_and_to_its_compliance(name: str, loaded: bool) -> None:
+    machine = ks.Machine.preset(name)
+    home = machine.posture().target[:3, 3]
+    posture = machine.posture(home + np.array([0.011, -0.007, 0.013]))
+    wrench = np.array([70.0, -40.0, -90.0, 2.0, 1.0, -3.0])
+    compliance = posture.deflected_by(wrench).compliance if loaded else posture.stiffness().compliance
+    asked = 0
+    for i, direction in enumerate(DIRECTIONS):
+        if not compliance[i, i] > 1e-15:
+            continue
+        found = posture.shares(direction, wrench if loaded else None)  # type: ignore[arg-type]
+        assert found.share.shape == found.part_compliance.shape == (len(found.parts),)
+        assert abs(found.share.sum() - 1) < 1e-12
+        assert found.compliance == pytest.approx(compliance[i, i], rel=1e-8)
+        assert found.part_compliance.sum() == pytest.approx(found.compliance, rel=1e-9)
+        for what in ("limb", "kind"):
+            assert abs(sum(found.by(what).values()) - 1) < 1e-12  # type: ignore[arg-type]
+        assert (found.geometric == 0) or loaded
+        if not loaded:
+            assert (found.share > -1e-15).all()
+        asked += 1
+    assert asked >= 3
+
+
+def test_a_posture_and_its_place_have_the_same_shares() -> None:
+    machine = ks.Machine.preset("heavy_6r").with_tool(length=0.15)
+    posture = machine.posture()
+    position = posture.target[:3, 3]
+    a, b = posture.shares("x"), of.shares(machine, position, direction="x")
+    assert [p.name for p in a.parts] == [p.name for p in b.parts]
+    np.testing.assert_allclose(a.share, b.share, rtol=1e-9, atol=1e-15)
+    assert a != posture.shares("y")
+
+
+def test_the_stiffened_machine_yields_as_little_as_is_said() -> None:
+    machine = ks.Machine.preset("heavy_6r")
+    found = of.cheapest_stiffening(machine, 0.2, direction="z")
+    assert found.possible
+    document = machine.to_dict()
+    changed = 0
+    for element in document["chain"]["arm"]["elements"]:
+        factor = found.factors.get(f"arm: {element.get('name')}")
+        if factor is None:
+            continue
+        assert factor > 1
+        element["stiffness_n_m_per_rad"] *= factor
+        changed += 1
+    assert changed == len(found.factors) > 0
+
+    def along_z(one: ks.Machine) -> float:
+        return float(one.posture().stiffness().compliance[2, 2])
+
+    assert along_z(ks.Machine.from_dict(document)) / along_z(machine) == pytest.approx(0.8, rel=1e-9)
+    assert found.reached == pytest.approx(0.8, rel=1e-9)
+    assert found.cost == pytest.approx(sum(factor - 1 for factor in found.factors.values()), rel=1e-12)
+    with pytest.raises(ks.ArgumentError, match="between 0 and 1"):
+        of.cheapest_stiffening(machine, 20.0)

@@ -248,3 +248,42 @@ def test_examples_run(name):
 def test_sympy_is_imported_only_when_used():
     code = "import sys, kinetostat; sys.exit('sympy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_names_stand_for_symbols_of_any_assumptions():
+    k = symbolic.beam()
+    numbers = {"E": 210e9, "G": 80e9, "A": 6e-4, "L": 0.7, "I_y": 3e-8, "I_z": 7e-8, "J": 9e-8}
+    # SymPy's own does nothing with them: that is why there is ours.
+    assert k.matrix.subs(numbers) == k.matrix
+    found = k.subs(numbers)
+    assert type(found) is type(k)
+    assert found.directions == k.directions
+    assert not found.matrix.free_symbols
+    wanted = 4 * 210e9 * 3e-8 / 0.7
+    assert math.isclose(found.matrix[4, 4], wanted, rel_tol=1e-15)
+    assert math.isclose(symbolic.substitute(k.matrix[4, 4], {s: numbers[s.name] for s in k.symbols}), wanted, rel_tol=1e-15)
+    # Some only, and by other symbols; all at once.
+    assert symbolic.substitute(k.matrix[0, 0], {"A": 1, "L": 1}) == sp.Symbol("E", positive=True)
+    a, b = sp.symbols("a b", positive=True)
+    assert symbolic.substitute(a - b, {"a": b, "b": a}) == b - a
+    # One name with two assumptions in one formula: both.
+    assert symbolic.substitute(a + sp.Symbol("a"), {"a": 2}) == 4
+
+
+def test_values_of_a_machine_may_be_more_than_a_formula_has():
+    found = symbolic.from_machine(ks.Machine.preset("two_link"))
+    place = symbolic.substitute(found.chain.end, found.values)
+    assert math.isclose(float(place[0]), 2 * math.cos(math.pi / 12), rel_tol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"K": 1}, "no symbol 'K'; its symbols are A, E, L"),
+        ({3: 1}, "expected a name or a symbol"),
+        ({"A": 1, sp.Symbol("A", positive=True): 2}, "'A' is given twice: 1 and 2"),
+    ],
+)
+def test_names_that_would_change_nothing_are_refused(values, words):
+    with pytest.raises(ks.ArgumentError, match=words):
+        symbolic.substitute(symbolic.beam().matrix[0, 0], values)

@@ -12,6 +12,8 @@ import textwrap
 from pathlib import Path
 from typing import Any
 
+from command_examples import EXAMPLES
+
 from kinetostat import _core
 
 TARGET = Path(__file__).resolve().parents[1] / "kinetostat" / "commands.py"
@@ -30,7 +32,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from kinetostat._running import Completed, answered, run, texted
+from kinetostat._running import Completed, answered, listed, run, texted
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -42,6 +44,8 @@ _Progress = Callable[[int, int, str], object]
 '''
 
 LEFT_OUT = {"completions", "man"}
+LISTS = {"reproduce"}
+"""Commands whose JSON is a list."""
 
 
 def identifier(name: str) -> str:
@@ -69,8 +73,15 @@ def annotation(argument: dict[str, Any]) -> str:
 
 def wrapped(text: str, indent: str) -> str:
     """Text in lines of at most 110 columns."""
-    clean = text.replace("\\", "\\\\").replace('"""', "'''")
+    clean = text.replace('"""', "'''")
     return "\n".join(textwrap.wrap(clean, 108 - len(indent), initial_indent=indent, subsequent_indent=indent))
+
+
+def example(name: str) -> str:
+    """The example of a function, as a docstring holds it."""
+    if name not in EXAMPLES:
+        sys.exit(f"there is no example of the command {name}: write a short one into python/tools/command_examples.py")
+    return EXAMPLES[name].strip()
 
 
 def function(path: list[str], command: dict[str, Any]) -> str:
@@ -95,7 +106,7 @@ def function(path: list[str], command: dict[str, Any]) -> str:
     about = (command["about"] or "").strip()
     long = (command["long_about"] or "").strip()
     rest = long[len(about) :].strip() if long.startswith(about) else long
-    doc = [f'    """{about.rstrip(".")}.', ""]
+    doc = [f'    """{about.rstrip(".?")}.', ""]
     if rest:
         doc += [wrapped(paragraph, "    ") for paragraph in rest.split("\n\n")] + [""]
     doc += ["    Parameters", "    ----------"]
@@ -106,14 +117,20 @@ def function(path: list[str], command: dict[str, Any]) -> str:
         "    progress : callable",
         "        Called with what is done, how much there is and the name of the stage.",
     ]
-    returns = "dict[str, Any]" if has_json else "str"
-    doc += ["", "    Returns", "    -------"]
-    doc += ["    dict", "        What the command prints with ``--json``."] if has_json else ["    str", "        What it prints."]
-    doc.append('    """')
-    pairs = [f'        ("{"" if a["positional"] else "--" + a["name"]}", {identifier(a["name"])}),' for a in [*positional, *named]]
-    call = "answered" if has_json else "texted"
-    words = ", ".join(f'"{word}"' for word in path)
     name = identifier("_".join(path))
+    if not has_json:
+        call, returns, said = "texted", "str", "What it prints."
+    elif name in LISTS:
+        call, returns, said = "listed", "list[dict[str, Any]]", "What the command prints with ``--json``."
+    else:
+        call, returns, said = "answered", "dict[str, Any]", "What the command prints with ``--json``."
+    kind = returns.replace("[str, Any]", "").replace("[", " of ").rstrip("]")
+    doc += ["", "    Returns", "    -------", f"    {kind}", f"        {said}"]
+    doc += ["", "    Examples", "    --------", textwrap.indent(example(name), "    "), '    """']
+    if any("\\" in line for line in doc):
+        doc[0] = doc[0].replace('"""', 'r"""', 1)
+    pairs = [f'        ("{"" if a["positional"] else "--" + a["name"]}", {identifier(a["name"])}),' for a in [*positional, *named]]
+    words = ", ".join(f'"{word}"' for word in path)
     return "\n".join(
         [
             f"def {name}(",

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 use kinetostat_machining::{
-    EvaluationRoom, Evaluator, Outcome, PlaceState, VARIABLES, Variable, Width,
+    EvaluationRoom, Evaluator, Outcome, PlaceState, VARIABLES, Variable, Width, Worse,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -23,15 +23,30 @@ fn number(outcome: &Outcome) -> u8 {
     }
 }
 
-/// Name, unit, columns (none: one for each actuator) and description of all variables.
+/// Name, unit, columns (none: one for each actuator), description, and which of two values is the worse one.
+type Row = (
+    &'static str,
+    &'static str,
+    Option<usize>,
+    &'static str,
+    &'static str,
+);
+
+/// All variables.
 #[pyfunction]
-pub fn map_variables() -> Vec<(&'static str, &'static str, Option<usize>, &'static str)> {
+pub fn map_variables() -> Vec<Row> {
     let row = |entry: &kinetostat_machining::Entry| {
         let columns = match entry.width {
             Width::Fixed(columns) => Some(columns),
             Width::Actuators => None,
         };
-        (entry.name, entry.unit, columns, entry.description)
+        let worse = match entry.worse {
+            Worse::Smaller => "smaller",
+            Worse::Larger => "larger",
+            Worse::LargerSize => "larger size",
+            Worse::Neither => "neither",
+        };
+        (entry.name, entry.unit, columns, entry.description, worse)
     };
     VARIABLES.iter().map(row).collect()
 }

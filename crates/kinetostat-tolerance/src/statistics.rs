@@ -131,12 +131,26 @@ pub fn quantile(sorted: &[f64], share: f64) -> Quantile {
     };
     let tail = 0.5 * (1.0 - CONFIDENCE);
     // The k-th smallest lies below the quantile unless fewer than k draws do.
-    let low = count.inverse_cdf(tail) as usize;
-    let high = count.inverse_cdf(1.0 - tail) as usize;
+    let low = least_count(&count, tail);
+    let high = least_count(&count, 1.0 - tail);
     Quantile {
         share,
         value,
         low: low.checked_sub(1).map(|k| sorted[k.min(last)]),
         high: sorted.get(high).copied(),
     }
+}
+
+/// Smallest count that is not exceeded with probability `p`. (The search of `statrs` panics where that is zero: few draws, small shares.)
+fn least_count(count: &Binomial, p: f64) -> usize {
+    let (mut low, mut high) = (0, count.n());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if count.cdf(middle) >= p {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low as usize
 }

@@ -93,6 +93,17 @@ def plot(
     ------
     ImportError
         matplotlib is not installed (``pip install 'kinetostat[plot]'``).
+
+    Examples
+    --------
+    >>> import matplotlib
+    >>> matplotlib.use("Agg")
+    >>> import numpy as np
+    >>> import kinetostat as ks
+    >>> x = np.linspace(-0.05, 0.05, 5)
+    >>> axes = plot(ks.Machine.preset("orthoglide").map(x=x, y=x), "stiffness_softest")
+    >>> axes.get_xlabel()
+    'x, mm'
     """
     about = _single(found, variable)
     dims = [str(dim) for dim in found[variable].dims]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,18 +80,29 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         import meshio
     except ImportError as absent:
         raise ImportError("VTK files are written by meshio: pip install 'kinetostat[io]'") from absent
-    axes = [np.atleast_1d(found[name].values) for name in "xyz"]
+    axes = grid_axes(found)
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     kind, cells = _cells([len(axis) for axis in axes])
-    data = {}
+    data = {name: values.reshape(len(points), *values.shape[3:]) for name, values in grid_values(found)}
+    mesh = meshio.Mesh(points, [(kind, cells)], point_data=data)
+    _whole(path, lambda beside: meshio.write(beside, mesh))
+
+
+def grid_axes(found: xarray.Dataset) -> list[Any]:
+    """Coordinates along x, y and z, m; one where a map has one place."""
+    return [np.atleast_1d(found[name].values) for name in "xyz"]
+
+
+def grid_values(found: xarray.Dataset) -> Iterator[tuple[str, Any]]:
+    """Every variable, by loads and orientations, as (x, y, z) or (x, y, z, columns)."""
     along = [name for name in "xyz" if name in found["status"].dims]
+    counts = tuple(len(axis) for axis in grid_axes(found))
     for name, array in found.data_vars.items():
         other: list[str] = [dim for dim in ("load", "orientation") if dim in array.dims]
         for label, part in _parts(array, other):
             values = part.transpose(*along, ...).values
-            data[f"{name}{label}"] = values.reshape(len(points), -1) if values.ndim > len(along) else values.reshape(-1)
-    mesh = meshio.Mesh(points, [(kind, cells)], point_data=data)
-    _whole(path, lambda beside: meshio.write(beside, mesh))
+            columns = (int(np.prod(values.shape[len(along) :])),) if values.ndim > len(along) else ()
+            yield f"{name}{label}", values.reshape(counts + columns)
 
 
 def _parts(array: Any, dims: list[str]) -> list[tuple[str, Any]]:

@@ -16,14 +16,16 @@ Worse = Literal["smaller", "larger", "larger size", "neither"]
 AXES: dict[str, tuple[str, ...]] = {"axis": ("x", "y", "z"), "principal": ("softest", "middle", "stiffest")}
 """Coordinates of the columns of variables."""
 
-_LARGER = ("principal_compliance", "deflection", "rotation", "effort_share", "share_to_buckling")
-_LARGER_SIZE = ("deflection_xyz", "rotation_xyz", "joint_efforts")
-_NEITHER = ("principal_directions", "commands")
-
 
 @dataclasses.dataclass(frozen=True)
 class Variable:
-    """A result of a place."""
+    """A result of a place.
+
+    Examples
+    --------
+    >>> variables()["deflection"].worse, variables()["principal_compliance"].dims
+    ('larger', ('principal',))
+    """
 
     name: str
     unit: str
@@ -31,15 +33,8 @@ class Variable:
     columns: int | None
     """How many numbers it is; none: one for each actuator."""
     description: str
-
-    @property
-    def worse(self) -> Worse:
-        """Which of two values is the worse one."""
-        if self.name in _NEITHER:
-            return "neither"
-        if self.name in _LARGER_SIZE:
-            return "larger size"
-        return "larger" if self.name in _LARGER else "smaller"
+    worse: Worse
+    """Which of two values is the worse one."""
 
     @property
     def dims(self) -> tuple[str, ...]:

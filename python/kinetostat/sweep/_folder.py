@@ -28,7 +28,14 @@ _IDENTITY = ("format", "version", "function", "count", "chunk", "settings")
 
 @dataclasses.dataclass(frozen=True)
 class Verified:
-    """What a folder holds, by its manifest."""
+    """What a folder holds, by its manifest.
+
+    Examples
+    --------
+    >>> found = Verified(count=30, chunks=3, sound=(0, 2), damaged=(1,))
+    >>> found.missing, found.complete
+    ((1,), False)
+    """
 
     count: int
     """Rows of the whole sweep."""

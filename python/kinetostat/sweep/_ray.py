@@ -16,6 +16,14 @@ class RayExecutor(Executor):
     ----------
     **options
         Of ``ray.remote``: ``num_cpus``, ``resources``, ``max_retries`` (3 in Ray itself: a lost worker costs its chunk).
+
+    Examples
+    --------
+    >>> issubclass(RayExecutor, Executor)
+    True
+    >>> import ray  # doctest: +SKIP
+    >>> _ = ray.init()  # doctest: +SKIP
+    >>> machine.map(x=[0.0, 0.01], executor=RayExecutor())  # doctest: +SKIP
     """
 
     def __init__(self, **options: Any) -> None:
@@ -27,7 +35,13 @@ class RayExecutor(Executor):
         self._max_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Starts a call on a worker."""
+        """Starts a call on a worker.
+
+        Examples
+        --------
+        >>> RayExecutor().submit(abs, -2).result()  # doctest: +SKIP
+        2
+        """
         if fn not in self._remote:
             self._remote[fn] = self._ray.remote(**self._options)(fn)
         future: Future[Any] = self._remote[fn].remote(*args, **kwargs).future()

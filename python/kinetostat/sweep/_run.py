@@ -22,7 +22,16 @@ Progress = Callable[[int, int, str], object]
 
 @dataclasses.dataclass(frozen=True)
 class Done:
-    """What a run did for a folder."""
+    """What a run did for a folder.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from kinetostat.sweep._example import squares
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     to_folder(f"{folder}/sweep", squares, 10, chunk=4)
+    Done(chunks=3, computed=3, damaged=0)
+    """
 
     chunks: int
     """Chunks of the whole sweep, all of them there now."""

@@ -24,7 +24,13 @@ _UNKNOWN = 64
 
 
 class SweepError(KinetostatError, RuntimeError):
-    """A sweep that stopped before its end; the message says how much is kept."""
+    """A sweep that stopped before its end; the message says how much is kept.
+
+    Examples
+    --------
+    >>> issubclass(SweepError, KinetostatError)
+    True
+    """
 
 
 def compute(plan: Plan, todo: Iterable[int], executor: Workers, under_way: int | None, threads: int | None, keep: Keep) -> None:

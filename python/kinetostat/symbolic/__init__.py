@@ -24,6 +24,19 @@ except ImportError as missing:  # pragma: no cover
 from kinetostat.symbolic._chain import Chain
 from kinetostat.symbolic._expression import Formula, Stiffness
 from kinetostat.symbolic._links import beam, in_parallel, leg, planar_beam, with_passive_joint
-from kinetostat.symbolic._machine import from_machine
+from kinetostat.symbolic._machine import NamedChain, from_machine
+from kinetostat.symbolic._substitution import substitute
 
-__all__ = ["Chain", "Formula", "Stiffness", "beam", "from_machine", "in_parallel", "leg", "planar_beam", "with_passive_joint"]
+__all__ = [
+    "Chain",
+    "Formula",
+    "NamedChain",
+    "Stiffness",
+    "beam",
+    "from_machine",
+    "in_parallel",
+    "leg",
+    "planar_beam",
+    "substitute",
+    "with_passive_joint",
+]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.printing.rust import RustCodePrinter
 
 from kinetostat.errors import ArgumentError
+from kinetostat.symbolic._substitution import substitute
 
 __all__ = ["Formula", "Stiffness"]
 
@@ -59,6 +60,9 @@ _KEYWORDS = frozenset(
 )
 
 
+_OfFormulas = TypeVar("_OfFormulas", bound="Formula")
+
+
 @dataclasses.dataclass(frozen=True)
 class Formula:
     """A matrix of formulas with what can be done with it.
@@ -73,12 +77,31 @@ class Formula:
     """
 
     matrix: sp.Matrix
-    """The formulas, SI units."""
+    """The formulas, SI units. Its own ``subs`` does not find symbols by their names: use :meth:`subs`."""
 
     @property
     def symbols(self) -> tuple[sp.Symbol, ...]:
         """Its symbols in alphabetic order: the order of the arguments of printed functions."""
         return tuple(sorted(self.matrix.free_symbols, key=lambda s: str(s.name)))
+
+    def subs(self: _OfFormulas, values: Mapping[str | sp.Symbol, Any]) -> _OfFormulas:
+        """The same with values for symbols, by their names or as symbols; see :func:`kinetostat.symbolic.substitute`.
+
+        Raises
+        ------
+        ArgumentError
+            A name that the formulas do not have.
+
+        Examples
+        --------
+        >>> import sympy as sp
+        >>> k = sp.Symbol("k", positive=True)
+        >>> Formula(sp.Matrix([[k, 0], [0, 2 * k]])).subs({"k": 3}).matrix
+        Matrix([
+        [3, 0],
+        [0, 6]])
+        """
+        return dataclasses.replace(self, matrix=substitute(self.matrix, values))
 
     def simplified(self) -> Formula:
         """The same with every entry simplified by SymPy.

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use kinetostat_tolerance::{
-    Distribution, Draws, Summary, Uncertain, Uncertainties, design_row, design_rows, linear,
-    linear_points, mean_and_deviation, quantile, sobol_indices,
+    Distribution, Draws, SHARES, Summary, Uncertain, Uncertainties, design_row, design_rows,
+    linear, linear_points, mean_and_deviation, quantile, sobol_indices,
 };
 
 fn uncertain(name: &str, value: f64, distribution: Distribution) -> Uncertain {
@@ -39,6 +39,32 @@ fn moments_of_the_distributions_come_out_of_the_draws() {
             (fourth / deviation.powi(4) - kurtosis).abs() < 0.03,
             "{distribution:?}: {fourth}"
         );
+    }
+}
+
+/// Down to one draw, where the share of a rare quantile lies below all.
+#[test]
+fn bounds_of_quantiles_are_those_of_sums_of_the_binomial_distribution() {
+    for n in (1..=80_u32).chain([128, 145, 150, 200]) {
+        let list: Vec<f64> = (0..n).map(f64::from).collect();
+        for share in SHARES {
+            let (p, q) = (share, 1.0 - share);
+            let mut one = q.powi(n as i32);
+            let mut sums = vec![one];
+            for k in 1..=n {
+                one *= f64::from(n + 1 - k) / f64::from(k) * p / q;
+                sums.push(sums[k as usize - 1] + one);
+            }
+            let least = |tail: f64| sums.iter().position(|x| *x >= tail).unwrap_or(n as usize);
+            let found = quantile(&list, share);
+            let wanted = least(0.025).checked_sub(1).map(|k| list[k]);
+            assert_eq!(found.low, wanted, "{n} draws, {share}");
+            assert_eq!(
+                found.high,
+                list.get(least(0.975)).copied(),
+                "{n} draws, {share}"
+            );
+        }
     }
 }
 

@@ -1,0 +1,60 @@
+"""Values for symbols by their names: SymPy takes symbols of one name and other assumptions for others, and changes nothing then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+
+from kinetostat.errors import ArgumentError
+
+__all__ = ["substitute"]
+
+
+def substitute(expression: Any, values: Mapping[str | sp.Symbol, Any]) -> Any:
+    """A formula or a matrix of formulas with values for symbols, which may be given by their names.
+
+    ``expression.subs({"k": 2})`` of SymPy itself changes nothing where ``k`` is a positive or a real symbol, as those of this package
+    are: there ``"k"`` is another symbol. Here names count.
+
+    Parameters
+    ----------
+    expression : sympy.Expr or sympy.Matrix
+        Any formula, as ``chain.end`` or ``chain.stiffness().matrix``.
+    values : mapping of str or sympy.Symbol
+        Numbers, formulas, or text that names a (real) symbol. All are put in at once: ``{"a": "b", "b": "a"}`` swaps.
+
+    Returns
+    -------
+    sympy.Expr or sympy.Matrix
+
+    Raises
+    ------
+    ArgumentError
+        A name that the formula does not have (of symbols, such as those of :attr:`NamedChain.values`, there may be more), a symbol
+        that is given twice with different values, or a key of another kind.
+
+    Examples
+    --------
+    >>> from kinetostat.symbolic import beam
+    >>> substitute(beam().matrix[0, 0], {"E": 210e9, "A": "a", "L": 1})
+    210000000000.0*a
+    """
+    there: dict[str, list[sp.Symbol]] = {}
+    for symbol in expression.free_symbols:
+        there.setdefault(str(symbol.name), []).append(symbol)
+    found: dict[sp.Symbol, sp.Expr] = {}
+    for key, value in values.items():
+        if not isinstance(key, (str, sp.Symbol)):
+            raise ArgumentError(f"a key of values is {key!r} ({type(key).__name__}), expected a name or a symbol")
+        name = key if isinstance(key, str) else str(key.name)
+        if isinstance(key, str) and name not in there:
+            known = ", ".join(sorted(there)) or "none"
+            raise ArgumentError(f"the formula has no symbol {name!r}; its symbols are {known}")
+        formula = sp.Symbol(value, real=True) if isinstance(value, str) else sp.sympify(value)
+        for symbol in there.get(name, []):
+            if found.get(symbol, formula) != formula:
+                raise ArgumentError(f"{name!r} is given twice: {found[symbol]} and {formula}")
+            found[symbol] = formula
+    return expression.subs(found, simultaneous=True)
