@@ -180,5 +180,6 @@ fn tool(source: Source<'_>, table: ToolTable) -> Answer<StatedTool> {
         frame: self::frame(source, frame)?,
         mass_kg: table.mass_kg,
         centre_of_mass_mm: table.centre_of_mass_mm.map(Vector3::from),
+        ..StatedTool::default()
     })
 }

@@ -2,6 +2,7 @@
 
 use kinetostat_program::Path;
 
+use crate::making::configurations::StatedConfiguration;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
@@ -38,6 +39,8 @@ pub(crate) struct Course {
     pub left_out: Vec<SourceEvent>,
     /// Its speeds are those of a robot's program.
     pub is_of_robot: bool,
+    /// Of every move, how the arm reaches its places, where the source says it in the same language.
+    pub configurations: Vec<StatedConfiguration>,
 }
 
 impl Course {
@@ -68,6 +71,7 @@ impl Course {
                 .collect(),
             left_out,
             is_of_robot: false,
+            configurations: Vec::new(),
         }
     }
 

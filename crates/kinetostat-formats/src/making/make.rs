@@ -12,8 +12,9 @@ use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::checked;
 use crate::making::plan::plan;
+use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{Rapids, Template};
+use crate::making::template::{Rapids, StatedTool, Template};
 use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
@@ -145,7 +146,9 @@ fn taken_for_granted(
     if language.is_of_an_arm() {
         say("the first motion is a joint motion: on which way the arm comes there, the controller decides".to_owned());
         of_frames(template, language, &mut say);
-        if template.configuration.is_none() {
+        let first = steps.iter().find_map(Step::motion);
+        let is_stated = first.is_some_and(|motion| motion.end_configuration().is_some());
+        if template.configuration.is_none() && !is_stated {
             say(match language {
                 MakeLanguage::FanucLs => format!(
                     "the configuration is not stated: every position has '{}'",
@@ -243,8 +246,17 @@ fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(S
             }
         }
     }
-    if language == MakeLanguage::Rapid && tool.pose.is_some() && template.tool.mass_kg.is_none() {
-        say("the mass of the tool is not stated: 1 kg is written".to_owned());
+    let declared = |tool: &&StatedTool| tool.frame.pose.is_some() && !is_number_zero(&tool.frame);
+    let tools = template.tools.values();
+    let tools: Vec<&StatedTool> = match several {
+        true => tools.filter(declared).collect(),
+        false => std::iter::once(&template.tool).filter(declared).collect(),
+    };
+    if language == MakeLanguage::Rapid && tools.iter().any(|tool| tool.mass_kg.is_none()) {
+        say(match several {
+            true => "the mass of a tool is not stated: 1 kg is written".to_owned(),
+            false => "the mass of the tool is not stated: 1 kg is written".to_owned(),
+        });
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::making::configurations;
 use crate::making::course::{Course, at, place_of};
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
@@ -58,11 +59,19 @@ pub fn make_of_robot(
         let made = tools_of_source(program, robot, language);
         (template.tool, template.tools) = (made.tool, made.tools);
         named = made.findings;
+    } else if template.tools.is_empty() && robot.tools.len() == 1 {
+        let source = tools_of_source(program, robot, language).tool;
+        named.extend(completed(&mut template.tool, source));
     }
     if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         named.extend(base_by_number(program, frame, &template.base, language));
     }
-    let course = course_of(program, robot);
+    let mut course = course_of(program, robot);
+    course.configurations = configurations::kept(program, robot, language);
+    if template.configuration.is_some() {
+        // What the template states holds, and the rest of the source's would not go with it.
+        course.configurations.clear();
+    }
     let mut made = make_along(&robot.path, &course, &template, language)?;
     // What is named stands before what is taken for granted.
     made.findings.splice(0..0, named);
@@ -87,7 +96,44 @@ pub fn make_of_robot(
         made.findings.extend(zones(program));
     }
     made.findings.extend(external_axes(program));
+    made.findings
+        .extend(lost_configurations(program, &template, language));
     Ok(made)
+}
+
+/// A tool of the template with what the source says of it and the template does not.
+fn completed(stated: &mut StatedTool, source: StatedTool) -> Option<MakeFinding> {
+    if stated.frame == StatedFrame::default() {
+        stated.frame = source.frame;
+    }
+    let mass = source.mass_kg.filter(|_| stated.mass_kg.is_none())?;
+    stated.mass_kg = Some(mass);
+    stated.centre_of_mass_mm = stated.centre_of_mass_mm.or(source.centre_of_mass_mm);
+    stated.axes_of_moment = source.axes_of_moment;
+    stated.inertia_kg_m2 = source.inertia_kg_m2;
+    Some(MakeFinding::of(
+        None,
+        format!(
+            "the template does not state the mass of the tool: {mass} kg and what else of its load is not stated are those of the source"
+        ),
+    ))
+}
+
+/// What becomes of configurations that the source states.
+fn lost_configurations(
+    program: &RobotProgram,
+    template: &Template,
+    language: MakeLanguage,
+) -> Option<MakeFinding> {
+    let is_same = configurations::is_same(program.language, language);
+    match (is_same, &template.configuration) {
+        (true, None) => None,
+        (true, Some(stated)) => configurations::lost(
+            program,
+            &format!("the template states `{stated}` (configuration)"),
+        ),
+        (false, _) => configurations::lost(program, &configurations::why_lost(language)),
+    }
 }
 
 /// The robot's base as the frame of a made program, where the path is in its axes: of joint values, and of several work objects.
@@ -220,5 +266,6 @@ fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         events: placed,
         left_out: by_line.into_values().flatten().collect(),
         is_of_robot: true,
+        configurations: Vec::new(),
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
+use crate::making::configurations::StatedConfiguration;
 
 /// On which way a made motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +40,22 @@ pub(crate) struct MadeMotion {
     pub first: bool,
     /// It stops at its end.
     pub exact: bool,
+    /// How the arm reaches its places, where the source says it.
+    pub configuration: Option<Box<StatedConfiguration>>,
 }
 
 impl MadeMotion {
+    /// How the arm reaches its end.
+    pub(crate) fn end_configuration(&self) -> Option<&str> {
+        self.configuration.as_ref()?.end.as_deref()
+    }
+
+    /// How it reaches the place on a circle.
+    pub(crate) fn via_configuration(&self) -> Option<&str> {
+        let stated = self.configuration.as_ref()?;
+        stated.via.as_deref().or(stated.end.as_deref())
+    }
+
     /// Places that a program needs for it.
     pub(crate) fn places(&self) -> usize {
         match self.way {

@@ -38,6 +38,10 @@ pub struct StatedTool {
     pub mass_kg: Option<f64>,
     /// Its centre of mass in axes of the flange, mm.
     pub centre_of_mass_mm: Option<Vector3<f64>>,
+    /// Turns the axes of the flange into those of its moments of inertia.
+    pub axes_of_moment: Option<UnitQuaternion<f64>>,
+    /// Its moments of inertia about those axes through its centre of mass, kg m^2.
+    pub inertia_kg_m2: Option<Vector3<f64>>,
 }
 
 /// What rapids become.
