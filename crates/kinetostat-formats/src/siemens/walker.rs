@@ -14,6 +14,7 @@ use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
+use crate::siemens::plain_turns::PlainTurn;
 use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
@@ -31,6 +32,8 @@ pub(crate) struct Scan {
     pub rotary: StatedAxes,
     /// What the words show of how these axes count.
     pub shown: Vec<CountShown>,
+    /// Words of rotary axes in cuts that a setting of the machine takes otherwise.
+    pub plain_turns: Vec<PlainTurn>,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
 }
