@@ -167,6 +167,7 @@ fn frame(source: Source<'_>, table: FrameTable) -> Answer<StatedFrame> {
         number: table.number,
         name: table.name,
         pose: stated.transpose()?,
+        ..StatedFrame::default()
     })
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::routines::{running_lines, words_of};
+use crate::making::step::StatedConfiguration;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::target::{Configuration, Target};
@@ -12,16 +13,6 @@ use crate::path::of_program::RobotPath;
 
 /// Lines are named up to so many.
 const MOST_NAMED: usize = 20;
-
-/// How the arm reaches the places of a move, as the language writes it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct StatedConfiguration {
-    pub end: Option<String>,
-    /// Of the place on a circle.
-    pub via: Option<String>,
-    /// The controller goes by that of a joint motion (RAPID: unless `ConfJ\Off`).
-    pub is_followed: bool,
-}
 
 /// Whether a program is made in the language of its source, of those whose targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
@@ -149,7 +140,7 @@ pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
 }
 
 /// Lines in words, those that follow one another as one.
-fn in_words(lines: &[usize]) -> String {
+pub(crate) fn in_words(lines: &[usize]) -> String {
     let mut ranges: Vec<[usize; 2]> = Vec::new();
     for line in lines {
         match ranges.last_mut() {

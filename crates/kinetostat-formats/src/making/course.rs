@@ -2,11 +2,11 @@
 
 use kinetostat_program::Path;
 
-use crate::making::configurations::StatedConfiguration;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::numbers::plain;
+use crate::making::step::StatedConfiguration;
 
 /// Numbers of a line: what acts before its motion, the motion, and what acts behind it.
 const OF_A_LINE: usize = 3;

@@ -14,6 +14,7 @@ pub(crate) mod configurations;
 pub(crate) mod course;
 pub(crate) mod crowded;
 pub(crate) mod csv;
+pub(crate) mod dynamics;
 pub(crate) mod event_kind;
 pub(crate) mod events;
 pub(crate) mod fault;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::making::configurations;
 use crate::making::course::{Course, at, place_of};
+use crate::making::dynamics::dynamics;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
@@ -12,12 +13,15 @@ use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
+use crate::making::stated::is_identity;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs, Zone};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
+use crate::rapid::loads::object_frames;
+use crate::text::name::Name;
 
 /// A robot's program in another language, with its work object and its tools where the template states none.
 ///
@@ -53,6 +57,13 @@ pub fn make_of_robot(
         template.base = base;
     } else if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         template.base = stated(frame, None, language);
+        if (program.language, language) == (Language::Rapid, MakeLanguage::Rapid) {
+            let name = Name::of(frame.name.as_bytes());
+            let both = name.and_then(|name| object_frames(&program.files).get(&name).copied());
+            // Where the caller says where it is, that is it.
+            let both = both.filter(|[user, object]| frame.known() == Some(&(user * object)));
+            template.base.object_frame = both.map(|[_, object]| object);
+        }
     }
     let mut named = Vec::new();
     if template.tools.is_empty() && template.tool == StatedTool::default() {
@@ -66,6 +77,7 @@ pub fn make_of_robot(
     if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         named.extend(base_by_number(program, frame, &template.base, language));
     }
+    let moved = moved_frames(robot, [&given, &template.tool.frame]);
     let mut course = course_of(program, robot);
     course.configurations = configurations::kept(program, robot, language);
     if template.configuration.is_some() {
@@ -96,6 +108,9 @@ pub fn make_of_robot(
         made.findings.extend(zones(program));
     }
     made.findings.extend(external_axes(program));
+    made.findings.extend(dynamics(program, robot.file));
+    let is_kept = made.states_configuration && template.configuration.is_none();
+    made.findings.extend(moved.filter(|_| is_kept));
     made.findings
         .extend(lost_configurations(program, &template, language));
     Ok(made)
@@ -117,6 +132,32 @@ fn completed(stated: &mut StatedTool, source: StatedTool) -> Option<MakeFinding>
             "the template does not state the mass of the tool: {mass} kg and what else of its load is not stated are those of the source"
         ),
     ))
+}
+
+/// That an arm stands otherwise at the poses of the source, for base or tool of the template are elsewhere.
+fn moved_frames(robot: &RobotPath, [base, tool]: [&StatedFrame; 2]) -> Option<MakeFinding> {
+    let is_other = |stated: &StatedFrame, of_source: Option<&FrameUse>| {
+        let own = of_source.and_then(FrameUse::known);
+        let both = own.zip(stated.pose.as_ref());
+        both.is_some_and(|(own, pose)| !is_identity(&(own.inverse() * pose)))
+    };
+    let own_tool = robot.tools.first().filter(|_| robot.tools.len() == 1);
+    let base = is_other(base, robot.work_object.as_ref());
+    // Several tools of the template have no others to be compared with.
+    let tool = is_other(tool, own_tool);
+    (base || tool).then(|| {
+        MakeFinding::of(
+            None,
+            format!(
+                "the configurations are those of the source, and the {} of the template stands elsewhere than there: check whether the arm reaches the poses so",
+                match (base, tool) {
+                    (true, true) => "base with the tool",
+                    (true, false) => "base",
+                    (false, _) => "tool",
+                }
+            ),
+        )
+    })
 }
 
 /// What becomes of configurations that the source states.

@@ -208,5 +208,6 @@ pub(crate) fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLangua
             .or(is_zero.then_some(0)),
         name: is_named.then(|| own.to_owned()),
         pose: frame.known().copied(),
+        object_frame: None,
     }
 }

@@ -154,10 +154,14 @@ impl<'t> Writer<'t> {
         }
         let base = &self.template.base;
         if let Some(pose) = base.pose.as_ref().filter(|_| !is_number_zero(base)) {
+            let (user, object) = match &base.object_frame {
+                None => (*pose, "[[0,0,0],[1,0,0,0]]".to_owned()),
+                Some(object) => (pose * object.inverse(), self.pose(object)),
+            };
             text += &format!(
-                "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];\n",
+                "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},{object}];\n",
                 self.base_name(),
-                self.pose(pose)
+                self.pose(&user)
             );
         }
         let slow = short(self.template.joint_speed_percent * 10.0, 3);

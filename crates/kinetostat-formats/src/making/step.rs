@@ -3,7 +3,6 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::making::action::EventAction;
-use crate::making::configurations::StatedConfiguration;
 
 /// On which way a made motion goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +19,16 @@ pub(crate) enum Way {
         centre: Vector3<f64>,
         clockwise: bool,
     },
+}
+
+/// How the arm reaches the places of a move, as the language writes it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct StatedConfiguration {
+    pub end: Option<String>,
+    /// Of the place on a circle.
+    pub via: Option<String>,
+    /// The controller goes by that of a joint motion (RAPID: unless `ConfJ\Off`).
+    pub is_followed: bool,
 }
 
 /// One motion.

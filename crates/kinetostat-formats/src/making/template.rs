@@ -23,6 +23,8 @@ pub struct StatedFrame {
     pub name: Option<String>,
     /// A base in the axes of the robot's base, a tool in those of the flange; mm.
     pub pose: Option<Isometry3<f64>>,
+    /// Of the pose of a base, the object frame in axes of the user frame (RAPID), mm; where none is stated all of it is the user frame.
+    pub object_frame: Option<Isometry3<f64>>,
 }
 
 /// A tool with its load, which RAPID declares together.

@@ -5,20 +5,10 @@
 
 use crate::model::program::Finding;
 use crate::siemens::state::Coordinate;
-use crate::siemens::walker::Reader;
+use crate::siemens::walker::{PlainTurn, Reader};
 
 /// Further lines are named up to so many.
 const MOST_NAMED: usize = 20;
-
-/// Such a word, where both readings differ.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlainTurn {
-    pub line: usize,
-    pub letter: char,
-    pub to: f64,
-    /// By which angle it turns straight on, and the shorter way, deg.
-    pub readings: [f64; 2],
-}
 
 impl Reader<'_> {
     /// Notes a word that turns an axis in a cut, where it matters what the machine takes it for.

@@ -14,7 +14,6 @@ use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::siemens::block::How;
 use crate::siemens::expression::Expression;
-use crate::siemens::plain_turns::PlainTurn;
 use crate::siemens::state::{Angles, Code, Coordinate, Feed, State};
 use crate::siemens::tokens::Broken;
 use crate::siemens::values::Variables;
@@ -36,6 +35,16 @@ pub(crate) struct Scan {
     pub plain_turns: Vec<PlainTurn>,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
+}
+
+/// An angle without AC or DC where it matters how the machine takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PlainTurn {
+    pub line: usize,
+    pub letter: char,
+    pub to: f64,
+    /// By which angle it turns straight on, and the shorter way, deg.
+    pub readings: [f64; 2],
 }
 
 /// How a motion is written, for the writer.

@@ -132,6 +132,32 @@ fn configurations_that_another_language_does_not_take_are_named_with_their_lines
     ));
 }
 
+/// Where the part is elsewhere, the arm may not reach it as it did.
+#[test]
+fn configurations_under_another_base_or_tool_are_warned_of() {
+    let words = "stands elsewhere than there: check";
+    let mut template = Template::default();
+    template.base.pose = Some(nalgebra::Isometry3::translation(1800.0, 0.0, 900.0));
+    let made = made_of("a.src", KRL, &template, MakeLanguage::Krl);
+    assert!(!says(&made, words), "{:?}", made.findings);
+    template.base.pose = Some(nalgebra::Isometry3::translation(1500.0, 0.0, 900.0));
+    let made = made_of("a.src", KRL, &template, MakeLanguage::Krl);
+    assert!(
+        says(&made, &format!("the base of the template {words}")),
+        "{:?}",
+        made.findings
+    );
+    assert_eq!(configurations(&made, Language::Krl)[0], "S 6,T 35");
+    template.tool.frame.pose = Some(nalgebra::Isometry3::translation(0.0, 0.0, 90.0));
+    let made = made_of("a.src", KRL, &template, MakeLanguage::Krl);
+    assert!(says(
+        &made,
+        &format!("the base with the tool of the template {words}")
+    ));
+    let made = made_of("a.src", KRL, &template, MakeLanguage::Rapid);
+    assert!(!says(&made, words), "{:?}", made.findings);
+}
+
 /// MoveJ goes to the configuration of its target under `ConfJ\On` alone.
 #[test]
 fn a_stated_configuration_counts_in_rapid() {
@@ -233,4 +259,61 @@ fn tools_of_rapid_keep_their_load() {
         text.contains(load) && text.contains("[2,[0.000000,0.000000,40.000000],"),
         "{text}"
     );
+}
+
+/// A work object is calibrated by its user frame, and moved by its object frame.
+#[test]
+fn work_objects_of_rapid_keep_both_frames() {
+    let both = "[[1800.000000,0.000000,900.000000],[1.0000000000,0.0000000000,0.0000000000,0.0000000000]],[[10.000000,20.000000,30.000000],[0.7071067812,0.0000000000,0.0000000000,0.7071067812]]";
+    let text = turning().replace(",tMill;", ",tMill\\WObj:=wPart;").replace(
+        "  PROC",
+        "  PERS wobjdata wPart:=[FALSE,TRUE,\"\",[[1800,0,900],[1,0,0,0]],[[10,20,30],[0.7071067812,0,0,0.7071067812]]];\n  PROC",
+    );
+    let own = Template::default();
+    let made = made_of("a.mod", &text, &own, MakeLanguage::Rapid);
+    let words = text_of(&made, 0);
+    assert!(
+        words.contains(&format!("PERS wobjdata wPart:=[FALSE,TRUE,\"\",{both}];")),
+        "{words}"
+    );
+    let again = read_made(&made, Language::Rapid);
+    let place = again.motions[1].base_pose().unwrap().translation.vector;
+    assert!(
+        (place - nalgebra::Vector3::new(1810.0, 80.0, 950.0)).norm() < 1e-5,
+        "{place}"
+    );
+    let made = made_of("a.mod", &text, &own, MakeLanguage::Krl);
+    assert!(text_of(&made, 0).contains("$BASE={X 1810.000000,Y 20.000000,Z 930.000000,"));
+}
+
+/// How fast the arm turns and speeds up is stated by no made program.
+#[test]
+fn accelerations_of_the_source_are_named() {
+    let own = Template::default();
+    let krl = KRL.replace(
+        "$VEL.CP=0.1",
+        "$VEL.CP=0.1\n$ACC.CP=1\n$VEL.ORI1=50\nBAS(#VEL_PTP,30)",
+    );
+    let made = made_of("a.src", &krl, &own, MakeLanguage::Krl);
+    assert!(
+        says(&made, "are not those of the source (lines 6 to 8)"),
+        "{:?}",
+        made.findings
+    );
+    let all = ["N U T, 0, 0, 0"; 3];
+    let tp = ls(all).replace("CNT20    ;", "CNT20 ACC50    ;");
+    let made = made_of("a.ls", &tp, &own, MakeLanguage::FanucLs);
+    assert!(
+        says(&made, "are not those of the source (line 9)"),
+        "{:?}",
+        made.findings
+    );
+    for (name, text) in [
+        ("a.src", KRL.to_owned()),
+        ("a.ls", ls(all)),
+        ("a.mod", turning()),
+    ] {
+        let made = made_of(name, &text, &own, MakeLanguage::Apt);
+        assert!(!says(&made, "accelerations"), "{:?}", made.findings);
+    }
 }
