@@ -75,6 +75,11 @@ impl Standing {
         Ok(())
     }
 
+    /// How far an absolute word turns an axis straight on and the shorter way, where that is not the same.
+    pub(crate) fn readings_of(&self, place: usize, to: f64) -> Option<[f64; 2]> {
+        self.axes.get(place)?.readings_of(to)
+    }
+
     /// A word of SINUMERIK turns an axis that counts from 0 to 360 deg.
     pub(crate) fn show_one_turn(&mut self, place: usize) {
         if let Some(axis) = self.axes.get_mut(place) {

@@ -130,6 +130,13 @@ impl StandingAxis {
         Ok(halved)
     }
 
+    /// How far an absolute word turns an axis of 0 to 360 deg straight on (AC) and the shorter way (DC), where that is not the same.
+    pub(crate) fn readings_of(&self, to: f64) -> Option<[f64; 2]> {
+        let at = self.at.filter(|_| self.count == AxisCount::OneTurn)?;
+        let on = to + self.wound - at;
+        (on.abs() > 180.0 - ZERO_DEG).then(|| [on, on - 360.0_f64.copysign(on)])
+    }
+
     /// An absolute word turns it.
     fn turn_to(&mut self, to: f64, turning: Turning<'_>) -> Result<(), AxisFault> {
         let letter = self.letter;

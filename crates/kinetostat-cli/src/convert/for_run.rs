@@ -93,7 +93,7 @@ pub(crate) fn for_run(
     found.axis_is_stated = true;
     found.corrected = setting.correct_converted.directions();
     found.made_arm = Some(MadeArm {
-        states_configuration: template.template.configuration.is_some(),
+        states_configuration: made.states_configuration,
         start_joints_deg: template.template.start_joints_deg.clone(),
     });
     found.making.tool_axis = axis;

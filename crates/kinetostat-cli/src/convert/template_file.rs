@@ -167,6 +167,7 @@ fn frame(source: Source<'_>, table: FrameTable) -> Answer<StatedFrame> {
         number: table.number,
         name: table.name,
         pose: stated.transpose()?,
+        ..StatedFrame::default()
     })
 }
 
@@ -180,5 +181,6 @@ fn tool(source: Source<'_>, table: ToolTable) -> Answer<StatedTool> {
         frame: self::frame(source, frame)?,
         mass_kg: table.mass_kg,
         centre_of_mass_mm: table.centre_of_mass_mm.map(Vector3::from),
+        ..StatedTool::default()
     })
 }

@@ -6,6 +6,7 @@ use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::numbers::plain;
+use crate::making::step::StatedConfiguration;
 
 /// Numbers of a line: what acts before its motion, the motion, and what acts behind it.
 const OF_A_LINE: usize = 3;
@@ -38,6 +39,8 @@ pub(crate) struct Course {
     pub left_out: Vec<SourceEvent>,
     /// Its speeds are those of a robot's program.
     pub is_of_robot: bool,
+    /// Of every move, how the arm reaches its places, where the source says it in the same language.
+    pub configurations: Vec<StatedConfiguration>,
 }
 
 impl Course {
@@ -68,6 +71,7 @@ impl Course {
                 .collect(),
             left_out,
             is_of_robot: false,
+            configurations: Vec::new(),
         }
     }
 

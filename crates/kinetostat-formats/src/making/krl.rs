@@ -139,9 +139,10 @@ impl Writer<'_> {
 
     fn motion(&mut self, motion: &MadeMotion) {
         let orientation = motion.orientation.unwrap_or_default();
+        let behind = |stated: &str| format!(",{stated}");
         let configuration = match (&self.template.configuration, motion.first) {
-            (Some(configuration), true) => format!(",{configuration}"),
-            _ => String::new(),
+            (Some(configuration), true) => behind(configuration),
+            _ => motion.end_configuration().map_or_else(String::new, behind),
         };
         let end = self.pose(&motion.end, &orientation, &configuration);
         let zones = &self.template.zones;
@@ -182,7 +183,9 @@ impl Writer<'_> {
                 via,
                 via_orientation,
             } => {
-                let via = self.pose(&via, &via_orientation.unwrap_or(orientation), "");
+                let stated = motion.via_configuration();
+                let stated = stated.map_or_else(String::new, behind);
+                let via = self.pose(&via, &via_orientation.unwrap_or(orientation), &stated);
                 self.line(&format!("CIRC {via},{end}{zone}"));
             }
             _ => self.line(&format!("LIN {end}{zone}")),

@@ -137,7 +137,12 @@ impl<'t> Writer<'t> {
     }
 
     /// Writes a position and says its number.
-    fn position(&mut self, place: &Vector3<f64>, turn: &UnitQuaternion<f64>) -> usize {
+    fn position(
+        &mut self,
+        place: &Vector3<f64>,
+        turn: &UnitQuaternion<f64>,
+        stated: Option<&str>,
+    ) -> usize {
         self.count += 1;
         let [x, y, z] = coordinates(place, self.template);
         let wpr = angles(turn, OrientationText::Wpr, self.template.angle_decimals);
@@ -145,6 +150,7 @@ impl<'t> Writer<'t> {
             .template
             .configuration
             .as_deref()
+            .or(stated)
             .unwrap_or(CONFIGURATION);
         self.positions += &format!(
             "P[{}]{{\n   GP1:\n\tUF : {}, UT : {},\t\tCONFIG : '{configuration}',\n\tX = {x:>12}  mm,\tY = {y:>12}  mm,\tZ = {z:>12}  mm,\n\
@@ -192,7 +198,7 @@ impl<'t> Writer<'t> {
         let speed = speed_text(motion.speed_mm_per_s, self.template);
         match motion.way {
             Way::Joint => {
-                let end = self.position(&motion.end, &turn);
+                let end = self.position(&motion.end, &turn, motion.end_configuration());
                 let percent = short(self.template.joint_speed_percent, 0);
                 self.instruction(&format!("J P[{end}] {percent}% {zone}   "));
             }
@@ -200,14 +206,18 @@ impl<'t> Writer<'t> {
                 via,
                 via_orientation,
             } => {
-                let via = self.position(&via, &via_orientation.unwrap_or(turn));
-                let end = self.position(&motion.end, &turn);
+                let via = self.position(
+                    &via,
+                    &via_orientation.unwrap_or(turn),
+                    motion.via_configuration(),
+                );
+                let end = self.position(&motion.end, &turn, motion.end_configuration());
                 self.instruction(&format!(
                     "C P[{via}]    \n    :  P[{end}] {speed}mm/sec {zone}   "
                 ));
             }
             _ => {
-                let end = self.position(&motion.end, &turn);
+                let end = self.position(&motion.end, &turn, motion.end_configuration());
                 self.instruction(&format!("L P[{end}] {speed}mm/sec {zone}   "));
             }
         }

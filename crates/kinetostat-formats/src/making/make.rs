@@ -12,8 +12,9 @@ use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::checked;
 use crate::making::plan::plan;
+use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
-use crate::making::template::{Rapids, Template};
+use crate::making::template::{Rapids, StatedTool, Template};
 use crate::making::{apt, csv, gcode, krl, ls, rapid, stated};
 
 /// A made program.
@@ -31,6 +32,8 @@ pub struct Made {
     /// Of every motion the move of the path that it goes along, and from which share of its length to which. A motion to the joint
     /// values at which the program begins goes along none: it stands where the first of the others begins, `[0.0, 0.0]`.
     pub parts: Vec<(usize, [f64; 2])>,
+    /// The first motion to a pose states how the arm reaches it: as the template says, or as the source does in the same language.
+    pub states_configuration: bool,
 }
 
 /// What stands at the head of made programs.
@@ -118,11 +121,20 @@ pub(crate) fn make_along(
     let start = start.map(|motion| (motion.source, [0.0; 2]));
     let parts = start.filter(|_| begins_at_joints).into_iter().chain(parts);
     let parts = parts.collect();
+    let first = steps.iter().find_map(Step::motion);
+    let of_source = first.is_some_and(|motion| motion.end_configuration().is_some());
+    let states_configuration = template.configuration.is_some() || of_source;
     let mut findings = planned.findings;
     if language.is_of_an_arm() {
         findings.extend(crowded(steps));
     }
-    taken_for_granted(steps, template, language, &kept, &mut findings);
+    taken_for_granted(
+        (steps, states_configuration),
+        template,
+        language,
+        &kept,
+        &mut findings,
+    );
     findings.sort_by_key(|finding| finding.line.unwrap_or(usize::MAX));
     Ok(Made {
         files,
@@ -130,12 +142,13 @@ pub(crate) fn make_along(
         kept,
         lines,
         parts,
+        states_configuration,
     })
 }
 
 /// The defaults that were used, and the rounding that the decimals of the template cause.
 fn taken_for_granted(
-    steps: &[Step],
+    (steps, states_configuration): (&[Step], bool),
     template: &Template,
     language: MakeLanguage,
     kept: &Kept,
@@ -145,7 +158,7 @@ fn taken_for_granted(
     if language.is_of_an_arm() {
         say("the first motion is a joint motion: on which way the arm comes there, the controller decides".to_owned());
         of_frames(template, language, &mut say);
-        if template.configuration.is_none() {
+        if !states_configuration {
             say(match language {
                 MakeLanguage::FanucLs => format!(
                     "the configuration is not stated: every position has '{}'",
@@ -243,8 +256,17 @@ fn of_frames(template: &Template, language: MakeLanguage, say: &mut impl FnMut(S
             }
         }
     }
-    if language == MakeLanguage::Rapid && tool.pose.is_some() && template.tool.mass_kg.is_none() {
-        say("the mass of the tool is not stated: 1 kg is written".to_owned());
+    let declared = |tool: &&StatedTool| tool.frame.pose.is_some() && !is_number_zero(&tool.frame);
+    let tools = template.tools.values();
+    let tools: Vec<&StatedTool> = match several {
+        true => tools.filter(declared).collect(),
+        false => std::iter::once(&template.tool).filter(declared).collect(),
+    };
+    if language == MakeLanguage::Rapid && tools.iter().any(|tool| tool.mass_kg.is_none()) {
+        say(match several {
+            true => "the mass of a tool is not stated: 1 kg is written".to_owned(),
+            false => "the mass of the tool is not stated: 1 kg is written".to_owned(),
+        });
     }
 }
 

@@ -1,7 +1,7 @@
 //! A path written as a new program, in the language of a robot, in APT, in G-code or as a table of poses.
 //!
 //! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements),
-//! [`course`] says in which order all of it runs ([`routines`]: of robots' programs, [`of_tools`]: their tools), [`plan`] makes steps
+//! [`course`] says in which order all of it runs ([`routines`]: of robots' programs, [`of_tools`]: their tools, [`configurations`]: their postures), [`plan`] makes steps
 //! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
 
@@ -10,9 +10,11 @@ pub(crate) mod again;
 pub(crate) mod apt;
 pub(crate) mod blocks;
 pub(crate) mod compare;
+pub(crate) mod configurations;
 pub(crate) mod course;
 pub(crate) mod crowded;
 pub(crate) mod csv;
+pub(crate) mod dynamics;
 pub(crate) mod event_kind;
 pub(crate) mod events;
 pub(crate) mod fault;

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::making::configurations;
 use crate::making::course::{Course, at, place_of};
+use crate::making::dynamics::dynamics;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
@@ -11,12 +13,15 @@ use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
+use crate::making::stated::is_identity;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, Runs, Zone};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
+use crate::rapid::loads::object_frames;
+use crate::text::name::Name;
 
 /// A robot's program in another language, with its work object and its tools where the template states none.
 ///
@@ -52,17 +57,33 @@ pub fn make_of_robot(
         template.base = base;
     } else if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         template.base = stated(frame, None, language);
+        if (program.language, language) == (Language::Rapid, MakeLanguage::Rapid) {
+            let name = Name::of(frame.name.as_bytes());
+            let both = name.and_then(|name| object_frames(&program.files).get(&name).copied());
+            // Where the caller says where it is, that is it.
+            let both = both.filter(|[user, object]| frame.known() == Some(&(user * object)));
+            template.base.object_frame = both.map(|[_, object]| object);
+        }
     }
     let mut named = Vec::new();
     if template.tools.is_empty() && template.tool == StatedTool::default() {
         let made = tools_of_source(program, robot, language);
         (template.tool, template.tools) = (made.tool, made.tools);
         named = made.findings;
+    } else if template.tools.is_empty() && robot.tools.len() == 1 {
+        let source = tools_of_source(program, robot, language).tool;
+        named.extend(completed(&mut template.tool, source));
     }
     if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         named.extend(base_by_number(program, frame, &template.base, language));
     }
-    let course = course_of(program, robot);
+    let moved = moved_frames(robot, [&given, &template.tool.frame]);
+    let mut course = course_of(program, robot);
+    course.configurations = configurations::kept(program, robot, language);
+    if template.configuration.is_some() {
+        // What the template states holds, and the rest of the source's would not go with it.
+        course.configurations.clear();
+    }
     let mut made = make_along(&robot.path, &course, &template, language)?;
     // What is named stands before what is taken for granted.
     made.findings.splice(0..0, named);
@@ -87,7 +108,73 @@ pub fn make_of_robot(
         made.findings.extend(zones(program));
     }
     made.findings.extend(external_axes(program));
+    made.findings.extend(dynamics(program, robot.file));
+    let is_kept = made.states_configuration && template.configuration.is_none();
+    made.findings.extend(moved.filter(|_| is_kept));
+    made.findings
+        .extend(lost_configurations(program, &template, language));
     Ok(made)
+}
+
+/// A tool of the template with what the source says of it and the template does not.
+fn completed(stated: &mut StatedTool, source: StatedTool) -> Option<MakeFinding> {
+    if stated.frame == StatedFrame::default() {
+        stated.frame = source.frame;
+    }
+    let mass = source.mass_kg.filter(|_| stated.mass_kg.is_none())?;
+    stated.mass_kg = Some(mass);
+    stated.centre_of_mass_mm = stated.centre_of_mass_mm.or(source.centre_of_mass_mm);
+    stated.axes_of_moment = source.axes_of_moment;
+    stated.inertia_kg_m2 = source.inertia_kg_m2;
+    Some(MakeFinding::of(
+        None,
+        format!(
+            "the template does not state the mass of the tool: {mass} kg and what else of its load is not stated are those of the source"
+        ),
+    ))
+}
+
+/// That an arm stands otherwise at the poses of the source, for base or tool of the template are elsewhere.
+fn moved_frames(robot: &RobotPath, [base, tool]: [&StatedFrame; 2]) -> Option<MakeFinding> {
+    let is_other = |stated: &StatedFrame, of_source: Option<&FrameUse>| {
+        let own = of_source.and_then(FrameUse::known);
+        let both = own.zip(stated.pose.as_ref());
+        both.is_some_and(|(own, pose)| !is_identity(&(own.inverse() * pose)))
+    };
+    let own_tool = robot.tools.first().filter(|_| robot.tools.len() == 1);
+    let base = is_other(base, robot.work_object.as_ref());
+    // Several tools of the template have no others to be compared with.
+    let tool = is_other(tool, own_tool);
+    (base || tool).then(|| {
+        MakeFinding::of(
+            None,
+            format!(
+                "the configurations are those of the source, and the {} of the template stands elsewhere than there: check whether the arm reaches the poses so",
+                match (base, tool) {
+                    (true, true) => "base with the tool",
+                    (true, false) => "base",
+                    (false, _) => "tool",
+                }
+            ),
+        )
+    })
+}
+
+/// What becomes of configurations that the source states.
+fn lost_configurations(
+    program: &RobotProgram,
+    template: &Template,
+    language: MakeLanguage,
+) -> Option<MakeFinding> {
+    let is_same = configurations::is_same(program.language, language);
+    match (is_same, &template.configuration) {
+        (true, None) => None,
+        (true, Some(stated)) => configurations::lost(
+            program,
+            &format!("the template states `{stated}` (configuration)"),
+        ),
+        (false, _) => configurations::lost(program, &configurations::why_lost(language)),
+    }
 }
 
 /// The robot's base as the frame of a made program, where the path is in its axes: of joint values, and of several work objects.
@@ -220,5 +307,6 @@ fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         events: placed,
         left_out: by_line.into_values().flatten().collect(),
         is_of_robot: true,
+        configurations: Vec::new(),
     }
 }

@@ -7,12 +7,14 @@ use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
-use crate::making::stated::{has_own_zero, is_identity};
+use crate::making::stated::{has_own_zero, is_identity, is_mass};
 use crate::making::template::{StatedFrame, StatedTool};
 use crate::model::frame::FrameUse;
 use crate::model::program::{Language, RobotProgram};
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
+use crate::rapid::loads::{ToolLoad, tool_loads};
+use crate::text::name::Name;
 
 /// The tools of a made program.
 pub(crate) struct MadeTools {
@@ -42,6 +44,7 @@ pub(crate) fn tools_of_source(
     };
     let all = &robot.tools;
     let is_one = all.len() == 1;
+    let loads = loads_of_source(program, language);
     for (tool, number) in all.iter().zip(tool_numbers(all)) {
         let own = number_in(&tool.name);
         let is_open = is_none(program, tool);
@@ -57,9 +60,13 @@ pub(crate) fn tools_of_source(
         let free = tool_numbers(all).into_iter().max().unwrap_or_default();
         let is_taken = !is_one && number == Some(0);
         frame.number = frame.number.or(is_taken.then(|| free.saturating_add(1)));
+        let load = Name::of(tool.name.as_bytes()).and_then(|name| loads.get(&name));
         let stated = StatedTool {
             frame,
-            ..StatedTool::default()
+            mass_kg: load.map(|load| load.mass_kg),
+            centre_of_mass_mm: load.map(|load| load.centre_of_mass_mm),
+            axes_of_moment: load.map(|load| load.axes_of_moment),
+            inertia_kg_m2: load.map(|load| load.inertia_kg_m2),
         };
         made.findings.extend(renamed(
             program,
@@ -76,6 +83,16 @@ pub(crate) fn tools_of_source(
         }
     }
     made
+}
+
+/// The loads of the source's tools, where the made program declares them; a controller takes a tool of -1 kg for one without.
+fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<Name, ToolLoad> {
+    if (program.language, language) != (Language::Rapid, MakeLanguage::Rapid) {
+        return BTreeMap::new();
+    }
+    let mut loads = tool_loads(&program.files);
+    loads.retain(|_, load| is_mass(load.mass_kg));
+    loads
 }
 
 /// What is said of a tool whose number or name is not that of the source.
@@ -191,5 +208,6 @@ pub(crate) fn stated(frame: &FrameUse, number: Option<u32>, language: MakeLangua
             .or(is_zero.then_some(0)),
         name: is_named.then(|| own.to_owned()),
         pose: frame.known().copied(),
+        object_frame: None,
     }
 }

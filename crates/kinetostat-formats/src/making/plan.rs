@@ -297,6 +297,8 @@ impl Planner<'_> {
                 .follow(followed, motion.line, pieces.ends.len());
         }
         self.last_tool = self.tool;
+        let stated = self.course.configurations.get(index);
+        let stated = stated.filter(|stated| stated.end.is_some() || stated.via.is_some());
         let rapid = motion.kind == MoveKind::Rapid;
         let mut from = 0.0;
         for to in pieces.ends {
@@ -331,6 +333,7 @@ impl Planner<'_> {
                 rapid,
                 first: !self.begun,
                 exact: !self.begun,
+                configuration: stated.cloned().map(Box::new),
             }));
             self.begun = true;
             from = to;

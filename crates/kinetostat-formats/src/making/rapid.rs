@@ -26,6 +26,9 @@ const ZONES: [f64; 14] = [
 /// External axes that are not there.
 const NO_AXES: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 
+/// A configuration that is not known, and that nothing goes by.
+const UNKNOWN: &str = "[0,0,0,0]";
+
 /// The files of a program: the main one first.
 pub(crate) fn files(
     steps: &[Step],
@@ -39,7 +42,11 @@ pub(crate) fn files(
     let mut text = format!("MODULE {name}\n  ! {made_by}\n{}", writer.declarations());
     let mut files = Vec::with_capacity(ranges.len());
     let several = ranges.len() > 1;
-    text += "  PROC main()\n    ConfJ\\Off;\n    ConfL\\Off;\n";
+    text += "  PROC main()\n";
+    // What MoveL states of the arm is not checked: on a straight way it keeps its configuration.
+    let first = steps.iter().find_map(Step::motion);
+    writer.follow_configuration(first.is_some_and(|first| writer.goes_by(first)), &mut text);
+    text += "    ConfL\\Off;\n";
     if let Some(acceleration) = template.acceleration_m_per_s2 {
         text += &format!(
             "    PathAccLim TRUE\\AccMax:={},TRUE\\DecelMax:={};\n",
@@ -86,6 +93,8 @@ struct Writer<'t> {
     /// Names of speeds by their numbers as written.
     speeds: BTreeMap<String, String>,
     tool: Option<u32>,
+    /// Whether joint motions go to the configuration that they state (`ConfJ\On`); none where the program has not said it yet.
+    follows_configuration: Option<bool>,
 }
 
 impl<'t> Writer<'t> {
@@ -94,6 +103,7 @@ impl<'t> Writer<'t> {
             template,
             speeds: BTreeMap::new(),
             tool: None,
+            follows_configuration: None,
         };
         let rapid = writer.speed_number(template.rapid_speed_mm_per_s);
         writer.speeds.insert(rapid, "vRapid".to_owned());
@@ -132,18 +142,26 @@ impl<'t> Writer<'t> {
                 .centre_of_mass_mm
                 .unwrap_or_else(|| Vector3::new(0.0, 0.0, 1.0));
             let [x, y, z] = coordinates(&centre, self.template);
+            let axes = (tool.axes_of_moment.as_ref())
+                .map_or_else(|| "1,0,0,0".to_owned(), |turn| self.quaternion_text(turn));
+            let inertia = tool.inertia_kg_m2.unwrap_or_default();
+            let [ix, iy, iz] = [inertia.x, inertia.y, inertia.z].map(|value| short(value, 9));
             text += &format!(
-                "  PERS tooldata {}:=[TRUE,{},[{mass},[{x},{y},{z}],[1,0,0,0],0,0,0]];\n",
+                "  PERS tooldata {}:=[TRUE,{},[{mass},[{x},{y},{z}],[{axes}],{ix},{iy},{iz}]];\n",
                 name_of_tool(number, tool),
                 self.pose(pose)
             );
         }
         let base = &self.template.base;
         if let Some(pose) = base.pose.as_ref().filter(|_| !is_number_zero(base)) {
+            let (user, object) = match &base.object_frame {
+                None => (*pose, "[[0,0,0],[1,0,0,0]]".to_owned()),
+                Some(object) => (pose * object.inverse(), self.pose(object)),
+            };
             text += &format!(
-                "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];\n",
+                "  PERS wobjdata {}:=[FALSE,TRUE,\"\",{},{object}];\n",
                 self.base_name(),
-                self.pose(pose)
+                self.pose(&user)
             );
         }
         let slow = short(self.template.joint_speed_percent * 10.0, 3);
@@ -209,19 +227,41 @@ impl<'t> Writer<'t> {
                 self.tool = Some(*number);
                 return;
             }
-            Step::Motion(motion) => self.motion(motion),
+            Step::Motion(motion) => {
+                let goes_by = self.goes_by(motion);
+                self.follow_configuration(goes_by, text);
+                self.motion(motion)
+            }
         };
         *text += "    ";
         *text += &line;
         text.push('\n');
     }
 
+    /// Whether a motion is to end in the configuration that it states.
+    fn goes_by(&self, motion: &MadeMotion) -> bool {
+        let of_template = motion.first && self.template.configuration.is_some();
+        let of_source = (motion.configuration.as_ref())
+            .is_some_and(|stated| stated.is_followed && stated.end.is_some());
+        motion.way == Way::Joint && (of_template || of_source)
+    }
+
+    /// `MoveJ` goes to the configuration of its target under `ConfJ\On`, which is the basic setting, and to the one nearest to where the
+    /// arm is under `ConfJ\Off`.
+    fn follow_configuration(&mut self, follows: bool, text: &mut String) {
+        if self.follows_configuration.replace(follows) != Some(follows) {
+            *text += match follows {
+                true => "    ConfJ\\On;\n",
+                false => "    ConfJ\\Off;\n",
+            };
+        }
+    }
+
     fn motion(&self, motion: &MadeMotion) -> String {
         let turn = motion.orientation.unwrap_or_default();
-        let unknown = "[0,0,0,0]";
         let configuration = match (motion.first, &self.template.configuration) {
             (true, Some(configuration)) => configuration,
-            _ => unknown,
+            _ => motion.end_configuration().unwrap_or(UNKNOWN),
         };
         let end = self.target(&motion.end, &turn, configuration);
         let number = self.speed_number(motion.speed_mm_per_s);
@@ -249,7 +289,8 @@ impl<'t> Writer<'t> {
                 via,
                 via_orientation,
             } => {
-                let via = self.target(&via, &via_orientation.unwrap_or(turn), unknown);
+                let stated = motion.via_configuration().unwrap_or(UNKNOWN);
+                let via = self.target(&via, &via_orientation.unwrap_or(turn), stated);
                 format!("MoveC {via},{end},{rest}")
             }
             _ => format!("MoveL {end},{rest}"),

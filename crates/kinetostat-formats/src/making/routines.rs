@@ -125,7 +125,7 @@ fn routines_of(language: Language, source: &SourceFile, lines: Range<usize>) -> 
 }
 
 /// The words of a line in capitals, without its comment and texts.
-fn words_of(language: Language, source: &SourceFile, line: usize) -> Vec<String> {
+pub(crate) fn words_of(language: Language, source: &SourceFile, line: usize) -> Vec<String> {
     let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).to_ascii_uppercase();
     let text = body(language, &text);
     let comment = match language {

@@ -96,16 +96,18 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
 
 fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeError> {
     let mut faults = of_frame(&tool.frame, "tool", language);
-    if tool
-        .mass_kg
-        .is_some_and(|mass| !(1e-3..=5000.0).contains(&mass))
-    {
+    if tool.mass_kg.is_some_and(|mass| !is_mass(mass)) {
         faults.push(MakeError::of(
             "mass_kg of a tool is not from 0.001 to 5000",
             "state the mass in kg",
         ));
     }
     faults
+}
+
+/// Whether a tool can have a mass, kg.
+pub(crate) fn is_mass(mass_kg: f64) -> bool {
+    (1e-3..=5000.0).contains(&mass_kg)
 }
 
 fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<MakeError> {

@@ -21,6 +21,16 @@ pub(crate) enum Way {
     },
 }
 
+/// How the arm reaches the places of a move, as the language writes it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct StatedConfiguration {
+    pub end: Option<String>,
+    /// Of the place on a circle.
+    pub via: Option<String>,
+    /// The controller goes by that of a joint motion (RAPID: unless `ConfJ\Off`).
+    pub is_followed: bool,
+}
+
 /// One motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MadeMotion {
@@ -39,9 +49,22 @@ pub(crate) struct MadeMotion {
     pub first: bool,
     /// It stops at its end.
     pub exact: bool,
+    /// How the arm reaches its places, where the source says it.
+    pub configuration: Option<Box<StatedConfiguration>>,
 }
 
 impl MadeMotion {
+    /// How the arm reaches its end.
+    pub(crate) fn end_configuration(&self) -> Option<&str> {
+        self.configuration.as_ref()?.end.as_deref()
+    }
+
+    /// How it reaches the place on a circle.
+    pub(crate) fn via_configuration(&self) -> Option<&str> {
+        let stated = self.configuration.as_ref()?;
+        stated.via.as_deref().or(stated.end.as_deref())
+    }
+
     /// Places that a program needs for it.
     pub(crate) fn places(&self) -> usize {
         match self.way {

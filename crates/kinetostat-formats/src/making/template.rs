@@ -23,6 +23,8 @@ pub struct StatedFrame {
     pub name: Option<String>,
     /// A base in the axes of the robot's base, a tool in those of the flange; mm.
     pub pose: Option<Isometry3<f64>>,
+    /// Of the pose of a base, the object frame in axes of the user frame (RAPID), mm; where none is stated all of it is the user frame.
+    pub object_frame: Option<Isometry3<f64>>,
 }
 
 /// A tool with its load, which RAPID declares together.
@@ -38,6 +40,10 @@ pub struct StatedTool {
     pub mass_kg: Option<f64>,
     /// Its centre of mass in axes of the flange, mm.
     pub centre_of_mass_mm: Option<Vector3<f64>>,
+    /// Turns the axes of the flange into those of its moments of inertia.
+    pub axes_of_moment: Option<UnitQuaternion<f64>>,
+    /// Its moments of inertia about those axes through its centre of mass, kg m^2.
+    pub inertia_kg_m2: Option<Vector3<f64>>,
 }
 
 /// What rapids become.

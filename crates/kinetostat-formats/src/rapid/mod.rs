@@ -13,6 +13,7 @@ pub(crate) mod frames;
 mod instructions;
 pub(crate) mod lex;
 pub(crate) mod literals;
+pub(crate) mod loads;
 pub(crate) mod motion;
 pub(crate) mod parser;
 pub(crate) mod reader;

@@ -20,6 +20,7 @@ mod gathering;
 mod made_motion;
 mod motion;
 mod place;
+pub(crate) mod plain_turns;
 pub(crate) mod reader;
 pub(crate) mod scan;
 pub(crate) mod state;

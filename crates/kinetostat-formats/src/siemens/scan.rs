@@ -10,6 +10,7 @@ use crate::options::ReadOptions;
 use crate::siemens::block::{Block, What};
 use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
+use crate::siemens::plain_turns::finding_of;
 use crate::siemens::state::State;
 use crate::siemens::table::row;
 use crate::siemens::tokens::Token;
@@ -81,6 +82,8 @@ fn scan_once(
         }
         let shown = reader.state.standing.shown_counts();
         out.shown = shown_by_both(&out.shown, &shown);
+        let plain = std::mem::take(&mut out.plain_turns);
+        out.findings.extend(finding_of(index, &plain));
     }
     out
 }

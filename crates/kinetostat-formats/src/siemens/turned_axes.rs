@@ -72,6 +72,9 @@ impl Reader<'_> {
                 (_, true) => AxisTurn::By(to),
                 (_, false) => AxisTurn::To(to),
             };
+            if let (AxisTurn::To(to), How::Modal, false) = (turn, how, turning.rapid) {
+                self.note_plain_turn(*place, word, to);
+            }
             if let Err((reason, remedy)) = self.state.standing.turn_axis(*place, turn, turning) {
                 self.fault(&word.word, reason, &remedy);
             }

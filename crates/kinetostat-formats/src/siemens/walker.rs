@@ -31,8 +31,20 @@ pub(crate) struct Scan {
     pub rotary: StatedAxes,
     /// What the words show of how these axes count.
     pub shown: Vec<CountShown>,
+    /// Words of rotary axes in cuts that a setting of the machine takes otherwise.
+    pub plain_turns: Vec<PlainTurn>,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
+}
+
+/// An angle without AC or DC where it matters how the machine takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PlainTurn {
+    pub line: usize,
+    pub letter: char,
+    pub to: f64,
+    /// By which angle it turns straight on, and the shorter way, deg.
+    pub readings: [f64; 2],
 }
 
 /// How a motion is written, for the writer.

@@ -3,6 +3,7 @@
 use kinetostat_formats::Language;
 
 use crate::axis_angles::{corrected, feeds, heidenhain, read_as, robot, siemens};
+use crate::chance::Chance;
 
 /// Where the axis C begins and ends in the cuts, deg.
 fn turns_of_c(language: Language, text: &str) -> Vec<[f64; 2]> {
@@ -258,5 +259,163 @@ fn pieces_across_0_are_right_on_an_axis_of_one_turn() {
         // Where nothing says how the axis counts, it is right both ways.
         let apart = |turn: &[f64; 2]| (turn[0] - turn[1]).abs() > 1e-9;
         assert!(!both || !turns.iter().any(apart), "{}", made.text);
+    }
+}
+
+/// Turns of C by the words of a text on an axis that shows 0 to 360 deg, by hand, of a control that counts in so small steps, deg; what
+/// has the same number is no turn, everything else is one.
+fn strict_turns(text: &str, step: f64) -> Vec<f64> {
+    let counts = |angle: f64| (angle / step).round() as i64;
+    let whole = counts(360.0);
+    let mut shown = 0;
+    let mut turns = Vec::new();
+    for word in text.split_whitespace() {
+        let inside = |before: &str| {
+            let value = word.strip_prefix(before)?.trim_end_matches(')');
+            value.parse::<f64>().ok()
+        };
+        let turn = if let Some(by) = inside("C=IC(") {
+            counts(by)
+        } else if let Some(to) = inside("C=ACP(") {
+            (counts(to) - shown).rem_euclid(whole)
+        } else if let Some(to) = inside("C=ACN(") {
+            -(shown - counts(to)).rem_euclid(whole)
+        } else if let Some(to) = inside("C=DC(") {
+            (counts(to) - shown + whole / 2).rem_euclid(whole) - whole / 2
+        } else if let Some(to) = inside("C") {
+            assert!((0.0..360.0).contains(&to), "{word}");
+            counts(to) - shown
+        } else {
+            continue;
+        };
+        shown = (shown + turn).rem_euclid(whole);
+        turns.push(turn as f64 * step);
+    }
+    turns
+}
+
+/// Words of all kinds, with few and with many digits, some of which do not turn, or all but not, or all but once round.
+fn turning_program(chance: &mut Chance) -> String {
+    let mut body = "G0 A-20 C=DC(0)\nG1 Z0 F600\n".to_owned();
+    let mut shown = 0.0_f64;
+    for _ in 0..6 {
+        let digits = [0, 2, 4, 7][chance.below(4)];
+        let rounded = |angle: f64| format!("{angle:.digits$}");
+        let mut to: f64 = rounded(180.0 + chance.within(179.0)).parse().unwrap();
+        let [x, y] = [(); 2].map(|()| chance.within(60.0).round());
+        if chance.below(4) == 0 {
+            // Where it stands, but for the digits.
+            to = rounded(shown).parse::<f64>().unwrap().rem_euclid(360.0);
+        }
+        let word = chance.of(&["DC", "ACP", "ACN", "IC", ""]);
+        let turn = match word {
+            "DC" => (to - shown + 180.0).rem_euclid(360.0) - 180.0,
+            "ACP" => (to - shown).rem_euclid(360.0),
+            "ACN" => -(shown - to).rem_euclid(360.0),
+            "IC" => {
+                to = chance.within(50.0);
+                to = rounded(to).parse().unwrap();
+                to
+            }
+            _ => to - shown,
+        };
+        // Where the source itself does all but no turn, or all but a whole one, it is the control that says which.
+        let is_clear = |angle: f64| {
+            let off = turn - angle;
+            off.abs() < 1e-9 || off.abs() > 2e-3
+        };
+        if ![0.0, 180.0, 360.0, -180.0, -360.0]
+            .into_iter()
+            .all(is_clear)
+        {
+            continue;
+        }
+        shown = (shown + turn).rem_euclid(360.0);
+        let way = match chance.below(4) {
+            0 => String::new(),
+            _ => format!("X{x} Y{y} "),
+        };
+        body += &match word {
+            "" => format!("{way}C{}\n", rounded(to)),
+            word => format!("{way}C={word}({})\n", rounded(to)),
+        };
+    }
+    siemens(&body)
+}
+
+/// What is rounded at the end of a piece makes no full circle of the next (a corrected pose turns by a degree more), on a control that
+/// counts finely, and on one that counts in
+/// thousandths.
+#[test]
+fn no_piece_of_a_random_program_goes_round() {
+    let mut written = 0;
+    for seed in 0..400 {
+        let text = turning_program(&mut Chance::new(seed));
+        for turns in [false, true] {
+            let made = match corrected(Language::Siemens, &text, turns) {
+                Ok(made) => made,
+                Err(error) => panic!("seed {seed}: {error}\n{text}"),
+            };
+            written += 1;
+            for step in [1e-7, 1e-3] {
+                let all = strict_turns(&made.text, step);
+                let (own, sum) = (strict_turns(&text, step), all.iter().sum::<f64>());
+                let wanted: f64 = own.iter().sum();
+                assert!(
+                    (sum - wanted).abs() < 0.05,
+                    "seed {seed}, {step}: {sum} instead of {wanted}\n{text}\n{}",
+                    made.text
+                );
+                let most = |turns: &[f64]| {
+                    let larger = |one: f64, other: &f64| match other.abs() > one {
+                        true => other.abs(),
+                        false => one,
+                    };
+                    turns.iter().fold(0.0, larger)
+                };
+                let (largest, most) = (most(&all), most(&own));
+                assert!(
+                    largest <= most + 2.0,
+                    "seed {seed}, {step}: {largest} > {most}\n{text}\n{}",
+                    made.text
+                );
+            }
+        }
+    }
+    assert_eq!(written, 800);
+}
+
+/// MD30455, bit 2: said once, at the first place where it matters, with both readings.
+#[test]
+fn a_plain_angle_that_a_setting_of_the_machine_takes_as_dc_is_warned_of() {
+    let said = |body: &str| {
+        let program = read_as(Language::Siemens, &siemens(body)).unwrap();
+        let findings = program.findings.into_iter();
+        let of_setting = findings.filter(|finding| finding.message.contains("MD30455"));
+        of_setting
+            .map(|finding| (finding.line, finding.message))
+            .collect::<Vec<_>>()
+    };
+    let found = said("G0 C=DC(350)\nG1 X5 C10 F600\nX9 C100\nX20 C300\nX30 C=AC(20)\nX40 C220\n");
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, 6);
+    for part in [
+        "axis C is sent to 10 deg",
+        "taken as AC here, the basic setting, and turns by -340 deg",
+        "makes it DC, it turns by 20 deg",
+        "C=AC(10) or C=DC(10); so in 2 further lines: 8, 10",
+    ] {
+        assert!(found[0].1.contains(part), "{found:?}");
+    }
+    for agrees in [
+        // Half a turn at most, ...
+        "G0 C=DC(350)\nG1 X5 C200 F600\nX9 C50\n",
+        // ... with a word, ...
+        "G0 C=DC(350)\nG1 X5 C=AC(10) F600\nX9 C=DC(350)\nX10 C=IC(200)\n",
+        // ... in the air, and on an axis that is not shown to count from 0 to 360.
+        "G0 C=DC(350)\nC10\nG1 X5 F600\n",
+        "G1 X5 C350 F600\nC0\n",
+    ] {
+        assert_eq!(said(agrees), [], "{agrees}");
     }
 }

@@ -58,6 +58,17 @@ impl Interpreter<'_> {
         )
     }
 
+    /// The code of motion in force: `G0` to `G3`; none behind G80 and before the first.
+    pub(crate) fn motion_code(&self) -> Option<&'static str> {
+        match self.modes.motion? {
+            Motion::Rapid => Some("G0"),
+            Motion::Feed => Some("G1"),
+            Motion::Clockwise => Some("G2"),
+            Motion::CounterClockwise => Some("G3"),
+            Motion::Off => None,
+        }
+    }
+
     /// Units in force, where they are named.
     pub(crate) fn units(&self) -> Option<Units> {
         self.modes.units()

@@ -18,10 +18,25 @@ fn half_deg(decimals: usize) -> f64 {
 /// Angles nearer than this are one, deg.
 const SAME_DEG: f64 = 1e-9;
 
+/// A turn that is nearer than this to none, to half a turn of DC, or to a whole one of ACP and ACN goes another way round where its ends
+/// are rounded, deg: by the writer, or by a control that counts in thousandths of a degree.
+const NEAR_DEG: f64 = 0.01;
+
 /// The number of a word, and the angle that it says.
 struct AngleText {
     text: String,
     reached_deg: f64,
+}
+
+/// How the end of a turn is stated that goes one way round, so that rounding cannot make a whole turn of it, or of a whole turn none;
+/// its angle says it otherwise.
+fn end_of_way_round(turn: f64) -> EndWord {
+    match turn {
+        // Both are right: the shorter way, and the step.
+        small if small < NEAR_DEG => EndWord::Shorter,
+        whole if whole > 360.0 - NEAR_DEG => EndWord::Step,
+        _ => EndWord::Angle,
+    }
 }
 
 impl Writer<'_> {
@@ -63,14 +78,12 @@ impl Writer<'_> {
             How::Rotary => {
                 let before = self.file.part(&(word.whole.start..word.number.start));
                 let shape = before.to_ascii_uppercase();
-                let against = match (shape.starts_with(b"ACP"), shape.starts_with(b"ACN")) {
-                    (true, _) => to < from,
-                    (_, true) => to > from,
-                    _ => false,
-                };
-                match against {
-                    true => EndWord::Shorter,
-                    false => return None,
+                let turn = self.angle_text(axis, (word, how), from, to).reached_deg - from;
+                match (shape.starts_with(b"ACP"), shape.starts_with(b"ACN")) {
+                    (true, _) => end_of_way_round(turn),
+                    (_, true) => end_of_way_round(-turn),
+                    _ if turn.abs() > 180.0 - NEAR_DEG => EndWord::Step,
+                    _ => EndWord::Angle,
                 }
             }
             _ => self.end_word(axis, from, to),
@@ -267,8 +280,20 @@ impl Writer<'_> {
             .all(|turned| turned.abs() <= half)
     }
 
-    /// In a motion that stays as it is written, axes with absolute words come to where the program has them.
+    /// In a motion that stays as it is written, axes with absolute words come to where the program has them. What is rounded at its
+    /// start must not change which way round they go.
     pub(crate) fn angles_left(&mut self) {
+        for (axis, word, how) in &self.written.rotary {
+            let off = self.held.turned_deg.get(*axis).copied().unwrap_or_default();
+            let (Some([start, end]), true) = (self.angles, off != 0.0 && *how == How::Rotary)
+            else {
+                continue;
+            };
+            let (from, to) = (start[*axis] + off, end[*axis]);
+            if let Some((text, _)) = self.word_instead(*axis, (word, *how), from, to) {
+                self.edits.replace(word.word.clone(), text);
+            }
+        }
         for (axis, word, _) in &self.written.rotary {
             if let Some(turned) = self.held.turned_deg.get_mut(*axis).filter(|_| !word.step) {
                 *turned = 0.0;

@@ -153,6 +153,7 @@ impl Writer<'_> {
         match displaced || !keeps_direction || !keeps_angles {
             true => self.pieces(&[&own]),
             false => {
+                self.angles_left();
                 self.code(written.code);
                 self.feed(1.0)?;
                 Ok(())

@@ -9,6 +9,7 @@ mod properties;
 mod refused;
 mod round_trips;
 mod running;
+mod same_language;
 mod tools;
 
 use kinetostat_formats::*;

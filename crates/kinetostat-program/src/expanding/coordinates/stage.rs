@@ -1,5 +1,7 @@
 //! Stands between the blocks that a program runs and the compensation of the tool's radius.
 
+use std::borrow::Cow;
+
 use nalgebra::Vector3;
 
 use crate::expanding::coordinates::map::Map;
@@ -14,11 +16,13 @@ use crate::expanding::radius::piece::Shape;
 use crate::expanding::radius::stage::Radius;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::radius::words::{divided, other_side};
+use crate::expanding::translate::block::{MotionBlock, Polar};
 use crate::expanding::translate::wrong::Wrong;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, MoveKind};
 use crate::reading::interpreting::interpreter::Interpreter;
 use crate::reading::options::Units;
+use crate::text::lex::{Spanned, Token, tokens_of};
 
 /// Codes that mean places of the machine, or change what the places rest on, in tenths.
 const REFUSED: &[u32] = &[
@@ -33,6 +37,9 @@ pub(crate) struct Coordinates<'o> {
     programmed: Option<Flat<'o>>,
     /// Axes that the next motion must state.
     to_state: [bool; 3],
+    /// The code of motion of the program, where the flat one has another in force: behind mirrored arcs, say. Whatever ends coordinates
+    /// (G50, G50.1, G69) is in another group, and leaves it as it is.
+    code_due: Option<&'static str>,
 }
 
 fn wrong<T>(reason: impl Into<String>, remedy: &'static str) -> Result<T, Trouble> {
@@ -73,7 +80,7 @@ impl<'o> Coordinates<'o> {
             return radius.block(text, origin, flat);
         }
         let may_switch = text.contains(&b'5') || text.contains(&b'6');
-        if self.programmed.is_none() && !may_switch {
+        if self.programmed.is_none() && !may_switch && self.code_due.is_none() {
             return radius.block(text, origin, flat);
         }
         let block = Block::of(text)?;
@@ -91,7 +98,8 @@ impl<'o> Coordinates<'o> {
             }
             self.become_(map, origin, (radius, flat))?;
         }
-        match (block.rest.trim_ascii_end(), &mut self.programmed) {
+        let rest = self.with_code_due(block.rest.trim_ascii_end());
+        match (rest.as_ref(), &mut self.programmed) {
             ([], _) => Ok(()),
             (rest, None) => radius.block(rest, origin, flat),
             (rest, Some(_)) => {
@@ -112,6 +120,32 @@ impl<'o> Coordinates<'o> {
         }
     }
 
+    /// A block with the code of motion that the program has in force, where it counts on it and the flat program has another.
+    fn with_code_due<'b>(&mut self, text: &'b [u8]) -> Cow<'b, [u8]> {
+        let Some(code) = self.code_due else {
+            return Cow::Borrowed(text);
+        };
+        let block = MotionBlock::of(text, Polar::default());
+        let has_centre = b"IJKR".iter().any(|letter| block.value(*letter).is_some());
+        let moves = block.has_place() || block.has_other_axis() || has_centre;
+        if block.motion.is_some() {
+            self.code_due = None;
+        } else if moves && !block.wants_axes {
+            self.code_due = None;
+            let mut tokens: Vec<Spanned> = Vec::new();
+            tokens_of(text, &mut tokens);
+            // Behind the number of the block.
+            let is_head = |one: &&Spanned| {
+                let number = matches!(one.token, Token::Word { letter: b'N', .. });
+                number || matches!(one.token, Token::Other(b'/') | Token::Blank)
+            };
+            let at = tokens.iter().take_while(is_head).last();
+            let (head, rest) = text.split_at(at.map_or(0, |one| one.span.end));
+            return Cow::Owned([head, code.as_bytes(), b" ", rest].concat());
+        }
+        Cow::Borrowed(text)
+    }
+
     /// The coordinates are others from here on.
     fn become_(
         &mut self,
@@ -121,14 +155,17 @@ impl<'o> Coordinates<'o> {
     ) -> Result<(), Trouble> {
         self.map = map;
         if map.is_nothing() {
-            let in_arcs = self.interpreter().is_some_and(Interpreter::moves_in_arcs);
-            self.programmed = None;
+            let code = self
+                .programmed
+                .take()
+                .map(|run| run.interpreter.motion_code());
             self.to_state = [false; 3];
-            // A mirrored arc has left the other code in force.
-            return match in_arcs {
-                true => radius.block(b"G80", origin, flat),
-                false => Ok(()),
-            };
+            match code.filter(|code| *code != flat.interpreter.motion_code()) {
+                None => {}
+                Some(None) => return radius.block(b"G80", origin, flat),
+                Some(code) => self.code_due = code,
+            }
+            return Ok(());
         }
         let mut run = match self.programmed.take() {
             Some(run) => run,

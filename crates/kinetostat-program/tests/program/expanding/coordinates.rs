@@ -132,3 +132,76 @@ fn coordinates_that_cannot_be_followed_are_refused() {
         assert!(error.reason.contains(needle), "{text}: {error}");
     }
 }
+
+/// What ends coordinates is in other groups (11, 16, 22) than G2 and G3: the arc stays in force, in the program's own sense.
+#[test]
+fn an_arc_stays_in_force_behind_the_end_of_coordinates() {
+    // Halves of circles along x, clockwise about z; where the coordinates are no others, the same moves without the codes between.
+    let way = |text: &str| {
+        let made = run(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let moves = &made.path.moves[1..];
+        let middles = moves.iter().map(|m| [m.point(0.5), m.end]);
+        middles.collect::<Vec<_>>()
+    };
+    let plain = way("G2 X10 Y0 R5\nX20 Y0 R5\nX30 R5\n");
+    assert!((plain[2][0] - nalgebra::Vector3::new(25.0, 5.0, 15.0)).norm() < 1e-9);
+    for (before, between) in [
+        ("", "G50"),
+        ("", "G50.1"),
+        ("", "G50.1 X0"),
+        ("", "G69"),
+        ("", "G52 X0"),
+        ("", "G15"),
+        ("", "G40"),
+        ("", "G49"),
+        ("", "G54"),
+        ("", "G98"),
+        ("G51.1 Z0\nG0 Z-15\n", "G50.1 Z0"),
+        ("G51.1 Z0\nG0 Z-15\n", "G50.1"),
+        ("G51 X0 Y0 P1.\n", "G50"),
+        ("G68 X0 Y0 R0\n", "G69"),
+        ("G52 X0 Y0\n", "G52 X0 Y0"),
+        ("G68 X0 Y0 R0\n", "G69\nM8\n(in force)"),
+        ("G52 Z1\nG0 Z14\n", "G52 Z0"),
+    ] {
+        let text = format!("{before}G2 X10 Y0 R5\nX20 Y0 R5\n{between}\nN7 X30 R5\n");
+        let made = way(&text);
+        let last = made.len() - 3;
+        for (made, plain) in made[last..].iter().zip(&plain) {
+            for (a, b) in made.iter().zip(plain) {
+                assert!((a - b).norm() < 1e-9, "{text}{made:?}");
+            }
+        }
+    }
+    // Codes that begin coordinates leave it as it is, too.
+    for (begins, sense) in [
+        ("G51.1 Y0", -1.0),
+        ("G68 X0 Y0 R0", 1.0),
+        ("G51 X0 Y0 P1.", 1.0),
+    ] {
+        let made = way(&format!("G2 X10 Y0 R5\n{begins}\nX20 Y0 R5\n"));
+        assert!(
+            (made[1][0].y - sense * 5.0).abs() < 1e-9,
+            "{begins} {made:?}"
+        );
+    }
+    // A mirrored arc is one the other way round, and behind the mirror it is the program's again: also where the next mirror begins.
+    let mirrored = "G51.1 Y0\nG2 X10 Y0 R5\nG50.1 Y0\n";
+    let made = way(&format!("{mirrored}X20 Y0 R5\n"));
+    let heights = [made[0][0].y, made[1][0].y];
+    assert!((heights[0] + 5.0).abs() < 1e-9 && (heights[1] - 5.0).abs() < 1e-9);
+    let made = way(&format!(
+        "{mirrored}G51.1 Y0\nX20 Y0 R5\nG50.1\nG1 X0\nX5\n"
+    ));
+    assert!((made[1][0].y + 5.0).abs() < 1e-9, "{made:?}");
+    assert!((made[3][0] - nalgebra::Vector3::new(2.5, 0.0, 15.0)).norm() < 1e-9);
+    // A motion that goes nowhere in them says what the next one is.
+    let made = run("G0 X0 Y0\nG68 X0 Y0 R90\nG1 X0 Y0 F100\nG69\nX9\n").unwrap();
+    assert_eq!(
+        made.path.moves.last().unwrap().kind,
+        kinetostat_program::MoveKind::Feed
+    );
+    // G80 ends it.
+    let error = run("G51.1 Y0\nG2 X10 Y0 R5\nG80\nG50.1\nX20 Y0 R5\n").unwrap_err();
+    assert!(error.reason.contains("without a motion word"), "{error}");
+}

@@ -1,0 +1,188 @@
+//! How the arm reaches the poses of a source: kept in the same language, named as lost in another.
+
+use std::collections::BTreeMap;
+
+use crate::making::fault::MakeFinding;
+use crate::making::limits::MakeLanguage;
+use crate::making::routines::{running_lines, words_of};
+use crate::making::step::StatedConfiguration;
+use crate::model::motion::{Motion, MotionKind};
+use crate::model::program::{Language, RobotProgram};
+use crate::model::target::{Configuration, Target};
+use crate::path::of_program::RobotPath;
+
+/// Lines are named up to so many.
+const MOST_NAMED: usize = 20;
+
+/// Whether a program is made in the language of its source, of those whose targets state configurations.
+pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
+    matches!(
+        (source, made),
+        (Language::Krl, MakeLanguage::Krl)
+            | (Language::Rapid, MakeLanguage::Rapid)
+            | (Language::FanucLs, MakeLanguage::FanucLs)
+    )
+}
+
+/// The text of a configuration; none where nothing is stated.
+fn text_of(language: Language, configuration: &Configuration) -> Option<String> {
+    if configuration.text.trim().is_empty() {
+        return None;
+    }
+    Some(match language {
+        // Spaces and ends of lines of the source are none of its meaning.
+        Language::Rapid => {
+            let numbers = configuration.numbers.iter().map(|n| format!("{n:.0}"));
+            format!("[{}]", numbers.collect::<Vec<_>>().join(","))
+        }
+        _ => configuration.text.trim().to_owned(),
+    })
+}
+
+/// The configurations of every move of a path, where the source is in the same language.
+pub(crate) fn kept(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    language: MakeLanguage,
+) -> Vec<StatedConfiguration> {
+    if !is_same(program.language, language) {
+        return Vec::new();
+    }
+    let switches = Switches::of(program, robot.file);
+    let of_target = |target: &Target| text_of(program.language, &target.pose()?.configuration);
+    let motions = robot.motions.iter();
+    let stated = motions.map(|index| {
+        let Some(motion) = program.motions.get(*index) else {
+            return StatedConfiguration::default();
+        };
+        let via = match &motion.kind {
+            MotionKind::Circular { via } => of_target(via),
+            _ => None,
+        };
+        StatedConfiguration {
+            end: of_target(&motion.target),
+            via,
+            is_followed: !switches.is_off_at(motion.line),
+        }
+    });
+    stated.collect()
+}
+
+/// Where `ConfJ` of RAPID switches what joint motions do with configurations.
+struct Switches {
+    /// Lines with motions behind `ConfJ\Off`.
+    off: BTreeMap<usize, bool>,
+    /// Where the order of the lines is not known, and it stands somewhere.
+    somewhere: bool,
+}
+
+impl Switches {
+    fn of(program: &RobotProgram, file: usize) -> Self {
+        let mut found = Self {
+            off: BTreeMap::new(),
+            somewhere: false,
+        };
+        let source = match program.files.get(file) {
+            Some(source) if program.language == Language::Rapid => source,
+            _ => return found,
+        };
+        let switch = |line: usize| {
+            let words = words_of(program.language, source, line);
+            let mut pairs = words.windows(2).rev();
+            pairs.find_map(|pair| match (pair[0].as_str(), pair[1].as_str()) {
+                ("CONFJ", "OFF") => Some(true),
+                ("CONFJ", "ON") => Some(false),
+                _ => None,
+            })
+        };
+        let Some(running) = running_lines(program, file) else {
+            found.somewhere = (1..=source.line_count()).any(|line| switch(line) == Some(true));
+            return found;
+        };
+        let mut is_off = false;
+        for running in running {
+            is_off = switch(running.line).unwrap_or(is_off);
+            found.off.entry(running.line).or_insert(is_off);
+        }
+        found
+    }
+
+    fn is_off_at(&self, line: usize) -> bool {
+        self.off.get(&line).copied().unwrap_or(self.somewhere)
+    }
+}
+
+/// That configurations of the source are not those of the made program, with their lines.
+pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
+    let states = |motion: &&Motion| {
+        let stated = |target: &Target| {
+            let pose = target.pose();
+            pose.is_some_and(|pose| text_of(program.language, &pose.configuration).is_some())
+        };
+        let via = match &motion.kind {
+            MotionKind::Circular { via } => stated(via),
+            _ => false,
+        };
+        via || stated(&motion.target)
+    };
+    let motions = program.motions.iter().filter(states);
+    let mut lines: Vec<usize> = motions.map(|motion| motion.line).collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let first = *lines.first()?;
+    Some(MakeFinding::of(
+        first,
+        format!(
+            "how the arm reaches its poses (the configurations of the source: {}) is not kept: {why}",
+            in_words(&lines)
+        ),
+    ))
+}
+
+/// Lines in words, those that follow one another as one.
+pub(crate) fn in_words(lines: &[usize]) -> String {
+    let mut ranges: Vec<[usize; 2]> = Vec::new();
+    for line in lines {
+        match ranges.last_mut() {
+            Some([_, to]) if *to + 1 == *line => *to = *line,
+            _ => ranges.push([*line, *line]),
+        }
+    }
+    let named = ranges.iter().take(MOST_NAMED);
+    let named: Vec<String> = named
+        .map(|[from, to]| match to - from {
+            0 => from.to_string(),
+            1 => format!("{from}, {to}"),
+            _ => format!("{from} to {to}"),
+        })
+        .collect();
+    let rest: usize = ranges
+        .iter()
+        .skip(MOST_NAMED)
+        .map(|[from, to]| to - from + 1)
+        .sum();
+    let more = match (rest, lines.last()) {
+        (1.., Some(last)) => format!(" and {rest} more, the last {last}"),
+        _ => String::new(),
+    };
+    let word = match lines.len() {
+        1 => "line",
+        _ => "lines",
+    };
+    format!("{word} {}{more}", named.join(", "))
+}
+
+/// Why configurations cannot be kept in another language.
+pub(crate) fn why_lost(language: MakeLanguage) -> String {
+    match language {
+        MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs => format!(
+            "{} counts it in another way, from the axes of its own arm; state that of the first pose in the template (configuration)",
+            match language {
+                MakeLanguage::Krl => "KRL (S and T)",
+                MakeLanguage::Rapid => "RAPID (confdata)",
+                _ => "a TP program (CONFIG)",
+            }
+        ),
+        _ => format!("{} does not state it", language.title()),
+    }
+}
