@@ -182,10 +182,10 @@ impl Planner<'_> {
             kind == EventKind::Tool && of_a_machine && self.tool != before && !length
         };
         let speaks_alone = event.actions.is_empty() && event.rest.is_none();
-        // The speed of a spindle that stands still is written where it starts.
-        let later = of_a_machine && event.kind == EventKind::Spindle;
         lost.extend(event.rest.filter(|kind| !is_taken(*kind)));
-        lost.extend((speaks_alone && !later).then_some(event.kind));
+        // The speed of a spindle that stands still is written where it starts.
+        lost.extend((event.states_speed && !of_a_machine).then_some(EventKind::Spindle));
+        lost.extend((speaks_alone && !event.states_speed).then_some(event.kind));
         for kind in lost {
             if !matches!(kind, EventKind::Comment | EventKind::End) {
                 self.otherwise.lose(kind, note.clone());

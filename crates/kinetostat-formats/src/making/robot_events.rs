@@ -7,8 +7,10 @@ use crate::making::action::EventAction;
 use crate::making::course::place_of;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
+use crate::making::heidenhain_events::events_of_heidenhain;
 use crate::making::motion_events::events_of_motions;
 use crate::making::robot_actions::{action_of, kind_of};
+use crate::making::siemens_events::events_of_siemens;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
 
@@ -60,11 +62,8 @@ fn of_form(language: Language) -> &'static [&'static str] {
         Language::Apt => &[
             "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "PARTNO", "TRNTYP", "FINI", "END",
         ],
-        Language::Heidenhain => &["BEGIN PGM", "END PGM", "BLK FORM", "CC ", "L ", "LBL "],
-        Language::Siemens => &[
-            "%", ";$PATH", "DEF ", "PROC ", "G0", "G1", "G2", "G3", "G5", "G6", "G7", "G9", "F",
-            "M30", "M17", "RET",
-        ],
+        // Their words are looked at one by one.
+        Language::Heidenhain | Language::Siemens => &[],
         // Rows and keys state poses; the rest of a list goes with its pose.
         Language::Poses => &[""],
     }
@@ -88,6 +87,11 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         return Vec::new();
     };
     let moving = program.lines_of_targets(file);
+    match program.language {
+        Language::Heidenhain => return events_of_heidenhain(source),
+        Language::Siemens => return events_of_siemens(source, &moving),
+        _ => {}
+    }
     let spindle = match program.language {
         Language::Apt => spindle_changes(source),
         _ => Vec::new(),
@@ -150,15 +154,6 @@ pub(crate) fn body(language: Language, text: &str) -> &str {
                 }
             });
             behind.trim().trim_end_matches(';').trim()
-        }
-        Language::Heidenhain => text.trim_start_matches(|c: char| c.is_ascii_digit()).trim(),
-        Language::Siemens => {
-            let numbered = text.strip_prefix(['N', 'n', ':']);
-            let behind = numbered.map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-            behind
-                .filter(|rest| Some(*rest) != numbered)
-                .unwrap_or(text)
-                .trim()
         }
         _ => text,
     }

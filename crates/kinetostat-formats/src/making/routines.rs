@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::making::block_order::{running_blocks, until_end};
 use crate::making::blocks::Blocks;
 use crate::making::robot_events::{body, instructions};
 use crate::model::program::{Language, RobotProgram};
@@ -44,6 +45,11 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
             .filter(|line| set.contains(line));
         own.eq(moving.iter().copied())
     };
+    match program.language {
+        Language::Heidenhain => return Some(running_blocks(source)).filter(|own| is_order(own)),
+        Language::Siemens => return Some(until_end(source)).filter(|own| is_order(own)),
+        _ => {}
+    }
     let mut outside = Vec::new();
     let mut from = all.start;
     for routine in &routines {

@@ -3,6 +3,8 @@
 
 mod arcs;
 mod events;
+mod machine_words;
+mod machines;
 mod of_robots;
 mod parts;
 mod properties;
