@@ -2,10 +2,19 @@
 
 use crate::heidenhain::blocks::{Block as Statement, blocks_of};
 use crate::heidenhain::flow::{Step, labels_of, order, step_of};
-use crate::making::routines::Running;
 use crate::siemens::block::{Block, What};
 use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;
+
+/// A line in the order of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Running {
+    pub line: usize,
+    /// It runs once, on no condition.
+    pub is_certain: bool,
+    /// What it calls stands behind it.
+    pub is_followed: bool,
+}
 
 /// Of a Heidenhain program, with the labels that it calls.
 pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {

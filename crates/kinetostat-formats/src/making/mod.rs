@@ -33,6 +33,7 @@ pub(crate) mod numbers;
 pub(crate) mod of_external_axes;
 pub(crate) mod of_robot;
 pub(crate) mod of_tools;
+pub(crate) mod order_words;
 pub(crate) mod otherwise;
 pub(crate) mod parts;
 pub(crate) mod pieces;

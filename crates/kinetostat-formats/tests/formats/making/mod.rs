@@ -3,6 +3,7 @@
 
 mod arcs;
 mod events;
+mod hidden;
 mod machine_words;
 mod machines;
 mod of_robots;
