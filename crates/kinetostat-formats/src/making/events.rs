@@ -33,6 +33,10 @@ pub struct SourceEvent {
     pub rest: Option<EventKind>,
     /// It acts behind the motion of its line, not before.
     pub(crate) is_behind: bool,
+    /// It states the speed of a spindle that stands still: machines are told it where the spindle starts.
+    pub(crate) states_speed: bool,
+    /// It names a tool, whatever else it is about.
+    pub(crate) is_of_tool: bool,
 }
 
 impl SourceEvent {
@@ -46,6 +50,8 @@ impl SourceEvent {
             actions: Vec::new(),
             rest: Some(kind),
             is_behind: false,
+            states_speed: false,
+            is_of_tool: kind == EventKind::Tool,
         }
     }
 

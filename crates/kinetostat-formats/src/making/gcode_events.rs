@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_program::{Path, PauseKind, SpeedMode, Spindle, SpindleRotation};
+use kinetostat_program::{Path, PauseKind};
 
-use crate::making::action::{Coolant, EventAction};
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
+use crate::making::words::{InForce, Said, Word, Words, kind_of_m, word_of_m};
 
 /// The events of a program in G-code.
 #[must_use]
@@ -17,117 +17,33 @@ pub fn events_of_gcode(program: &kinetostat_program::Program, path: &Path) -> Ve
         let Some(bytes) = program.line_bytes(line) else {
             continue;
         };
-        let Some(words) = rest_of(bytes) else {
-            continue;
-        };
+        let words = rest_of(bytes, moving.contains(&line));
         let first = path.pauses.partition_point(|pause| pause.line < line);
-        let dwell = path.pauses[first..]
+        let dwell_s = path.pauses[first..]
             .iter()
             .find_map(|pause| match pause.kind {
                 PauseKind::DwellSeconds(seconds) if pause.line == line => Some(seconds),
                 _ => None,
             });
-        let event = words.event(line, dwell, path.spindle_on(line));
-        events.extend(split_behind(event, moving.contains(&line)));
+        let force = InForce {
+            dwell_s,
+            spindle: Some(path.spindle_on(line)),
+        };
+        events.extend(words.events(line, force));
     }
     events
 }
 
-/// What acts behind the motion, beside words that act before it, is an event of its own behind it.
+/// Whether a word acts behind the motion of its block.
 ///
 /// Controllers disagree about M5 and M9 beside a motion: where one moves they come behind it, since a spindle that stops while
 /// the tool still cuts does harm, a little later does none.
-fn split_behind(mut event: SourceEvent, moves: bool) -> Vec<SourceEvent> {
-    let is_late = |action: &EventAction| text_behind(*action, moves).is_some();
-    let late: Vec<_> = event.actions.iter().copied().filter(is_late).collect();
-    let Some(first) = late.first().filter(|_| !event.is_behind) else {
-        return vec![event];
+fn is_late(letter: char, value: f64, moves: bool) -> bool {
+    let late: &[f64] = match moves {
+        true => &[0.0, 1.0, 60.0, 2.0, 30.0, 5.0, 9.0],
+        false => &[0.0, 1.0, 60.0, 2.0, 30.0],
     };
-    if late.len() == event.actions.len() && event.rest.is_none() {
-        event.is_behind = true;
-        return vec![event];
-    }
-    event.actions.retain(|action| !is_late(action));
-    let texts: Vec<_> = (late.iter())
-        .filter_map(|action| text_behind(*action, moves))
-        .collect();
-    let behind = SourceEvent {
-        is_behind: true,
-        actions: late.clone(),
-        ..SourceEvent::acting(event.line, *first, texts.join(" "))
-    };
-    vec![event, behind]
-}
-
-/// The word of what acts behind the motion of its block; none for what acts before it.
-fn text_behind(action: EventAction, moves: bool) -> Option<&'static str> {
-    match action {
-        EventAction::OptionalStop => Some("M1"),
-        EventAction::Stop => Some("M0"),
-        EventAction::Spindle {
-            rotation: SpindleRotation::Stopped,
-            ..
-        } if moves => Some("M5"),
-        EventAction::Coolant(Coolant::Off) if moves => Some("M9"),
-        _ => None,
-    }
-}
-
-/// The words of a block that are no motion.
-struct Words {
-    text: String,
-    /// What the block as a whole is about.
-    kind: EventKind,
-    /// Each with its kind, and the action that it is by itself.
-    kinds: Vec<(EventKind, Word)>,
-    /// The machine's switch says whether it runs.
-    is_optional: bool,
-    stops_spindle: bool,
-}
-
-/// What a word does that is known.
-#[derive(Clone, Copy, PartialEq)]
-enum Word {
-    Action(EventAction),
-    /// It turns the spindle, or says how fast.
-    Spindle,
-    Other,
-}
-
-impl Words {
-    fn event(self, line: usize, dwell: Option<f64>, spindle: Spindle) -> SourceEvent {
-        let mut event = SourceEvent::words_alone(line, self.kind, self.text);
-        event.rest = None;
-        event.is_behind = matches!(event.kind, EventKind::Stop | EventKind::End);
-        for (kind, word) in self.kinds {
-            let action = match (word, dwell) {
-                _ if self.is_optional => None,
-                (Word::Action(action), _) => Some(action),
-                (Word::Spindle, _) if spindle.mode == SpeedMode::Constant => {
-                    Some(EventAction::Spindle {
-                        rotation: spindle.rotation,
-                        rpm: spindle.speed,
-                    })
-                }
-                (_, Some(seconds)) if kind == EventKind::Dwell => {
-                    Some(EventAction::Wait { seconds })
-                }
-                _ => None,
-            };
-            match action {
-                Some(action) if event.actions.last() != Some(&action) => event.actions.push(action),
-                Some(_) => {}
-                None if matches!(kind, EventKind::Comment | EventKind::End) => {}
-                None => event.rest = Some(event.rest.map_or(kind, |rest| rest.min(kind))),
-            }
-        }
-        // A speed of a spindle that stands still is that of its start.
-        let stands = spindle.rotation == SpindleRotation::Stopped;
-        if stands && !self.stops_spindle {
-            (event.actions).retain(|action| !matches!(action, EventAction::Spindle { .. }));
-        }
-        event
-    }
+    letter == 'M' && late.contains(&value)
 }
 
 /// G codes that are all in the places and feeds of the moves, times ten.
@@ -136,26 +52,26 @@ const FOLLOWED: [u32; 35] = [
     592, 593, 610, 611, 640, 800, 900, 910, 901, 911, 920, 930, 940, 950, 970,
 ];
 
-/// What of a block is no motion, and what it is about; none where nothing is left.
-fn rest_of(bytes: &[u8]) -> Option<Words> {
+/// What of a block is no motion.
+fn rest_of(bytes: &[u8], moves: bool) -> Words {
     let text = String::from_utf8_lossy(bytes);
     let mut words = Vec::new();
-    let mut kinds = Vec::new();
+    let mut said = Vec::new();
     let mut rest = text.trim();
-    let (mut dwells, mut stops_spindle) = (false, false);
+    let mut dwells = false;
     while let Some(first) = rest.chars().next() {
         match first {
             '(' => {
                 let end = rest.find(')').map_or(rest.len(), |at| at + 1);
                 words.push(rest[..end].to_owned());
-                kinds.push((EventKind::Comment, Word::Other));
+                said.push(Said::early(EventKind::Comment, Word::Other, &rest[..end]));
                 rest = &rest[end..];
             }
             ';' => {
                 let comment = rest[1..].trim();
                 if !comment.is_empty() {
                     words.push(comment.to_owned());
-                    kinds.push((EventKind::Comment, Word::Other));
+                    said.push(Said::early(EventKind::Comment, Word::Other, comment));
                 }
                 rest = "";
             }
@@ -172,10 +88,13 @@ fn rest_of(bytes: &[u8]) -> Option<Words> {
                 };
                 let letter = letter.to_ascii_uppercase();
                 dwells |= letter == 'G' && value == 4.0;
-                stops_spindle |= letter == 'M' && value == 5.0;
                 if let Some(kind) = kind_of(letter, value, dwells) {
-                    words.push(format!("{letter}{number}"));
-                    kinds.push((kind, word_of(letter, value)));
+                    let text = format!("{letter}{number}");
+                    words.push(text.clone());
+                    said.push(Said {
+                        is_late: is_late(letter, value, moves),
+                        ..Said::early(kind, word_of(letter, value, kind), text)
+                    });
                 }
                 rest = &tail[end..];
             }
@@ -183,34 +102,25 @@ fn rest_of(bytes: &[u8]) -> Option<Words> {
         }
         rest = rest.trim_start();
     }
-    let is_optional = text.trim_start().starts_with('/');
-    let kind = match kinds.iter().map(|(kind, _)| *kind).min()? {
-        // The machine's switch says whether such a block runs: it is a note.
-        EventKind::Stop if is_optional => EventKind::Other,
-        kind => kind,
-    };
-    Some(Words {
+    Words {
         text: words.join(" "),
-        kind,
-        kinds,
-        is_optional,
-        stops_spindle,
-    })
+        said,
+        is_optional: text.trim_start().starts_with('/'),
+    }
 }
 
 /// What a word does that other languages have, too.
-fn word_of(letter: char, value: f64) -> Word {
-    let action = match (letter, value) {
-        ('M', 0.0 | 60.0) => EventAction::Stop,
-        ('M', 1.0) => EventAction::OptionalStop,
-        ('M', 7.0) => EventAction::Coolant(Coolant::Mist),
-        ('M', 8.0) => EventAction::Coolant(Coolant::Flood),
-        ('M', 9.0) => EventAction::Coolant(Coolant::Off),
-        ('S', _) | ('M', 3.0..=5.0) => return Word::Spindle,
-        ('G', 97.0) => return Word::Spindle,
-        _ => return Word::Other,
-    };
-    Word::Action(action)
+fn word_of(letter: char, value: f64, kind: EventKind) -> Word {
+    match (letter, whole(value)) {
+        ('M', Some(number)) => word_of_m(number),
+        ('S', _) | ('G', Some(97)) => Word::Spindle,
+        _ if kind == EventKind::Dwell => Word::Dwell,
+        _ => Word::Other,
+    }
+}
+
+fn whole(value: f64) -> Option<u32> {
+    (value.fract() == 0.0 && (0.0..1e9).contains(&value)).then_some(value as u32)
 }
 
 /// What a word is about; none where it is part of a motion.
@@ -228,14 +138,7 @@ fn kind_of(letter: char, value: f64, dwells: bool) -> Option<EventKind> {
         'O' => Some(EventKind::Comment),
         'S' => Some(EventKind::Spindle),
         'T' | 'H' | 'D' => Some(EventKind::Tool),
-        'M' => Some(match tenths as i64 / 10 {
-            0 | 1 | 60 => EventKind::Stop,
-            2 | 30 => EventKind::End,
-            3 | 4 | 5 | 19 => EventKind::Spindle,
-            6 => EventKind::Tool,
-            7..=9 => EventKind::Coolant,
-            _ => EventKind::Other,
-        }),
+        'M' => Some(whole(value).map_or(EventKind::Other, kind_of_m)),
         _ => Some(EventKind::Other),
     }
 }

@@ -1,13 +1,17 @@
 //! A path written as a new program, in the language of a robot, in APT, in G-code or as a table of poses.
 //!
-//! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements),
-//! [`course`] says in which order all of it runs ([`routines`]: of robots' programs, [`of_tools`]: their tools, [`configurations`]: their postures), [`plan`] makes steps
+//! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements;
+//! [`siemens_events`] and [`heidenhain_events`]: the words of blocks, with [`turning`], how the spindle turns, and [`words`], what they do
+//! before a motion and behind it),
+//! [`course`] says in which order all of it runs ([`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`]: their
+//! postures), [`plan`] makes steps
 //! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
 
 pub(crate) mod action;
 pub(crate) mod again;
 pub(crate) mod apt;
+pub(crate) mod block_order;
 pub(crate) mod blocks;
 pub(crate) mod compare;
 pub(crate) mod configurations;
@@ -20,6 +24,7 @@ pub(crate) mod events;
 pub(crate) mod fault;
 pub(crate) mod gcode;
 pub(crate) mod gcode_events;
+pub(crate) mod heidenhain_events;
 pub(crate) mod joint_table;
 pub(crate) mod krl;
 pub(crate) mod limits;
@@ -31,6 +36,7 @@ pub(crate) mod numbers;
 pub(crate) mod of_external_axes;
 pub(crate) mod of_robot;
 pub(crate) mod of_tools;
+pub(crate) mod order_words;
 pub(crate) mod otherwise;
 pub(crate) mod parts;
 pub(crate) mod pieces;
@@ -39,7 +45,11 @@ pub(crate) mod rapid;
 pub(crate) mod robot_actions;
 pub(crate) mod robot_events;
 pub(crate) mod routines;
+pub(crate) mod siemens_events;
+pub(crate) mod siemens_words;
 pub(crate) mod stated;
 pub(crate) mod step;
 pub(crate) mod stops;
 pub(crate) mod template;
+pub(crate) mod turning;
+pub(crate) mod words;

@@ -1,8 +1,11 @@
 //! What a robot's program does in the statements of its motions and on their lines: outputs, procedures, triggers.
 
+use std::ops::Range;
+
 use crate::ls::motion::event_of;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
+use crate::making::order_words::orders_only;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
@@ -10,19 +13,30 @@ use crate::text::source::SourceFile;
 /// The events of all motions of a file.
 pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<SourceEvent> {
     let own = || program.motions.iter().filter(|motion| motion.file == file);
-    let mut starts: Vec<usize> = own().map(|motion| motion.span.start).collect();
-    starts.sort_unstable();
+    let sorted = |mut all: Vec<usize>| {
+        all.sort_unstable();
+        all
+    };
+    let starts = sorted(own().map(|motion| motion.span.start).collect());
+    let ends = sorted(own().map(|motion| motion.span.end).collect());
     let mut events = Vec::new();
     for motion in own() {
+        let before = ends.partition_point(|end| *end <= motion.span.start);
+        let before = before.checked_sub(1).map_or(0, |before| ends[before]);
         let next = starts.partition_point(|start| *start < motion.span.end);
         let next = starts.get(next).copied().unwrap_or(usize::MAX);
-        events.extend(events_of_motion(program, motion, next));
+        events.extend(events_of_motion(program, motion, before..next));
     }
     events
 }
 
-/// The events in the statement of a motion, and behind it on its line up to where the next one begins.
-fn events_of_motion(program: &RobotProgram, motion: &Motion, next: usize) -> Vec<SourceEvent> {
+/// The events in the statement of a motion, before it on its line, and behind it up to where the next one begins; `free` is from
+/// where the last one ends up to there.
+fn events_of_motion(
+    program: &RobotProgram,
+    motion: &Motion,
+    free: Range<usize>,
+) -> Vec<SourceEvent> {
     let Some(source) = program.files.get(motion.file) else {
         return Vec::new();
     };
@@ -40,6 +54,14 @@ fn events_of_motion(program: &RobotProgram, motion: &Motion, next: usize) -> Vec
         source.line_of(motion.span.end.saturating_sub(1)),
     );
     let mut events = Vec::new();
+    let begin = source.range_of(motion.line).start;
+    if program.language == Language::Rapid && free.start <= begin {
+        // What stands between two motions of a line is behind the first.
+        let text = words(source.part(&(begin..motion.span.start.max(begin))));
+        if !text.is_empty() && !orders_only(program.language, &text) {
+            events.push(SourceEvent::words_alone(line, EventKind::Other, text));
+        }
+    }
     if let Some((text, is_behind)) = found {
         events.push(SourceEvent {
             is_behind,
@@ -47,7 +69,7 @@ fn events_of_motion(program: &RobotProgram, motion: &Motion, next: usize) -> Vec
         });
     }
     if program.language == Language::Rapid {
-        let end = source.range_of(last).end.min(next);
+        let end = source.range_of(last).end.min(free.end);
         let text = words(source.part(&(motion.span.end.min(end)..end)));
         if !text.is_empty() && !text.starts_with('!') {
             events.push(SourceEvent {

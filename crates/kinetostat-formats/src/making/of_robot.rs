@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use kinetostat_program::Knowledge;
+
 use crate::making::configurations;
 use crate::making::course::{Course, at, place_of};
 use crate::making::dynamics::dynamics;
@@ -16,7 +18,7 @@ use crate::making::routines::running_lines;
 use crate::making::stated::is_identity;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, Runs, Zone};
+use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
@@ -47,7 +49,8 @@ pub fn make_of_robot(
     template: &Template,
     language: MakeLanguage,
 ) -> Result<Made, Vec<MakeError>> {
-    let faults = not_once(program);
+    let mut faults = not_once(program);
+    faults.extend(arcs_from_elsewhere(program, robot));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -237,6 +240,30 @@ fn not_once(program: &RobotProgram) -> Vec<MakeError> {
             )
         })
         .collect()
+}
+
+/// Arcs whose way is not known: it depends on where they begin.
+fn arcs_from_elsewhere(program: &RobotProgram, robot: &RobotPath) -> Vec<MakeError> {
+    let moves = robot.path.moves.iter().zip(&robot.motions);
+    let known = moves.filter(|(own, _)| own.known != Knowledge::Nothing);
+    // To the first place the arm goes from wherever it is.
+    let arcs = known.skip(1).filter(|(own, motion)| {
+        let is_arc = program.motions.get(**motion).is_some_and(|motion| {
+            matches!(
+                motion.kind,
+                MotionKind::Circular { .. } | MotionKind::Arc { .. }
+            )
+        });
+        own.known == Knowledge::End && is_arc
+    });
+    arcs.map(|(own, _)| {
+        MakeError::at(
+            own.line,
+            "where this arc begins, or the place on it, is not known: behind a routine that is not in these files, or a place that only the run knows",
+            "write a motion to a stated place before the arc, or give the routine with the program",
+        )
+    })
+    .collect()
 }
 
 /// A work object of the source without a number that has one here.

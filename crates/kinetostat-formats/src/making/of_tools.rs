@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::making::course::before;
-use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
@@ -26,9 +25,17 @@ pub(crate) struct MadeTools {
     pub findings: Vec<MakeFinding>,
 }
 
-/// The tool of APT before the first change is none.
+/// Whether a language takes tools by statements of their own, as machines do.
+fn changes_tools(language: Language) -> bool {
+    matches!(
+        language,
+        Language::Apt | Language::Siemens | Language::Heidenhain
+    )
+}
+
+/// The tool of a machine before the first change is none.
 fn is_none(program: &RobotProgram, tool: &FrameUse) -> bool {
-    program.language == Language::Apt && tool.name == "TOOL"
+    changes_tools(program.language) && tool.name == "TOOL"
 }
 
 /// The tools as the source has them.
@@ -159,7 +166,7 @@ pub(crate) fn changes_of_source(
 ) -> Vec<(usize, u32)> {
     let all = &robot.tools;
     // One tool is changed to where the source has changes of tools.
-    if all.len() < 2 && program.language != Language::Apt {
+    if all.len() < 2 && !changes_tools(program.language) {
         return Vec::new();
     }
     let numbers: Vec<Option<u32>> = match all.len() {
@@ -183,7 +190,7 @@ pub(crate) fn changes_of_source(
         // The statement that says so, where there is one.
         let end = events.partition_point(|(at, _)| at < order);
         let said = events[..end].iter().rev().take_while(|(at, _)| *at >= from);
-        let mut said = said.filter(|(_, event)| event.kind == EventKind::Tool);
+        let mut said = said.filter(|(_, event)| event.is_of_tool);
         let at = said.next().map_or(order - order % before(1), |(at, _)| *at);
         changes.push((at, number));
     }

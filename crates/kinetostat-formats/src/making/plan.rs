@@ -23,6 +23,10 @@ pub(crate) struct Planned {
     pub findings: Vec<MakeFinding>,
 }
 
+/// Places and orientations that differ by less are one.
+const SAME_PLACE_MM: f64 = 1e-9;
+const SAME_TURN_RAD: f64 = 1e-9;
+
 /// Most motions of a made program.
 const MOST_MOTIONS: usize = 20_000_000;
 
@@ -182,10 +186,10 @@ impl Planner<'_> {
             kind == EventKind::Tool && of_a_machine && self.tool != before && !length
         };
         let speaks_alone = event.actions.is_empty() && event.rest.is_none();
-        // The speed of a spindle that stands still is written where it starts.
-        let later = of_a_machine && event.kind == EventKind::Spindle;
         lost.extend(event.rest.filter(|kind| !is_taken(*kind)));
-        lost.extend((speaks_alone && !later).then_some(event.kind));
+        // The speed of a spindle that stands still is written where it starts.
+        lost.extend((event.states_speed && !of_a_machine).then_some(EventKind::Spindle));
+        lost.extend((speaks_alone && !event.states_speed).then_some(event.kind));
         for kind in lost {
             if !matches!(kind, EventKind::Comment | EventKind::End) {
                 self.otherwise.lose(kind, note.clone());
@@ -250,12 +254,25 @@ impl Planner<'_> {
         motion.orientation(share).or(self.template.tool_orientation)
     }
 
+    /// Whether a move whose start is not known ends elsewhere than the motion before it: behind a routine that is not known, say.
+    fn comes_from_elsewhere(&self, motion: &Move) -> bool {
+        let last = self.steps.iter().rev().find_map(Step::motion);
+        let (Knowledge::End, Some(last)) = (motion.known, last) else {
+            return false;
+        };
+        let turned = last.orientation.zip(self.orientation(motion, 1.0));
+        (last.end - motion.point(1.0)).norm() > SAME_PLACE_MM
+            || turned.is_some_and(|(one, other)| one.angle_to(&other) > SAME_TURN_RAD)
+    }
+
     fn made(&mut self, index: usize) {
         let path = self.path;
         let motion = &path.moves[index];
         // Another tip goes there from where it is.
         let same_tool = self.tool == self.last_tool;
-        if self.begun && same_tool && !motion.has_length() && !motion.turns_in_place() {
+        let goes =
+            motion.has_length() || motion.turns_in_place() || self.comes_from_elsewhere(motion);
+        if self.begun && same_tool && !goes {
             return;
         }
         if self.limits.orientation

@@ -25,6 +25,7 @@ pub(crate) fn action_of(language: Language, text: &str) -> Option<EventAction> {
             None => (upper == "PAUSE").then_some(EventAction::Stop),
         },
         Language::Apt => of_apt(upper.split("$$").next()?.trim()),
+        // Of blocks each word for itself.
         Language::Heidenhain | Language::Siemens | Language::Poses => None,
     }
 }
@@ -71,8 +72,6 @@ pub(crate) fn kind_of(language: Language, upper: &str) -> EventKind {
     };
     match () {
         () if upper.starts_with(comment) || has(&["PPRINT", "REMARK"]) => EventKind::Comment,
-        () if language == Language::Heidenhain && upper.starts_with('*') => EventKind::Comment,
-        () if has(&["TOOL CALL", "TOOL DEF"]) => EventKind::Tool,
         () if has(&["SPINDL"]) => EventKind::Spindle,
         () if has(&["COOLNT"]) => EventKind::Coolant,
         () if has(&["LOAD", "TOOLNO", "TOOL PATH", "TLDATA"]) => EventKind::Tool,

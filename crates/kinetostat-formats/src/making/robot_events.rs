@@ -7,68 +7,13 @@ use crate::making::action::EventAction;
 use crate::making::course::place_of;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
+use crate::making::heidenhain_events::events_of_heidenhain;
 use crate::making::motion_events::events_of_motions;
+use crate::making::order_words::orders_only;
 use crate::making::robot_actions::{action_of, kind_of};
+use crate::making::siemens_events::events_of_siemens;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
-
-/// Words with which lines begin that only order a program: nothing of it is lost.
-fn of_form(language: Language) -> &'static [&'static str] {
-    match language {
-        Language::Rapid => &[
-            "MODULE",
-            "ENDMODULE",
-            "PROC",
-            "ENDPROC",
-            "CONST",
-            "PERS",
-            "VAR",
-            "LOCAL",
-            "TASK",
-            "%%%",
-            "VERSION",
-            "LANGUAGE",
-        ],
-        Language::Krl => &[
-            "&",
-            "DEF",
-            "END",
-            "DECL",
-            ";FOLD",
-            ";ENDFOLD",
-            "; ENDFOLD",
-            "INI",
-            "$BASE",
-            "$TOOL",
-            "$VEL",
-            "$APO",
-            "PDAT_ACT",
-            "FDAT_ACT",
-            "LDAT_ACT",
-            "BAS",
-            "$BWDSTART",
-            "EXT",
-            "INT ",
-            "REAL ",
-            "BOOL ",
-            "E6POS ",
-            "FRAME ",
-            "POS ",
-            "$ACC",
-        ],
-        Language::FanucLs => &["/", "UFRAME_NUM", "UTOOL_NUM"],
-        Language::Apt => &[
-            "GOTO", "RAPID", "FEDRAT", "UNITS", "UNIT", "MULTAX", "PARTNO", "TRNTYP", "FINI", "END",
-        ],
-        Language::Heidenhain => &["BEGIN PGM", "END PGM", "BLK FORM", "CC ", "L ", "LBL "],
-        Language::Siemens => &[
-            "%", ";$PATH", "DEF ", "PROC ", "G0", "G1", "G2", "G3", "G5", "G6", "G7", "G9", "F",
-            "M30", "M17", "RET",
-        ],
-        // Rows and keys state poses; the rest of a list goes with its pose.
-        Language::Poses => &[""],
-    }
-}
 
 /// The events of a robot's program: statements beside its motions, of the file with the motions.
 ///
@@ -88,6 +33,11 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         return Vec::new();
     };
     let moving = program.lines_of_targets(file);
+    match program.language {
+        Language::Heidenhain => return events_of_heidenhain(source),
+        Language::Siemens => return events_of_siemens(source, &moving),
+        _ => {}
+    }
     let spindle = match program.language {
         Language::Apt => spindle_changes(source),
         _ => Vec::new(),
@@ -100,8 +50,7 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).into_owned();
         let text = body(program.language, &text);
         let upper = text.to_ascii_uppercase();
-        let words = of_form(program.language);
-        if text.is_empty() || words.iter().any(|word| upper.starts_with(word)) {
+        if text.is_empty() || orders_only(program.language, text) {
             continue;
         }
         let kind = kind_of(program.language, &upper);
@@ -115,12 +64,26 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
             _ => action_of(program.language, text),
         };
         events.push(match action {
-            Some(action) => SourceEvent::acting(line, action, text),
+            Some(action) => SourceEvent {
+                // A range, an angle, a speed of the surface: no other language has that.
+                rest: (kind == EventKind::Spindle && !is_turn_alone(&upper)).then_some(kind),
+                ..SourceEvent::acting(line, action, text)
+            },
             None => SourceEvent::words_alone(line, kind, text),
         });
     }
     events.sort_by_key(|event| place_of(event, event.line));
     events
+}
+
+/// Whether `SPINDL` says no more than which way the spindle turns and how fast.
+fn is_turn_alone(statement: &str) -> bool {
+    let code = statement.split("$$").next().unwrap_or_default();
+    let mut words = code.split(['/', ',']).map(str::trim).skip(1);
+    words.all(|word| {
+        let known = ["RPM", "CLW", "CCLW", "ON", "OFF"].contains(&word);
+        known || word.parse::<f64>().is_ok()
+    })
 }
 
 /// Lines that hold instructions.
@@ -150,15 +113,6 @@ pub(crate) fn body(language: Language, text: &str) -> &str {
                 }
             });
             behind.trim().trim_end_matches(';').trim()
-        }
-        Language::Heidenhain => text.trim_start_matches(|c: char| c.is_ascii_digit()).trim(),
-        Language::Siemens => {
-            let numbered = text.strip_prefix(['N', 'n', ':']);
-            let behind = numbered.map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-            behind
-                .filter(|rest| Some(*rest) != numbered)
-                .unwrap_or(text)
-                .trim()
         }
         _ => text,
     }

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::making::block_order::{Running, running_blocks, until_end};
 use crate::making::blocks::Blocks;
 use crate::making::robot_events::{body, instructions};
 use crate::model::program::{Language, RobotProgram};
@@ -12,16 +13,6 @@ use crate::text::source::SourceFile;
 const DEEPEST: usize = 100;
 /// Most routines that are tried as the one that the program begins with.
 const MOST_TRIED: usize = 64;
-
-/// A line in the order of the run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Running {
-    pub line: usize,
-    /// It runs once, on no condition.
-    pub is_certain: bool,
-    /// What it calls stands behind it.
-    pub is_followed: bool,
-}
 
 /// A routine: its name in capitals and the lines between head and end.
 struct Routine {
@@ -44,6 +35,11 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
             .filter(|line| set.contains(line));
         own.eq(moving.iter().copied())
     };
+    match program.language {
+        Language::Heidenhain => return Some(running_blocks(source)).filter(|own| is_order(own)),
+        Language::Siemens => return Some(until_end(source)).filter(|own| is_order(own)),
+        _ => {}
+    }
     let mut outside = Vec::new();
     let mut from = all.start;
     for routine in &routines {

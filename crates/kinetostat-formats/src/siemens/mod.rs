@@ -7,7 +7,7 @@
 //! Source: Siemens, SINUMERIK 840D sl / 828D, Programming Manuals Fundamentals, Job Planning and Cycles, and public programs.
 
 pub(crate) mod arcs;
-mod axes_beside;
+pub(crate) mod axes_beside;
 pub(crate) mod block;
 mod circle;
 mod codes;

@@ -3,6 +3,9 @@
 
 mod arcs;
 mod events;
+mod hidden;
+mod machine_words;
+mod machines;
 mod of_robots;
 mod parts;
 mod properties;

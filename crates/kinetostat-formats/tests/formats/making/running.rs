@@ -320,3 +320,43 @@ fn a_stop_beside_coolant_is_behind_the_motion() {
         &["COOLNT/FLOOD\n", "GOTO/10.0", "STOP\n", "GOTO/20.0"],
     );
 }
+
+/// A spindle that stops while the tool still cuts does harm: `M5` and `M9` are behind the motion of their block, whatever stands first.
+#[test]
+fn a_spindle_stops_behind_the_motion() {
+    let text = "G21 G90\nS900 M3\nG0 X0 Y0 Z5 M8\nM5 G1 X10 F300 T2\nM3\nG1 X20 M9 M05 M0\nG0 Z50 M4 S700\nG0 X0 M5 (off)\nM30\n";
+    let expected = [
+        "SPINDL/900,RPM,CLW\n",
+        "COOLNT/FLOOD\n",
+        "GOTO/0.",
+        "GOTO/10.",
+        "SPINDL/OFF\n",
+        "SPINDL/900,RPM,CLW\n",
+        "GOTO/20.",
+        "COOLNT/OFF\n",
+        "SPINDL/OFF\n",
+        "STOP\n",
+        "SPINDL/700,RPM,CCLW\n",
+        "GOTO/20.",
+        "GOTO/0.",
+        "SPINDL/OFF\n",
+    ];
+    let apt = text_of(&made(text, &super::cell(), MakeLanguage::Apt), 0);
+    in_order(&apt, &expected);
+    assert_eq!(apt.matches("SPINDL").count(), 6, "{apt}");
+    let krl = text_of(&made(text, &super::cell(), MakeLanguage::Krl), 0);
+    in_order(
+        &krl,
+        &[
+            "; line 4: M5 T2\n",
+            "LIN {X 10.0",
+            "; line 4: M5\n",
+            "LIN {X 20.0",
+            "; line 6: M9 M05 M0\n",
+            "HALT\n",
+            "Z 50.0",
+            "LIN {X 0.0",
+            "; line 8: M5 [off]\n",
+        ],
+    );
+}

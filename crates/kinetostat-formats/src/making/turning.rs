@@ -1,0 +1,41 @@
+//! How the spindle of a program turns, as far as its blocks say.
+
+use kinetostat_program::{SpeedMode, Spindle, SpindleRotation};
+
+/// What is known of the spindle.
+#[derive(Default)]
+pub(crate) struct Turning {
+    spindle: Spindle,
+    /// A switch of the machine, or another master spindle, leaves it open which way it turns.
+    is_open: bool,
+}
+
+impl Turning {
+    /// None where it is not known whether and which way it turns.
+    pub(crate) fn now(&self) -> Option<Spindle> {
+        (!self.is_open).then_some(self.spindle)
+    }
+
+    pub(crate) fn turn(&mut self, rotation: SpindleRotation) {
+        self.spindle.rotation = rotation;
+        self.is_open = false;
+    }
+
+    /// A speed; none where the program does not say it as a number.
+    pub(crate) fn speed(&mut self, speed: Option<f64>) {
+        self.spindle.speed = speed;
+    }
+
+    /// What was a speed counts otherwise from here on.
+    pub(crate) fn count(&mut self, mode: SpeedMode) {
+        if self.spindle.mode != mode {
+            self.spindle.mode = mode;
+            self.spindle.speed = None;
+        }
+    }
+
+    pub(crate) fn forget(&mut self) {
+        self.spindle.speed = None;
+        self.is_open = true;
+    }
+}

@@ -1,0 +1,182 @@
+//! The words of a block that are no motion, and what they do before its motion and behind it.
+
+use kinetostat_program::{SpeedMode, Spindle, SpindleRotation};
+
+use crate::making::action::{Coolant, EventAction};
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+
+/// What a word does that is known.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Word {
+    Action(EventAction),
+    /// It turns the spindle, or says how fast.
+    Spindle,
+    SpindleStop,
+    /// The time for which the tool stands still, or what goes with it.
+    Dwell,
+    Other,
+}
+
+/// What an M function does that other languages have, too.
+pub(crate) fn word_of_m(number: u32) -> Word {
+    let action = match number {
+        0 | 60 => EventAction::Stop,
+        1 => EventAction::OptionalStop,
+        7 => EventAction::Coolant(Coolant::Mist),
+        8 => EventAction::Coolant(Coolant::Flood),
+        9 => EventAction::Coolant(Coolant::Off),
+        3 | 4 => return Word::Spindle,
+        5 => return Word::SpindleStop,
+        _ => return Word::Other,
+    };
+    Word::Action(action)
+}
+
+/// What an M function is about.
+pub(crate) fn kind_of_m(number: u32) -> EventKind {
+    match number {
+        0 | 1 | 60 => EventKind::Stop,
+        2 | 30 => EventKind::End,
+        3..=5 | 19 => EventKind::Spindle,
+        6 => EventKind::Tool,
+        7..=9 => EventKind::Coolant,
+        _ => EventKind::Other,
+    }
+}
+
+/// A word that is no motion.
+pub(crate) struct Said {
+    pub kind: EventKind,
+    /// The action that it is by itself.
+    pub word: Word,
+    pub text: String,
+    /// It acts behind the motion of its block.
+    pub is_late: bool,
+}
+
+impl Said {
+    /// One that acts before the motion.
+    pub(crate) fn early(kind: EventKind, word: Word, text: impl Into<String>) -> Self {
+        Self {
+            kind,
+            word,
+            text: text.into(),
+            is_late: false,
+        }
+    }
+}
+
+/// The words of a block that are no motion.
+pub(crate) struct Words {
+    /// All of them.
+    pub text: String,
+    /// Those of a kind of their own, in order.
+    pub said: Vec<Said>,
+    /// The machine's switch says whether it runs.
+    pub is_optional: bool,
+}
+
+/// What is in force on the line of a block, behind its own words.
+#[derive(Clone, Copy)]
+pub(crate) struct InForce {
+    /// How long the tool stands still there, where it does, s.
+    pub dwell_s: Option<f64>,
+    /// None where a switch of the machine, or the number of a spindle, leaves it open.
+    pub spindle: Option<Spindle>,
+}
+
+/// What some words of a block do.
+#[derive(Default)]
+struct Done {
+    actions: Vec<EventAction>,
+    rest: Option<EventKind>,
+    states_speed: bool,
+    is_of_tool: bool,
+    /// Nothing but comments and the end of the program.
+    is_silent: bool,
+}
+
+impl Words {
+    /// The events of the block: what acts before its motion, and what acts behind it.
+    pub(crate) fn events(&self, line: usize, force: InForce) -> Vec<SourceEvent> {
+        let Some(kind) = self.said.iter().map(|said| said.kind).min() else {
+            return Vec::new();
+        };
+        let kind = match kind {
+            // The machine's switch says whether such a block runs: it is a note.
+            EventKind::Stop if self.is_optional => EventKind::Other,
+            kind => kind,
+        };
+        let (late, early): (Vec<&Said>, Vec<&Said>) = self.said.iter().partition(|s| s.is_late);
+        let event = |done: Done, is_behind: bool, kind: EventKind, text: String| SourceEvent {
+            actions: done.actions,
+            rest: done.rest,
+            states_speed: done.states_speed,
+            is_of_tool: done.is_of_tool,
+            is_behind,
+            ..SourceEvent::words_alone(line, kind, text)
+        };
+        let [before, behind] = [&early, &late].map(|said| self.done(said, force));
+        if behind.is_silent || before.is_silent {
+            let all: Vec<&Said> = early.into_iter().chain(late).collect();
+            let is_behind = before.is_silent && all.iter().any(|said| said.is_late);
+            return vec![event(
+                self.done(&all, force),
+                is_behind,
+                kind,
+                self.text.clone(),
+            )];
+        }
+        let kinds = early.iter().map(|said| said.kind);
+        let first = kinds.min().filter(|_| !self.is_optional).unwrap_or(kind);
+        let last = late.iter().map(|said| said.kind).min().unwrap_or(kind);
+        let texts: Vec<&str> = late.iter().map(|said| said.text.as_str()).collect();
+        vec![
+            event(before, false, first, self.text.clone()),
+            event(behind, true, last, texts.join(" ")),
+        ]
+    }
+
+    fn done(&self, said: &[&Said], force: InForce) -> Done {
+        let mut done = Done {
+            is_silent: true,
+            ..Done::default()
+        };
+        for said in said {
+            done.is_of_tool |= said.kind == EventKind::Tool;
+            done.is_silent &= matches!(said.kind, EventKind::Comment | EventKind::End);
+            let action = match (said.word, force.spindle, force.dwell_s) {
+                _ if self.is_optional => None,
+                (Word::Action(action), ..) => Some(action),
+                (Word::Spindle, Some(spindle), _) if spindle.mode == SpeedMode::Constant => {
+                    // A speed of a spindle that stands still is that of its start.
+                    if spindle.rotation == SpindleRotation::Stopped {
+                        done.states_speed = true;
+                        continue;
+                    }
+                    Some(EventAction::Spindle {
+                        rotation: spindle.rotation,
+                        rpm: spindle.speed,
+                    })
+                }
+                (Word::SpindleStop, spindle, _) => Some(EventAction::Spindle {
+                    rotation: SpindleRotation::Stopped,
+                    rpm: spindle.and_then(|spindle| spindle.speed),
+                }),
+                (Word::Dwell, _, Some(seconds)) => Some(EventAction::Wait { seconds }),
+                _ => None,
+            };
+            match (action, said.kind) {
+                (Some(action), _) if !done.actions.contains(&action) => done.actions.push(action),
+                (Some(_), _) | (None, EventKind::Comment | EventKind::End) => {}
+                (None, kind) => {
+                    done.rest = Some(done.rest.map_or(kind, |rest: EventKind| rest.min(kind)));
+                }
+            }
+        }
+        // The tool stands still, and the spindle with it, before somebody comes.
+        (done.actions).sort_by_key(|action| action.kind() == EventKind::Stop);
+        done
+    }
+}
