@@ -63,6 +63,10 @@ class LimitViolation(NamedTuple):
     upper: float
 
 
+_DEFLECTED = ("deflected_by", None)
+"""What an equilibrium under a wrench was asked, which it knows itself."""
+
+
 def _directions(text: str) -> tuple[Direction, ...]:
     def number(value: float | None) -> float:
         return np.inf if value is None else float(value)
@@ -211,7 +215,7 @@ class Equilibrium:
 
     def __reduce__(self) -> tuple[Any, ...]:
         kind, value = self._question
-        return getattr(Posture, kind), (self.posture, value)
+        return getattr(Posture, kind), (self.posture, self._native.wrench.tolist() if value is None else value)
 
     def __repr__(self) -> str:
         return repr(self._native)
@@ -328,8 +332,7 @@ class Posture:
         >>> round(float(loaded.displacement[0]) * 1e6, 1)
         33.3
         """
-        given = one("wrench", wrench, (6,)).tolist()
-        return Equilibrium(self, self._native.deflected_by(given), ("deflected_by", given))
+        return Equilibrium(self, self._native.deflected_by(wrench), _DEFLECTED)
 
     def held_at(self, pose: ArrayLike) -> Equilibrium:
         """Equilibrium with the tool held at a pose: the wrench that holds it is part of the answer.

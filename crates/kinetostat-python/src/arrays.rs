@@ -8,8 +8,10 @@ use numpy::ndarray::IntoDimension;
 use numpy::{IntoPyArray, PyArray, PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
+use rayon::prelude::*;
 
 use crate::errors::{Class, error};
+use crate::work::pool;
 
 /// An array of float64, C-contiguous: what `numpy.ascontiguousarray(x, dtype=float)` gives.
 pub type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
@@ -23,6 +25,21 @@ pub fn rows<'a>(
     array: &'a Numbers<'_>,
     shape: &[usize],
 ) -> PyResult<(usize, &'a [f64])> {
+    let (count, numbers) = shaped(name, array, shape)?;
+    if let Some(at) = numbers.iter().position(|x| !x.is_finite()) {
+        let each: usize = shape.iter().product();
+        let said = not_finite(name, numbers[at], at / each.max(1));
+        return Err(error(Class::Argument, said));
+    }
+    Ok((count, numbers))
+}
+
+fn not_finite(name: &str, number: f64, row: usize) -> String {
+    format!("{name} holds {number} in row {row}: give finite numbers")
+}
+
+/// The same without a look at the numbers.
+fn shaped<'a>(name: &str, array: &'a Numbers<'_>, shape: &[usize]) -> PyResult<(usize, &'a [f64])> {
     use numpy::PyUntypedArrayMethods;
     let found = array.shape();
     let single = found == shape;
@@ -45,72 +62,110 @@ pub fn rows<'a>(
             format!("{name} is not C-contiguous: use numpy.ascontiguousarray"),
         )
     })?;
-    if let Some(at) = numbers.iter().position(|x| !x.is_finite()) {
-        let each: usize = shape.iter().product();
-        return Err(error(
-            Class::Argument,
-            format!(
-                "{name} holds {} in row {}: give finite numbers",
-                numbers[at],
-                at / each.max(1)
-            ),
-        ));
-    }
     Ok((count, numbers))
 }
 
 /// How far a rotation matrix may be from one, entry by entry of `R^T R - 1`.
 const ROUNDED: f64 = 1e-6;
 
-/// A pose from sixteen numbers, a 4 x 4 matrix row by row.
-///
-/// # Errors
-/// A matrix that is no rigid motion: what is wrong with it.
-pub fn pose(name: &str, row: usize, m: &[f64]) -> PyResult<Pose> {
-    let refuse = |what: &str| {
-        Err(error(
-            Class::Argument,
-            format!("{name}[{row}] is no pose: {what}"),
-        ))
-    };
-    let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
-    if m[12..16] != [0.0, 0.0, 0.0, 1.0] {
-        return refuse("the last row of a 4 x 4 pose is 0 0 0 1");
-    }
-    if (rotation.transpose() * rotation - Matrix3::identity()).amax() > ROUNDED {
-        return refuse("its rotation is not orthonormal");
-    }
-    if rotation.determinant() < 0.0 {
-        return refuse("its rotation mirrors (determinant -1)");
-    }
-    let rotation =
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
-    Ok(Pose::from_parts(
-        Vector3::new(m[3], m[7], m[11]).into(),
-        rotation,
-    ))
+/// Reads poses one after the other: what one has in common with the one before is looked at once.
+#[derive(Default)]
+struct PoseReader {
+    /// The last rotation, row by row, and as the core takes it.
+    last: Option<([f64; 9], UnitQuaternion<f64>)>,
 }
 
-/// Poses read between two looks at signals: some milliseconds.
-const POSES_BETWEEN_SIGNALS: usize = 4096;
+impl PoseReader {
+    /// A pose from sixteen numbers, a 4 x 4 matrix row by row; or what is wrong with it.
+    fn pose(&mut self, name: &str, row: usize, m: &[f64; 16]) -> Result<Pose, String> {
+        // Without a branch for each number.
+        if !m.iter().fold(true, |all, x| all & x.is_finite()) {
+            let culprit = m.iter().find(|x| !x.is_finite()).unwrap_or(&f64::NAN);
+            return Err(not_finite(name, *culprit, row));
+        }
+        if m[12..] != [0.0, 0.0, 0.0, 1.0] {
+            return Err(no_pose(
+                name,
+                row,
+                "the last row of a 4 x 4 pose is 0 0 0 1",
+            ));
+        }
+        let own = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
+        let rotation = match self.last {
+            Some((last, rotation)) if last == own => rotation,
+            _ => rotation_of(&own).map_err(|what| no_pose(name, row, what))?,
+        };
+        self.last = Some((own, rotation));
+        Ok(Pose::from_parts(
+            Vector3::new(m[3], m[7], m[11]).into(),
+            rotation,
+        ))
+    }
+}
 
-/// Poses from an array (n, 4, 4). Millions of them take a while, in which others run and Ctrl-C is heard.
+fn no_pose(name: &str, row: usize, what: &str) -> String {
+    format!("{name}[{row}] is no pose: {what}")
+}
+
+/// A rotation from a 3 x 3 matrix row by row, or why it is none.
+fn rotation_of(rows: &[f64; 9]) -> Result<UnitQuaternion<f64>, &'static str> {
+    let matrix = Matrix3::from_row_slice(rows);
+    if (matrix.transpose() * matrix - Matrix3::identity()).amax() > ROUNDED {
+        return Err("its rotation is not orthonormal");
+    }
+    if matrix.determinant() < 0.0 {
+        return Err("its rotation mirrors (determinant -1)");
+    }
+    let rotation = Rotation3::from_matrix_unchecked(matrix);
+    Ok(UnitQuaternion::from_rotation_matrix(&rotation))
+}
+
+/// Poses that a thread reads at a time.
+const POSES_EACH: usize = 1024;
+
+/// Poses read between two looks at signals: some milliseconds.
+const POSES_BETWEEN_SIGNALS: usize = 256 * POSES_EACH;
+
+/// Poses from an array (n, 4, 4), read by so many threads. Millions of them take a while, in which others run and Ctrl-C is heard.
 ///
 /// # Errors
-/// As [`rows`] and [`pose`]; `KeyboardInterrupt`.
-pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
+/// As [`rows`], and the first matrix that is no rigid motion; `KeyboardInterrupt`.
+pub fn poses(name: &str, array: &Numbers<'_>, threads: Option<usize>) -> PyResult<Vec<Pose>> {
     let py = array.py();
-    let (count, numbers) = rows(name, array, &[4, 4])?;
+    let (count, numbers) = shaped(name, array, &[4, 4])?;
     let (each, _) = numbers.as_chunks::<16>();
-    let mut found = Vec::with_capacity(count);
-    for part in each.chunks(POSES_BETWEEN_SIGNALS) {
-        let first = found.len();
-        py.detach(|| {
-            for (i, m) in part.iter().enumerate() {
-                found.push(pose(name, first + i, m)?);
-            }
-            PyResult::Ok(())
-        })?;
+    let mut found = vec![Pose::identity(); count];
+    let read = |first: usize, given: &[[f64; 16]], to: &mut [Pose]| -> Result<(), String> {
+        let mut reader = PoseReader::default();
+        for (i, (m, pose)) in given.iter().zip(to).enumerate() {
+            *pose = reader.pose(name, first + i, m)?;
+        }
+        Ok(())
+    };
+    if count <= POSES_EACH {
+        read(0, each, &mut found).map_err(|what| error(Class::Argument, what))?;
+        return Ok(found);
+    }
+    let pool = pool(threads)?;
+    let parts = each.chunks(POSES_BETWEEN_SIGNALS);
+    for (part, (given, to)) in parts
+        .zip(found.chunks_mut(POSES_BETWEEN_SIGNALS))
+        .enumerate()
+    {
+        let fault = py.detach(|| {
+            pool.install(|| {
+                let blocks = given.par_chunks(POSES_EACH);
+                let blocks = blocks.zip(to.par_chunks_mut(POSES_EACH)).enumerate();
+                // The first one, whichever thread finds another before.
+                blocks.find_map_first(|(block, (given, to))| {
+                    let first = part * POSES_BETWEEN_SIGNALS + block * POSES_EACH;
+                    read(first, given, to).err()
+                })
+            })
+        });
+        if let Some(what) = fault {
+            return Err(error(Class::Argument, what));
+        }
         py.check_signals()?;
     }
     Ok(found)
@@ -121,14 +176,15 @@ pub fn poses(name: &str, array: &Numbers<'_>) -> PyResult<Vec<Pose>> {
 /// # Errors
 /// As [`rows`] and [`pose`], and more than one pose.
 pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
-    let (count, numbers) = rows(name, array, &[4, 4])?;
-    match count {
-        1 => pose(name, 0, numbers),
-        _ => Err(error(
-            Class::Argument,
-            format!("{name}: give one pose, not {count}"),
-        )),
-    }
+    let (count, numbers) = shaped(name, array, &[4, 4])?;
+    let said = match numbers.as_chunks::<16>().0 {
+        [only] => match PoseReader::default().pose(name, 0, only) {
+            Ok(pose) => return Ok(pose),
+            Err(what) => what,
+        },
+        _ => format!("{name}: give one pose, not {count}"),
+    };
+    Err(error(Class::Argument, said))
 }
 
 /// One wrench from anything that numpy takes for six finite numbers.
@@ -137,11 +193,17 @@ pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
 /// Another shape, complex numbers, text, NaN: what was expected and what was found.
 pub fn one_wrench(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Wrench> {
     // The usual kinds at once. Arrays of other dtypes would lose imaginary parts on the way.
-    let usual = given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>();
-    if (usual || given.cast::<PyArray1<f64>>().is_ok())
-        && let Ok(numbers) = given.extract::<[f64; 6]>()
-        && numbers.iter().all(|x| x.is_finite())
-    {
+    let usual = || given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>();
+    let numbers = match given.cast::<PyArray1<f64>>() {
+        // What is not contiguous, or being written, is read below.
+        Ok(array) => array.try_readonly().ok().and_then(|array| {
+            let numbers = array.as_slice().ok()?;
+            <[f64; 6]>::try_from(numbers).ok()
+        }),
+        Err(_) if usual() => given.extract::<[f64; 6]>().ok(),
+        Err(_) => None,
+    };
+    if let Some(numbers) = numbers.filter(|numbers| numbers.iter().all(|x| x.is_finite())) {
         return Ok(Wrench(Vector6::from(numbers)));
     }
     let arrays = given.py().import("kinetostat._arrays")?;

@@ -88,31 +88,73 @@ impl Columns {
     }
 }
 
-/// Puts rows of a table into rows of an array.
-fn put(table: &Table, to: &mut [f64]) {
+/// Postures that lie side by side in a table ([`Table::data`]).
+const SIDE_BY_SIDE: usize = 8;
+
+/// Hands over the rows of an array of so many columns, each with the columns of its posture's block of a table and the posture's
+/// place in them.
+fn by_rows<'a>(
+    table: &Table,
+    columns: usize,
+    to: &'a mut [f64],
+    mut row: impl FnMut(&[[f64; SIDE_BY_SIDE]], usize, &'a mut [f64]),
+) {
     let width = table.width();
-    if width == 0 {
+    if width == 0 || columns == 0 {
         return;
     }
-    for (i, row) in to.chunks_exact_mut(width).enumerate() {
-        for (k, number) in row.iter_mut().enumerate() {
-            *number = table.get(i, k);
+    let blocks = table.data().chunks_exact(SIDE_BY_SIDE * width);
+    for (block, rows) in blocks.zip(to.chunks_mut(SIDE_BY_SIDE * columns)) {
+        let (numbers, _) = block.as_chunks::<SIDE_BY_SIDE>();
+        for (i, own) in rows.chunks_exact_mut(columns).enumerate() {
+            // The remainder is what it is, and is seen to be in range.
+            row(numbers, i % SIDE_BY_SIDE, own);
         }
     }
 }
 
+/// Puts rows of a table into rows of an array.
+fn put(table: &Table, to: &mut [f64]) {
+    by_rows(table, table.width(), to, |numbers, i, row| {
+        for (number, column) in row.iter_mut().zip(numbers) {
+            *number = column[i];
+        }
+    });
+}
+
 /// Rows of 16 numbers, a 4 x 4 matrix each, from rows of 12: rotation row by row, position.
 fn put_poses(table: &Table, to: &mut [f64]) {
-    for (i, row) in to.chunks_exact_mut(16).enumerate() {
+    by_rows(table, 16, to, |numbers, i, row| {
         for k in 0..3 {
             for j in 0..3 {
-                row[4 * k + j] = table.get(i, 3 * k + j);
+                row[4 * k + j] = numbers[3 * k + j][i];
             }
-            row[4 * k + 3] = table.get(i, 9 + k);
+            row[4 * k + 3] = numbers[9 + k][i];
         }
         let known = !row[3].is_nan();
         row[12..15].fill(if known { 0.0 } else { f64::NAN });
         row[15] = if known { 1.0 } else { f64::NAN };
+    });
+}
+
+/// Limits of all actuators, in their order; infinite where there are none.
+struct Limits(Vec<(f64, f64)>);
+
+impl Limits {
+    fn of(machine: &Mechanism) -> Self {
+        let each = machine.limbs().iter().flat_map(|l| l.nominal.actuators());
+        let limits = each.map(|a| a.limits.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)));
+        Self(limits.collect())
+    }
+
+    /// States of postures with these commands, a row each.
+    fn states(&self, found: &[Status], commands: &[f64], to: &mut [u8]) {
+        let each = self.0.len();
+        for (i, (to, found)) in to.iter_mut().zip(found).enumerate() {
+            let own = commands[i * each..].iter().zip(&self.0);
+            let outside = own.fold(false, |any, (x, (low, high))| any | (x < low) | (x > high));
+            *to = number(*found, outside);
+        }
     }
 }
 
@@ -142,9 +184,10 @@ impl Places {
         machine: &Machine,
         targets: Option<&Numbers<'_>>,
         joints: Option<&Numbers<'_>>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         match (targets, joints) {
-            (Some(targets), None) => Ok(Self::Poses(poses("poses", targets)?)),
+            (Some(targets), None) => Ok(Self::Poses(poses("poses", targets, threads)?)),
             (None, Some(joints)) => {
                 let each = machine.mechanism.actuator_count();
                 let (_, numbers) = rows("joints", joints, &[each])?;
@@ -172,6 +215,14 @@ impl Places {
                 // The first row was tried, and all rows have its length.
                 let _ = batch.stiffness_at_joints_into(&commands[from * each..to * each], out);
             }
+        }
+    }
+
+    /// Commands that were given, of the rows from one to another.
+    fn given(&self, from: usize, to: usize) -> Option<&[f64]> {
+        match self {
+            Self::Poses(_) => None,
+            Self::Joints(commands, each) => Some(&commands[from * each..to * each]),
         }
     }
 
@@ -230,19 +281,21 @@ pub fn stiffness_of_many<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let places = Places::of(machine, poses.as_ref(), joints.as_ref())?;
-    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
+    let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let manner = Manner { threads, progress };
     let columns = done(py, count, &manner, move |course| {
         let mut columns = Columns::new(count, &[36, actuators]);
         columns.fill(course, |found: &mut BatchStiffness, first, out, status| {
-            places.stiffness(&batch, first, first + status.len(), found);
+            let end = first + status.len();
+            places.stiffness(&batch, first, end, found);
             put(&found.stiffness, out[0]);
-            put(&found.commands, out[1]);
-            for (i, status) in status.iter_mut().enumerate() {
-                *status = number(found.status[i], found.outside_limits(&mechanism, i));
+            match places.given(first, end) {
+                Some(commands) => out[1].copy_from_slice(commands),
+                None => put(&found.commands, out[1]),
             }
+            limits.states(&found.status, out[1], status);
         });
         columns
     })?;
@@ -268,8 +321,9 @@ pub fn equilibrium_of_many<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let places = Places::of(machine, poses.as_ref(), joints.as_ref())?;
+    let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
     let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let limits = Limits::of(&mechanism);
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let wrenches = each_wrench(count, &wrenches)?;
     let details = match details {
@@ -317,9 +371,7 @@ pub fn equilibrium_of_many<'py>(
                 put(&found.actuator_forces, out[3]);
                 put(&found.stiffness, out[4]);
                 put(&found.stability, out[5]);
-                for (i, status) in status.iter_mut().enumerate() {
-                    *status = number(found.status[i], found.outside_limits(&mechanism, i));
-                }
+                limits.states(&found.status, out[2], status);
             },
         );
         columns
@@ -353,8 +405,8 @@ pub fn targets_of_many<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let wanted = crate::arrays::poses("poses", &poses)?;
-    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
+    let wanted = crate::arrays::poses("poses", &poses, threads)?;
+    let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let (count, actuators) = (wanted.len(), machine.mechanism.actuator_count());
     let wrenches = each_wrench(count, &wrenches)?;
     let chosen = (0..6).filter(|k| directions[*k]);
@@ -378,10 +430,7 @@ pub fn targets_of_many<'py>(
             let equilibrium = &found.equilibrium;
             put_poses(&equilibrium.tool, out[1]);
             put(&equilibrium.commands, out[2]);
-            for (i, status) in status.iter_mut().enumerate() {
-                let outside = equilibrium.outside_limits(&mechanism, i);
-                *status = number(equilibrium.status[i], outside);
-            }
+            limits.states(&equilibrium.status, out[2], status);
         });
         columns
     })?;

@@ -95,7 +95,7 @@ pub fn evaluate_many<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let places = read_poses("poses", &poses)?;
+    let places = read_poses("poses", &poses, threads)?;
     let count = places.len();
     let wrenches = wrenches
         .map(|wrenches| each_wrench(count, &wrenches))

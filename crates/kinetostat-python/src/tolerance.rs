@@ -43,7 +43,7 @@ pub fn tolerance_of_machine<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let places: Vec<Pose> = poses("poses", &places)?;
+    let places: Vec<Pose> = poses("poses", &places, threads)?;
     let wrench: Wrench = wrenches("wrench", &wrench)?
         .first()
         .copied()

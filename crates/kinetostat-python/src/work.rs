@@ -33,7 +33,11 @@ pub fn forked() {
     std::mem::forget(std::mem::take(&mut *pools));
 }
 
-fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
+/// Our own threads, so many, or as many as there are cores.
+///
+/// # Errors
+/// A number of threads that cannot be.
+pub fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     let count = threads.unwrap_or(0);
     if threads == Some(0) || count > 1024 {
         return Err(error(

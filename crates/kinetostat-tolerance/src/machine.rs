@@ -1,6 +1,6 @@
 //! A machine as a function of its uncertain numbers: built as drawn by chance, commanded as the drawing says.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
 use kinetostat::nalgebra::Vector3;
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_model::{Model, ModelError, ParametricModel};
@@ -120,9 +120,11 @@ pub struct UncertainMachine {
     sources: Vec<Source>,
     tool: Pose,
     drawn: Mechanism,
-    places: Vec<Pose>,
+    /// The same, compiled: what all draws have of it is made once.
+    batch: Batch,
+    places: Commanded,
     /// Commands that compensate the load with the numbers of the drawing.
-    compensated: Vec<Pose>,
+    compensated: Commanded,
     wrench: Wrench,
     quantities: Vec<Quantity>,
 }
@@ -152,23 +154,25 @@ impl UncertainMachine {
         let parametric = model.parametric(&file.parameters())?;
         let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
         let drawn = parametric.mechanism(&nominal)?.with_tool(tool);
-        let mut machine = Self {
+        let batch = Batch::new(&drawn);
+        let mut targets = Vec::new();
+        if quantities.contains(&Quantity::Compensated) {
+            let positions = Directions::NONE.with(0).with(1).with(2);
+            let wrenches = vec![wrench; places.len()];
+            let found = batch.targets_under_load(places, &wrenches, positions)?;
+            targets = found.targets;
+        }
+        let machine = Self {
             parametric,
             sources: file.sources.clone(),
             tool: *tool,
             drawn,
-            places: places.to_vec(),
-            compensated: Vec::new(),
+            places: batch.commanded(places),
+            compensated: batch.commanded(&targets),
+            batch,
             wrench,
             quantities: quantities.to_vec(),
         };
-        if quantities.contains(&Quantity::Compensated) {
-            let positions = Directions::NONE.with(0).with(1).with(2);
-            let wrenches = vec![wrench; places.len()];
-            let found =
-                Batch::new(&machine.drawn).targets_under_load(places, &wrenches, positions)?;
-            machine.compensated = found.targets;
-        }
         let mut out = vec![0.0; machine.width()];
         machine.answer(
             &file.uncertainties.nominal(),
@@ -203,13 +207,13 @@ impl UncertainMachine {
     /// Numbers of one answer: places times columns.
     #[must_use]
     pub fn width(&self) -> usize {
-        self.places.len() * self.columns().len()
+        self.places() * self.columns().len()
     }
 
     /// Number of places.
     #[must_use]
     pub fn places(&self) -> usize {
-        self.places.len()
+        self.places.poses().len()
     }
 
     /// The machine with these numbers: place after place, column after column; NaN where a place has no answer. Returns the places at
@@ -236,31 +240,30 @@ impl UncertainMachine {
         }
         wrench.0 *= factor;
         let built = self.parametric.mechanism(&numbers)?.with_tool(&self.tool);
-        let batch = Batch::new(&built.commanded_as(&self.drawn)?);
+        let batch = self.batch.built(&built)?;
+        let count = self.places();
         let asked = |some: &[Quantity]| self.quantities.iter().any(|q| some.contains(q));
         let wrenches = &mut room.wrenches;
         if asked(&[Quantity::Error, Quantity::Deflection]) {
-            refill(wrenches, Wrench::zero(), self.places.len());
-            batch.equilibrium_into(&self.places, wrenches, Details::Rest, &mut room.unloaded)?;
+            refill(wrenches, Wrench::zero(), count);
+            let out = &mut room.unloaded;
+            batch.equilibrium_commanded_into(&self.places, wrenches, Details::Rest, out)?;
         }
-        refill(wrenches, wrench, self.places.len());
+        refill(wrenches, wrench, count);
         let mut unstable = 0;
         if asked(&[
             Quantity::Deflection,
             Quantity::Deviation,
             Quantity::Stiffness,
         ]) {
-            batch.equilibrium_into(&self.places, wrenches, Details::Stability, &mut room.loaded)?;
-            let stable = (0..self.places.len()).filter_map(|i| room.loaded.stability(i));
+            let out = &mut room.loaded;
+            batch.equilibrium_commanded_into(&self.places, wrenches, Details::Stability, out)?;
+            let stable = (0..count).filter_map(|i| room.loaded.stability(i));
             unstable = stable.filter(|s| !s.stable).count();
         }
         if asked(&[Quantity::Compensated]) {
-            batch.equilibrium_into(
-                &self.compensated,
-                wrenches,
-                Details::Rest,
-                &mut room.compensated,
-            )?;
+            let (places, out) = (&self.compensated, &mut room.compensated);
+            batch.equilibrium_commanded_into(places, wrenches, Details::Rest, out)?;
         }
         let each = self.columns().len();
         for (place, row) in out.chunks_exact_mut(each.max(1)).enumerate() {
@@ -270,7 +273,7 @@ impl UncertainMachine {
     }
 
     fn put(&self, place: usize, room: &Room, row: &mut [f64]) {
-        let target = self.places[place].translation.vector;
+        let target = self.places.poses()[place].translation.vector;
         let mut rest = row;
         for quantity in &self.quantities {
             let (own, after) = std::mem::take(&mut rest).split_at_mut(quantity.columns().len());

@@ -1,11 +1,14 @@
-//! Figures of the Python package: its wheel, its import, and what a call costs beside Rust.
+//! Figures of the Python package: its wheel, its import, what a call costs beside Rust, a large map, and many machines.
+
+use std::path::PathBuf;
+use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
 use super::environment::{Environment, folder};
 use super::interpreter::ends;
 use super::wheel;
-use crate::figures::{Figure, printed};
+use crate::figures::{Figure, printed, tables};
 use crate::{cargo, root, step};
 
 /// Measures them; says why where Python or the package index is missing.
@@ -44,16 +47,31 @@ pub fn measured(figures: &mut Vec<Figure>) -> Result<()> {
         ]),
     )?;
     let program = folder().with_file_name("release").join("python_calls");
-    let output = alone
-        .python()
-        .arg(root().join("benches/python/overhead.py"))
-        .arg(program)
+    script(figures, alone.python(), "overhead.py", &[program])?;
+    script(figures, tools.holding(&file)?.python(), "maps.py", &[])?;
+    let machines = ["--example", "machines_per_second", "--", "20000", "100"];
+    tables(
+        figures,
+        &[&["kinetostat-tolerance"][..], &machines].concat(),
+    )
+}
+
+/// A script of `benches/python` that prints figures, and what else it says on stderr.
+fn script(
+    figures: &mut Vec<Figure>,
+    mut python: Command,
+    name: &str,
+    words: &[PathBuf],
+) -> Result<()> {
+    let output = python
+        .arg(root().join("benches/python").join(name))
+        .args(words)
         .output()
         .context("cannot start Python")?;
     let text = String::from_utf8_lossy(&output.stdout);
     if !output.status.success() {
         bail!(
-            "benches/python/overhead.py failed: {}",
+            "benches/python/{name} failed: {}",
             String::from_utf8_lossy(&output.stderr)
         );
     }

@@ -2,19 +2,34 @@
 
 use std::any::Any;
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Buffers that are not in use, of whatever kind and for whatever instruction set.
 ///
 /// Nothing is found in them that an answer depends on: each group of postures writes over what it reads.
 #[derive(Default)]
-pub(crate) struct Buffers(Mutex<Vec<Box<dyn Any + Send>>>);
+pub(crate) struct Buffers(Arc<Mutex<Vec<Box<dyn Any + Send>>>>);
 
 impl Buffers {
+    /// The same buffers, for a machine that differs in numbers.
+    pub fn shared(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+
     /// Takes buffers of a kind, or makes them.
     pub fn take<T: Send + 'static>(&self, make: impl FnOnce() -> T) -> Box<T> {
+        self.take_fitting(|_| true, make)
+    }
+
+    /// Takes buffers of a kind that fit, or makes them.
+    pub fn take_fitting<T: Send + 'static>(
+        &self,
+        fits: impl Fn(&T) -> bool,
+        make: impl FnOnce() -> T,
+    ) -> Box<T> {
         let mut free = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = free.iter().rposition(|kept| kept.is::<T>());
+        let fitting = |kept: &Box<dyn Any + Send>| kept.downcast_ref().is_some_and(&fits);
+        let own = free.iter().rposition(fitting);
         let own = own.map(|k| free.swap_remove(k).downcast::<T>());
         drop(free);
         match own {

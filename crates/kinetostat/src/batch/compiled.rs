@@ -129,7 +129,7 @@ impl Batch {
 
     pub(crate) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture> {
         match places {
-            Places::Poses(poses) => self.mechanism.posture(&poses[i]),
+            Places::Poses(poses) | Places::Known { poses, .. } => self.mechanism.posture(&poses[i]),
             Places::Joints { commands, each } => {
                 let limb = &self.mechanism.limbs()[0];
                 let joints = LimbPosture {
@@ -154,7 +154,7 @@ pub(crate) fn in_parallel<'a>(jobs: impl Iterator<Item = Job<'a>>, count: usize)
 }
 
 /// Nothing but weight acts on limbs and platforms, or what else.
-fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
+pub(crate) fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         if !mechanism.loads(i).is_empty() {
             return Err(NoKernel::LoadedLimb(limb.name.clone()));
@@ -167,7 +167,7 @@ fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
 }
 
 /// Plans of all limbs, or why there are none.
-fn compiled(
+pub(crate) fn compiled(
     mechanism: &Mechanism,
     chain: impl Fn(&Limb) -> &Chain,
 ) -> std::result::Result<Arc<[Plan]>, NoKernel> {

@@ -479,7 +479,7 @@ impl Batch {
         })
     }
 
-    fn loaded(
+    pub(crate) fn loaded(
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],

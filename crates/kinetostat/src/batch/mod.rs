@@ -20,6 +20,7 @@
 //! is computed at once, too, far below what is written of it.
 
 mod buffers;
+mod commanded;
 mod compiled;
 mod equilibria;
 pub(crate) mod limb;
@@ -33,6 +34,7 @@ mod status;
 mod stiffness;
 mod table;
 
+pub use commanded::Commanded;
 pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Details, PostureStability};
 pub use models::over_machines;

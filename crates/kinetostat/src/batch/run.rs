@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 
 use crate::batch::buffers::Buffers;
 use crate::batch::limb::loaded::{ALONG_PATH, EXACT};
-use crate::batch::limb::reach::Joints;
+use crate::batch::limb::reach::{Joints, MOST_STEPS};
 use crate::batch::limb::shape::Shape;
 use crate::batch::limb::unloaded::ForwardPass;
 use crate::batch::machine::group::{Group, Places};
@@ -14,11 +14,11 @@ use crate::batch::machine::loaded::{Machine, bounded};
 use crate::batch::numbers::instruction_set::InstructionSet;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
-use crate::batch::numbers::vectors::{carried, constant};
+use crate::batch::numbers::vectors::{carried, constant, select};
 use crate::batch::plan::steps::Plan;
 use crate::batch::status::Status;
 use crate::batch::table::BLOCK;
-use crate::spatial::{Directions, Wrench};
+use crate::spatial::{Directions, Pose, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
 pub(crate) enum Job<'a> {
@@ -30,6 +30,12 @@ pub(crate) enum Job<'a> {
         jacobian: &'a mut [f64],
         commands: &'a mut [f64],
         status: &'a mut [Status],
+    },
+    /// Joints that lead to poses: limb after limb commands, passive joints; not numbers where none are found.
+    Joints {
+        nominal: &'a [Plan],
+        poses: &'a [Pose],
+        joints: &'a mut [f64],
     },
     Loaded {
         nominal: &'a Arc<[Plan]>,
@@ -70,6 +76,7 @@ impl Job<'_> {
     fn len(&self) -> usize {
         match self {
             Self::Unloaded { status, .. } => status.len(),
+            Self::Joints { poses, .. } => poses.len(),
             Self::Loaded { answers, .. } => answers.status.len(),
         }
     }
@@ -96,6 +103,11 @@ impl WithSimd for Job<'_> {
                 [stiffness, jacobian, commands],
                 status,
             ),
+            Self::Joints {
+                nominal,
+                poses,
+                joints,
+            } => known(simd, nominal, poses, joints),
             Self::Loaded {
                 nominal,
                 actual,
@@ -109,7 +121,9 @@ impl WithSimd for Job<'_> {
                 mut answers,
             } => {
                 let make = || Machine::new(simd, nominal, actual, body, gravity);
-                let mut machine = buffers.take(make);
+                let fits = |kept: &Machine<S>| kept.fits(nominal, actual);
+                let mut machine = buffers.take_fitting(fits, make);
+                machine.becomes(nominal, actual, body, gravity);
                 if !answers.stability.is_empty() && machine.shapes.is_empty() {
                     machine.shapes = actual.iter().map(|a| Shape::new(simd, a)).collect();
                 }
@@ -128,6 +142,14 @@ impl WithSimd for Job<'_> {
                         let start = match places {
                             Places::Joints { commands, each } => {
                                 machine.start_at_joints(simd, &group, commands, each)
+                            }
+                            Places::Known {
+                                poses,
+                                joints,
+                                width,
+                            } => {
+                                let target = group.target(simd, poses);
+                                machine.start_with(simd, &group, target, (joints, width))
                             }
                             Places::Poses(poses) if first > from => {
                                 machine.go_on(simd, group.target(simd, poses), directions)
@@ -192,6 +214,32 @@ impl<S: Simd> Machine<S> {
     }
 }
 
+/// Joints of the unloaded machine at its places, searched from home as [`Machine::start_at`] does.
+#[inline(always)]
+fn known<S: Simd>(simd: S, nominal: &[Plan], poses: &[Pose], joints: &mut [f64]) {
+    let one = Lanes::new(simd, 1.0);
+    let mut limbs: Vec<(ForwardPass<S>, Joints<S>)> = nominal
+        .iter()
+        .map(|plan| (ForwardPass::new(simd, plan), Joints::new(simd, plan)))
+        .collect();
+    for first in (0..poses.len()).step_by(S::F64_LANES) {
+        let group = Group::of_neighbours(first, poses.len());
+        let target = group.target(simd, poses);
+        let mut from = 0;
+        for (plan, (forward, own)) in nominal.iter().zip(&mut limbs) {
+            own.home(simd, plan, one);
+            let away = own.find(simd, plan, forward, &target, (MOST_STEPS, one));
+            for numbers in [&mut own.commands, &mut own.passive] {
+                for x in numbers.iter_mut() {
+                    *x = select(away, one * f64::NAN, *x);
+                }
+                group.put(joints, from, numbers);
+                from += numbers.len();
+            }
+        }
+    }
+}
+
 /// Buffers of a machine without load: of every limb, and of a Jacobian whose columns are summed up.
 struct Unloaded<S: Simd> {
     limbs: Vec<(ForwardPass<S>, Joints<S>)>,
@@ -236,7 +284,7 @@ fn unloaded<S: Simd>(
                 good = own.regular.least_of(within);
                 sum = own.matrix;
             }
-            Places::Poses(poses) => {
+            Places::Poses(poses) | Places::Known { poses, .. } => {
                 let target = group.target(simd, poses);
                 for (plan, (forward, joints)) in plans.iter().zip(limbs.iter_mut()) {
                     let reached = joints.reach(simd, plan, forward, &target);

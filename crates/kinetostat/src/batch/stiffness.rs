@@ -111,7 +111,7 @@ impl Batch {
         out.jacobian.reset(width, count);
         // Commands that were given are known.
         let commands = match places {
-            Places::Poses(_) => self.commands(),
+            Places::Poses(_) | Places::Known { .. } => self.commands(),
             Places::Joints { .. } => 0,
         };
         out.commands.reset(commands, count);

@@ -15,24 +15,42 @@ pub(crate) const REGULAR: f64 = 1e-9;
 #[derive(Clone, Copy)]
 pub(crate) enum Places<'a> {
     Poses(&'a [Pose]),
-    Joints { commands: &'a [f64], each: usize },
+    Joints {
+        commands: &'a [f64],
+        each: usize,
+    },
+    /// With the joints that lead to the poses, `width` numbers each as in a [`crate::batch::Table`].
+    Known {
+        poses: &'a [Pose],
+        joints: &'a [f64],
+        width: usize,
+    },
 }
 
 impl<'a> Places<'a> {
     pub fn len(&self) -> usize {
         match self {
-            Self::Poses(poses) => poses.len(),
+            Self::Poses(poses) | Self::Known { poses, .. } => poses.len(),
             Self::Joints { commands, each } => commands.len() / each,
         }
     }
 
-    /// Without the first ones.
+    /// Without the first ones, which are whole blocks.
     pub fn from(&self, first: usize) -> Self {
         match *self {
             Self::Poses(poses) => Self::Poses(&poses[first..]),
             Self::Joints { commands, each } => Self::Joints {
                 commands: &commands[first * each..],
                 each,
+            },
+            Self::Known {
+                poses,
+                joints,
+                width,
+            } => Self::Known {
+                poses: &poses[first..],
+                joints: &joints[first * width..],
+                width,
             },
         }
     }
@@ -159,6 +177,26 @@ impl Group {
                 one - double(x, x) - double(y, y),
             ],
             point,
+        }
+    }
+
+    /// Numbers of these postures from their places of a table, those after the first `from` of `width`.
+    #[inline(always)]
+    pub fn numbers<S: Simd>(
+        &self,
+        simd: S,
+        (table, width): (&[f64], usize),
+        from: usize,
+        to: &mut [Lanes<S>],
+    ) {
+        for (k, x) in to.iter_mut().enumerate() {
+            let mut values = [0.0; BLOCK];
+            for lane in 0..S::F64_LANES {
+                let item = self.item(lane);
+                let block = (item / BLOCK) * width + from + k;
+                values[lane] = table[block * BLOCK + item % BLOCK];
+            }
+            *x = Lanes::load(simd, &values);
         }
     }
 

@@ -102,6 +102,31 @@ impl<S: Simd> Machine<S> {
         }
     }
 
+    /// Its buffers have the sizes that another machine of the same instruction set needs.
+    pub fn fits(&self, nominal: &[Plan], actual: &[Plan]) -> bool {
+        let alike = |ours: &[Plan], theirs: &[Plan]| {
+            ours.len() == theirs.len() && ours.iter().zip(theirs).all(|(a, b)| a.is_like(b))
+        };
+        alike(&self.nominal, nominal) && alike(&self.actual, actual)
+    }
+
+    /// Becomes another machine that it fits.
+    pub fn becomes(
+        &mut self,
+        nominal: &Arc<[Plan]>,
+        actual: &Arc<[Plan]>,
+        body: ([f64; 3], f64),
+        gravity: [f64; 3],
+    ) {
+        if !Arc::ptr_eq(&self.nominal, nominal) {
+            self.nominal = Arc::clone(nominal);
+        }
+        if !Arc::ptr_eq(&self.actual, actual) {
+            self.actual = Arc::clone(actual);
+        }
+        (self.body, self.gravity) = (body, gravity);
+    }
+
     #[inline(always)]
     pub fn actuator_forces(&mut self, simd: S) {
         self.forces.fill(Lanes::new(simd, 0.0));

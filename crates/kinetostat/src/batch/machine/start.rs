@@ -56,6 +56,37 @@ impl<S: Simd> Machine<S> {
         good.least_of(self.update_compliance(simd, one))
     }
 
+    /// The machine commanded to a place, unloaded, with joints that are known: one in the lanes that can go on.
+    #[inline(always)]
+    pub fn start_with(
+        &mut self,
+        simd: S,
+        group: &Group,
+        place: Target<S>,
+        (joints, width): (&[f64], usize),
+    ) -> Lanes<S> {
+        let mut all = Lanes::new(simd, 0.0);
+        (self.place, self.target) = (place, place);
+        (self.rotation, self.point) = (place.rotation, place.point);
+        let mut from = 0;
+        for own in &mut self.joints {
+            for numbers in [&mut own.commands, &mut own.passive] {
+                group.numbers(simd, (joints, width), from, numbers);
+                from += numbers.len();
+                for x in numbers.iter() {
+                    all = x.times_plus(x.same(0.0), all);
+                }
+            }
+        }
+        // Where one of them is no number, nothing leads to the place.
+        let good = Lanes::new(simd, 1.0).least_of(all + 1.0);
+        if self.is_serial() {
+            return good;
+        }
+        self.start_limbs();
+        good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
+    }
+
     /// The machine commanded to the next place of a path: it goes there as it is bent, with the correction that it has in
     /// these directions. Lanes whose posture was not found start from home. One in the lanes that can go on.
     #[inline(always)]

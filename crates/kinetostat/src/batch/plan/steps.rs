@@ -188,6 +188,24 @@ impl Plan {
         self.steps.iter().filter(own).count()
     }
 
+    /// The same joints and springs with other numbers: buffers of one fit the other.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let kind = std::mem::discriminant::<Support>;
+        let law = std::mem::discriminant::<Law>;
+        let like = |(a, b): (&Step, &Step)| match (a, b) {
+            (Step::Joint(a), Step::Joint(b)) => kind(&a.support) == kind(&b.support),
+            (Step::Spring(a), Step::Spring(b)) => {
+                a.coordinates == b.coordinates && law(&a.law) == law(&b.law)
+            }
+            (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b),
+        };
+        (self.coordinates, self.commands) == (other.coordinates, other.commands)
+            && self.passive == other.passive
+            && self.screws.len() == other.screws.len()
+            && self.steps.len() == other.steps.len()
+            && self.steps.iter().zip(&other.steps).all(like)
+    }
+
     /// Newton's iteration along the limb is compiled: serial, springs of constant matrices.
     pub fn has_tangent(&self) -> bool {
         let linear = |step: &Step| match step {

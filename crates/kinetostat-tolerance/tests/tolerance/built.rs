@@ -1,0 +1,108 @@
+//! Machines built with other numbers than those of the drawing, their joints known from it: against the general engine posture by
+//! posture, and bit by bit against machines that are compiled one by one.
+
+use kinetostat::batch::{Batch, BatchEquilibrium, Details, Status};
+use kinetostat::spatial::pose_residual;
+use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat_model::Model;
+use kinetostat_testing::Worst;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A preset, numbers of it that are built otherwise, and how far places lie from home, m.
+const MACHINES: [(&str, &[(&str, f64)], f64); 3] = [
+    (
+        "orthoglide",
+        &[
+            ("chain.leg.q2.length_mm", 310.05),
+            ("section.foot beam.scale", 1.03),
+            ("deviation.leg y.foot arm.rotation_vector_deg.z", 0.01),
+        ],
+        0.05,
+    ),
+    (
+        "heavy_6r",
+        &[("chain.arm.joint 2.stiffness_n_m_per_rad", 6.1e6)],
+        0.2,
+    ),
+    (
+        "hexapod",
+        &[("deviation.leg 1.end.translation_mm.x", 0.2)],
+        0.02,
+    ),
+];
+
+/// Around home, and one that no machine reaches; not a multiple of what lies side by side.
+fn places(machine: &Mechanism, size: f64) -> Vec<Pose> {
+    let home = machine.platforms()[machine.tool()].home;
+    let at = |i: usize| {
+        let [x, y, z] = [0, 1, 2].map(|k| ((7 * i + 3 * k) % 11) as f64 / 5.5 - 1.0);
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::zeros());
+        let shift = if i == 9 { 50.0 } else { size };
+        Pose::from_parts((shift * Vector3::new(x, y, z)).into(), turn)
+    };
+    (0..21)
+        .map(|i| {
+            let by = at(i);
+            Pose::from_parts(
+                (home.translation.vector + by.translation.vector).into(),
+                home.rotation,
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
+    let load = Wrench::new(
+        Vector3::new(215.0, -10.0, -25.0),
+        Vector3::new(1.0, 2.0, -0.5),
+    );
+    for (name, changes, size) in MACHINES {
+        let model = Model::preset(name).expect("a preset");
+        let paths: Vec<&str> = changes.iter().map(|(path, _)| *path).collect();
+        let parametric = model.parametric(&paths).expect("parameters");
+        let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
+        let as_drawn = parametric.mechanism(&nominal).expect("a machine");
+        let drawn = Batch::new(&as_drawn);
+        let poses = places(&as_drawn, size);
+        let known = drawn.commanded(&poses);
+        let loads = vec![load; poses.len()];
+        let mut found = BatchEquilibrium::default();
+        let (mut worst, mut solved) = (Worst::new(), 0);
+        // More and less than drawn, one after the other in the same rooms.
+        for share in [1.0, -1.0, 0.5] {
+            let both = nominal.iter().zip(changes);
+            let numbers: Vec<f64> = both.map(|(x, (_, to))| x + share * (to - x)).collect();
+            let built = &parametric.mechanism(&numbers).expect("a machine");
+            drawn
+                .built(built)
+                .and_then(|b| {
+                    b.equilibrium_commanded_into(&known, &loads, Details::Stability, &mut found)
+                })
+                .expect("answers");
+            let alone = built.commanded_as(&as_drawn).expect("as drawn");
+            let compiled = Batch::new(&alone)
+                .equilibrium(&poses, &loads, Details::Stability)
+                .expect("answers");
+            assert_eq!(found.status, compiled.status, "{name}");
+            for i in 0..poses.len() {
+                let bits = |of: &BatchEquilibrium| -> Vec<u64> {
+                    let rows = of.tool.row(i).chain(of.stiffness.row(i));
+                    let rows = rows.chain(of.commands.row(i)).chain(of.stability.row(i));
+                    rows.map(f64::to_bits).collect()
+                };
+                assert_eq!(bits(&found), bits(&compiled), "{name}, place {i}");
+                if found.status[i] != Status::Vectorised {
+                    continue;
+                }
+                solved += 1;
+                let posture = alone.posture(&poses[i]).expect("a posture");
+                let general = posture.deflected_by(&load).expect("an equilibrium");
+                let off = pose_residual(&found.tool_pose(i), &general.tool);
+                worst.add_at(off.0.norm(), || format!("{name}, place {i}"));
+            }
+        }
+        assert!(solved >= 3 * 15, "{name}: only {solved} are vectorised");
+        assert!(worst.value() < 1e-12, "{name}: {worst:?}");
+    }
+}

@@ -1,0 +1,130 @@
+//! Machines that are built with other numbers than one that is drawn, and commanded as that one.
+//!
+//! Where such a machine is commanded depends on the drawing alone: the plans without load are compiled once, and so are
+//! the joints of every posture found once ([`Commanded`]). What is left for each machine is its own springs and errors.
+
+use std::sync::Arc;
+
+use crate::batch::compiled::{BLOCKS, Batch, compiled, in_parallel, unburdened};
+use crate::batch::equilibria::{BatchEquilibrium, Details};
+use crate::batch::machine::group::Places;
+use crate::batch::plan::steps::Plan;
+use crate::batch::run::Job;
+use crate::batch::table::{BLOCK, Table};
+use crate::error::Result;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{Pose, Wrench};
+
+/// Poses that a machine is commanded to, with the joints that lead there as it is drawn.
+#[derive(Clone, Debug)]
+pub struct Commanded {
+    pub(crate) poses: Vec<Pose>,
+    /// Of each pose, limb after limb: commands, passive joints; not numbers where no search of the kernels leads there.
+    pub(crate) joints: Table,
+    /// Of whose plans the joints are; none where no kernel knows the machine.
+    pub(crate) of: Option<Arc<[Plan]>>,
+}
+
+impl Commanded {
+    /// The poses.
+    #[must_use]
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// With the joints where they are those of a batch, else the poses alone.
+    pub(crate) fn places(&self, batch: &Batch) -> Places<'_> {
+        match (&self.of, &batch.nominal) {
+            (Some(ours), Ok(theirs)) if Arc::ptr_eq(ours, theirs) => Places::Known {
+                poses: &self.poses,
+                joints: self.joints.data(),
+                width: self.joints.width(),
+            },
+            _ => Places::Poses(&self.poses),
+        }
+    }
+}
+
+impl Batch {
+    /// Finds the joints that lead to `poses`, for this machine and for all that are [`Self::built`] with other numbers.
+    #[must_use]
+    pub fn commanded(&self, poses: &[Pose]) -> Commanded {
+        let mut joints = Table::default();
+        let of = self.nominal.as_ref().ok();
+        if let Some(nominal) = of {
+            let width = nominal.iter().map(|p| p.commands + p.passive.len()).sum();
+            joints.reset(width, poses.len());
+            let parts = joints.parts(BLOCKS).enumerate();
+            let jobs = parts.map(|(k, joints)| {
+                let from = k * BLOCKS * BLOCK;
+                Job::Joints {
+                    nominal,
+                    poses: &poses[from..(from + BLOCKS * BLOCK).min(poses.len())],
+                    joints,
+                }
+            });
+            in_parallel(jobs, poses.len());
+        }
+        Commanded {
+            poses: poses.to_vec(),
+            joints,
+            of: of.cloned(),
+        }
+    }
+
+    /// A machine that is built with other numbers, and commanded as this one is drawn ([`Mechanism::commanded_as`]).
+    ///
+    /// ```
+    /// use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+    /// use kinetostat::nalgebra::{Vector3, vector};
+    /// use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose, Wrench};
+    ///
+    /// let gantry = |drive: f64| {
+    ///     let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, drive); // N/m
+    ///     let chain = Chain::builder("gantry")
+    ///         .actuator("x", slide(Vector3::x()))
+    ///         .actuator("y", slide(Vector3::y()))
+    ///         .build()?;
+    ///     Mechanism::serial(chain, Pose::identity(), Vector3::zeros())
+    /// };
+    /// let drawn = Batch::new(&gantry(5e7)?);
+    /// let places = drawn.commanded(&[Pose::translation(0.1, 0.2, 0.0)]);
+    /// let mut found = BatchEquilibrium::default();
+    /// for drive in [4.9e7, 5.1e7] {
+    ///     let load = [Wrench::new(vector![500.0, 0.0, 0.0], Vector3::zeros())]; // N
+    ///     drawn.built(&gantry(drive)?)?.equilibrium_commanded_into(&places, &load, Details::Rest, &mut found)?;
+    ///     let moved = found.tool_pose(0).translation.x - places.poses()[0].translation.x;
+    ///     assert!((moved - 500.0 / drive).abs() < 1e-15);
+    /// }
+    /// # Ok::<(), kinetostat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Mechanism::commanded_as`].
+    pub fn built(&self, machine: &Mechanism) -> Result<Self> {
+        let mechanism = machine.commanded_as(&self.mechanism)?;
+        let actual = unburdened(&mechanism).and_then(|()| compiled(&mechanism, |l| &l.actual));
+        Ok(Self {
+            mechanism,
+            // Compiled of chains that are the drawing's.
+            nominal: self.nominal.clone(),
+            actual,
+            along: self.along,
+            buffers: self.buffers.shared(),
+        })
+    }
+
+    /// As [`Self::equilibrium_into`], with joints that are known.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn equilibrium_commanded_into(
+        &self,
+        places: &Commanded,
+        wrenches: &[Wrench],
+        details: Details,
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
+        self.loaded(&places.places(self), wrenches, details, out)
+    }
+}
