@@ -1,7 +1,7 @@
 //! Machines as functions of uncertain numbers, along a program: commanded by the program as it is, and by the one that was written for the
 //! machine as drawn.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Details};
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
 use kinetostat::nalgebra::Vector3;
 use kinetostat::number::larger;
 use kinetostat::{Mechanism, Pose, Wrench};
@@ -24,12 +24,31 @@ const SAME: f64 = 1e-6;
 struct OfTool {
     /// Platform from tool, m.
     tool: Pose,
-    /// The machine as drawn, with the tool.
-    drawn: Mechanism,
+    /// The machine as drawn, with the tool, compiled.
+    batch: Batch,
     /// Their indices among all places.
     indices: Vec<usize>,
-    wanted: Vec<Pose>,
-    commanded: Vec<Pose>,
+    wanted: Commanded,
+    commanded: Commanded,
+}
+
+impl OfTool {
+    fn new(drawn: &Mechanism, tool: Pose, places: &[ProgramPlace], number: Option<u32>) -> Self {
+        let own = places.iter().enumerate().filter(|(_, p)| p.tool == number);
+        let (indices, own): (Vec<usize>, Vec<&ProgramPlace>) = own.unzip();
+        let batch = Batch::new(&drawn.with_tool(&tool));
+        let commanded = |pose: fn(&ProgramPlace) -> Pose| {
+            let poses: Vec<Pose> = own.iter().map(|place| pose(place)).collect();
+            batch.commanded(&poses)
+        };
+        Self {
+            wanted: commanded(|place| place.wanted),
+            commanded: commanded(|place| place.commanded),
+            tool,
+            batch,
+            indices,
+        }
+    }
 }
 
 /// A run along a program as a function of uncertain numbers. Its numbers are the largest error before compensation and, of a program that
@@ -60,36 +79,16 @@ impl UncertainRun {
         let parametric = model.parametric(&file.parameters())?;
         let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
         let drawn = parametric.mechanism(&nominal)?;
-        let mut of_tools: Vec<(Option<u32>, OfTool)> = Vec::new();
-        for (i, place) in places.iter().enumerate() {
-            let known = of_tools
-                .iter()
-                .position(|(number, _)| *number == place.tool);
-            let own = known.unwrap_or_else(|| {
-                let tool = pose_of(tools, place.tool);
-                of_tools.push((
-                    place.tool,
-                    OfTool {
-                        tool,
-                        drawn: drawn.with_tool(&tool),
-                        indices: Vec::new(),
-                        wanted: Vec::new(),
-                        commanded: Vec::new(),
-                    },
-                ));
-                of_tools.len() - 1
-            });
-            let own = &mut of_tools[own].1;
-            own.indices.push(i);
-            own.wanted.push(place.wanted);
-            own.commanded.push(place.commanded);
-        }
+        let mut numbers: Vec<Option<u32>> = places.iter().map(|place| place.tool).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let of_tool = |number| OfTool::new(&drawn, pose_of(tools, number), places, number);
         let run = Self {
             parametric,
             sources: file.sources.clone(),
             places: places.to_vec(),
             parts,
-            tools: of_tools.into_iter().map(|(_, own)| own).collect(),
+            tools: numbers.into_iter().map(of_tool).collect(),
             compensated,
         };
         let mut out = vec![0.0; run.width()];
@@ -168,30 +167,21 @@ impl DependsOnMachine for UncertainRun {
         let (largest, of_places) = out.split_at_mut(each);
         let mut unstable = 0;
         for own in &self.tools {
-            let batch = Batch::new(&built.with_tool(&own.tool).commanded_as(&own.drawn)?);
+            let batch = own.batch.built(&built.with_tool(&own.tool))?;
             room.wrenches.clear();
             let loads = own.indices.iter().map(|i| self.wrench(*i, values));
             room.wrenches.extend(loads);
-            let last = if self.compensated {
-                &own.commanded
-            } else {
-                &own.wanted
+            let last = match self.compensated {
+                true => &own.commanded,
+                false => &own.wanted,
             };
+            let (loads, before) = (&room.wrenches, &mut room.loaded);
             if self.compensated {
-                batch.equilibrium_into(
-                    &own.wanted,
-                    &room.wrenches,
-                    Details::Rest,
-                    &mut room.loaded,
-                )?;
+                batch.equilibrium_commanded_into(&own.wanted, loads, Details::Rest, before)?;
             }
-            batch.equilibrium_into(
-                last,
-                &room.wrenches,
-                Details::Stability,
-                &mut room.compensated,
-            )?;
-            let stable = (0..last.len()).filter_map(|i| room.compensated.stability(i));
+            let after = &mut room.compensated;
+            batch.equilibrium_commanded_into(last, loads, Details::Stability, after)?;
+            let stable = (0..own.indices.len()).filter_map(|i| room.compensated.stability(i));
             unstable += stable.filter(|s| !s.stable).count();
             for (k, i) in own.indices.iter().enumerate() {
                 let place = &self.places[*i];
