@@ -173,14 +173,18 @@ pub(crate) fn in_words(lines: &[usize]) -> String {
 }
 
 /// Why configurations cannot be kept in another language.
-pub(crate) fn why_lost(language: MakeLanguage) -> String {
+pub(crate) fn why_lost(language: MakeLanguage, stated: Option<&str>) -> String {
     match language {
         MakeLanguage::Krl | MakeLanguage::Rapid | MakeLanguage::FanucLs => format!(
-            "{} counts it in another way, from the axes of its own arm; state that of the first pose in the template (configuration)",
+            "{} counts it in another way, from the axes of its own arm; {}",
             match language {
                 MakeLanguage::Krl => "KRL (S and T)",
                 MakeLanguage::Rapid => "RAPID (confdata)",
                 _ => "a TP program (CONFIG)",
+            },
+            match stated {
+                Some(stated) => format!("the template states `{stated}` (configuration)"),
+                None => "state that of the first pose in the template (configuration)".to_owned(),
             }
         ),
         _ => format!("{} does not state it", language.title()),

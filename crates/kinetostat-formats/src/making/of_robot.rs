@@ -176,7 +176,10 @@ fn lost_configurations(
             program,
             &format!("the template states `{stated}` (configuration)"),
         ),
-        (false, _) => configurations::lost(program, &configurations::why_lost(language)),
+        (false, stated) => {
+            let why = configurations::why_lost(language, stated.as_deref());
+            configurations::lost(program, &why)
+        }
     }
 }
 

@@ -307,6 +307,13 @@ fn turning_program(chance: &mut Chance) -> String {
             // Where it stands, but for the digits.
             to = rounded(shown).parse::<f64>().unwrap().rem_euclid(360.0);
         }
+        let is_special = chance.below(8) == 0;
+        if is_special {
+            // All but 0 or 360.
+            to = [359.9999997, 359.999996, 359.99996, 0.0000004][chance.below(4)];
+        }
+        let digits = if is_special { 7 } else { digits };
+        let rounded = |angle: f64| format!("{angle:.digits$}");
         let word = chance.of(&["DC", "ACP", "ACN", "IC", ""]);
         let turn = match word {
             "DC" => (to - shown + 180.0).rem_euclid(360.0) - 180.0,
@@ -320,14 +327,11 @@ fn turning_program(chance: &mut Chance) -> String {
             _ => to - shown,
         };
         // Where the source itself does all but no turn, or all but a whole one, it is the control that says which.
-        let is_clear = |angle: f64| {
-            let off = turn - angle;
-            off.abs() < 1e-9 || off.abs() > 2e-3
-        };
-        if ![0.0, 180.0, 360.0, -180.0, -360.0]
-            .into_iter()
-            .all(is_clear)
-        {
+        let is_clear = |angle: f64| (turn - angle).abs() < 1e-9 || (turn - angle).abs() > 2e-3;
+        let is_half = word == "DC" && (turn.abs() - 180.0).abs() < 2e-3;
+        // So of an angle at which it may show 0.
+        let is_open = word.is_empty() && shown > 360.0 - 2e-3;
+        if is_half || is_open || ![0.0, 360.0, -360.0].into_iter().all(is_clear) {
             continue;
         }
         shown = (shown + turn).rem_euclid(360.0);
@@ -343,8 +347,7 @@ fn turning_program(chance: &mut Chance) -> String {
     siemens(&body)
 }
 
-/// What is rounded at the end of a piece makes no full circle of the next (a corrected pose turns by a degree more), on a control that
-/// counts finely, and on one that counts in
+/// What is rounded at the end of a piece makes no full circle of the next, on a control that counts finely, and on one that counts in
 /// thousandths.
 #[test]
 fn no_piece_of_a_random_program_goes_round() {
@@ -358,11 +361,18 @@ fn no_piece_of_a_random_program_goes_round() {
             };
             written += 1;
             for step in [1e-7, 1e-3] {
-                let all = strict_turns(&made.text, step);
-                let (own, sum) = (strict_turns(&text, step), all.iter().sum::<f64>());
-                let wanted: f64 = own.iter().sum();
+                // The rapid at the end goes to C0 straight on from wherever the axis stands.
+                let of_cuts = |text: &str| {
+                    let mut all = strict_turns(text, step);
+                    all.pop();
+                    all
+                };
+                let (all, own) = (of_cuts(&made.text), of_cuts(&text));
+                let [sum, wanted] = [&all, &own].map(|turns| turns.iter().sum::<f64>());
+                // A corrected pose turns by a degree more.
+                let most_off = if turns { 2.0 } else { 0.05 };
                 assert!(
-                    (sum - wanted).abs() < 0.05,
+                    (sum - wanted).abs() < most_off,
                     "seed {seed}, {step}: {sum} instead of {wanted}\n{text}\n{}",
                     made.text
                 );
@@ -375,7 +385,7 @@ fn no_piece_of_a_random_program_goes_round() {
                 };
                 let (largest, most) = (most(&all), most(&own));
                 assert!(
-                    largest <= most + 2.0,
+                    largest <= most + most_off,
                     "seed {seed}, {step}: {largest} > {most}\n{text}\n{}",
                     made.text
                 );

@@ -57,9 +57,18 @@ impl Writer<'_> {
     /// How an absolute word turns an axis from where it stands to an angle.
     fn end_word(&self, axis: usize, from: f64, to: f64) -> EndWord {
         let shown = self.shown.get(axis).copied().unwrap_or_default();
-        shown
-            .way_of_counting()
-            .word_of_end(from, to, self.options.angle_decimals)
+        let (count, digits) = (shown.way_of_counting(), self.options.angle_decimals);
+        let end_word = count.word_of_end(from, to, digits);
+        // An angle that is rounded to 360, or is all but 0 from below, is none of such an axis.
+        let value = to - self.wound_at(axis, to);
+        let is_none = value < -SAME_DEG || value > 360.0 - half_deg(digits);
+        match (end_word, count) {
+            (EndWord::Angle, AxisCount::OneTurn) if is_none && (to - from).abs() < 179.0 => {
+                EndWord::Shorter
+            }
+            (EndWord::Angle, AxisCount::OneTurn) if is_none => EndWord::Step,
+            _ => end_word,
+        }
     }
 
     /// The word of an axis that turns it from where it stands to an angle, and that angle, where the block's own word would say
