@@ -158,6 +158,14 @@ fn renamed(
     }
 }
 
+/// The number of a tool as the source calls it: `MILL_D10` is not the tool 10.
+fn own_number(program: &RobotProgram, tool: &FrameUse) -> Option<u32> {
+    number_in(&tool.name).filter(|number| {
+        program.language == Language::Apt
+            || [format!("T{number}"), format!("TOOL:{number}")].contains(&tool.name)
+    })
+}
+
 /// Where a made program takes another tool: by numbers of the course.
 pub(crate) fn changes_of_source(
     program: &RobotProgram,
@@ -170,7 +178,7 @@ pub(crate) fn changes_of_source(
         return Vec::new();
     }
     let numbers: Vec<Option<u32>> = match all.len() {
-        1 => all.iter().map(|tool| number_in(&tool.name)).collect(),
+        1 => all.iter().map(|tool| own_number(program, tool)).collect(),
         _ => tool_numbers(all).into_iter().map(Some).collect(),
     };
     let mut changes: Vec<(usize, u32)> = Vec::new();

@@ -42,7 +42,7 @@ fn calls_of_rapid_that_begin_like_declarations() {
 #[test]
 fn calls_of_krl_that_begin_like_declarations() {
     let text = "DEF a( )\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$VEL.CP=0.02\n\
-        PTP {X 0,Y 0,Z 20,A 0,B 180,C 0}\nINIT_GLUE( )\nEXTRUDE(3)\nBASKET( )\nDEFROST( )\nENDOSCOPE( )\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\nLIN {X 3,Y 0,Z 20,A 0,B 180,C 0}\nEND\n";
+        PTP {X 0,Y 0,Z 20,A 0,B 180,C 0}\nINIT_GLUE( )\nEXTRUDE(3)\nBASKET( )\nDEFROST( )\nENDOSCOPE( )\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 180,A 0,B 0,C 0}\n$VEL.CP=0.02\nLIN {X 3,Y 0,Z 20,A 0,B 180,C 0}\nEND\n";
     let made = of_robot(Language::Krl, text, MakeLanguage::Rapid);
     let rapid = text_of(&made, 0);
     for own in ["INIT_GLUE", "EXTRUDE", "BASKET", "DEFROST", "ENDOSCOPE"] {

@@ -379,3 +379,23 @@ fn words_of_labels_stand_where_they_run() {
         made.findings
     );
 }
+
+/// A tool with a name has no number, and a part of one is none.
+#[test]
+fn tools_with_names_are_named() {
+    for (call, is_tool) in [("3", true), ("\"MILL_D10\"", false), ("5.2", false)] {
+        let text = format!(
+            "BEGIN PGM A MM\nTOOL CALL {call} Z S500\nL X+0 Y+0 Z+5 FMAX M3\nL X+9 F100\nEND PGM A MM\n"
+        );
+        let made = of_robot(Language::Heidenhain, &text, MakeLanguage::Gcode);
+        let gcode = text_of(&made, 0);
+        assert_eq!(gcode.contains("T3 M6\n"), is_tool, "{gcode}");
+        assert_eq!(gcode.contains("\nT"), is_tool, "{gcode}");
+        assert_eq!(
+            found(&made, "tools: 1 line"),
+            !is_tool,
+            "{:?}",
+            made.findings
+        );
+    }
+}
