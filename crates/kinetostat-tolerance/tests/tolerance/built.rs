@@ -9,7 +9,9 @@ use kinetostat_testing::Worst;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A preset, numbers of it that are built otherwise, and how far places lie from home, m.
-const MACHINES: [(&str, &[(&str, f64)], f64); 3] = [
+type Case = (&'static str, &'static [(&'static str, f64)], f64);
+
+const MACHINES: [Case; 3] = [
     (
         "orthoglide",
         &[
