@@ -14,7 +14,7 @@ use crate::job::cut_tables::{
 use crate::job::expand_table::ExpandTable;
 use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
-use crate::job::uncertain::UncertainTable;
+use crate::job::uncertain_table::UncertainTable;
 use crate::job::units_word::UnitsWord;
 use crate::ui::failure::Failure;
 

@@ -36,5 +36,6 @@ mod toml_tree;
 mod tools;
 pub(crate) mod turn_arguments;
 pub(crate) mod uncertain;
+pub(crate) mod uncertain_table;
 pub(crate) mod units_word;
 mod values;

@@ -4,8 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use kinetostat_tolerance::MOST_DRAWS;
-use serde::Deserialize;
-use serde_spanned::Spanned;
 
 use crate::files::input_files::InputFiles;
 use crate::files::origin;
@@ -20,19 +18,7 @@ const MACHINES: usize = 1024;
 /// Fewer say nothing of nineteen in twenty.
 const FEWEST: usize = 64;
 
-/// What is uncertain: `[uncertain]`.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct UncertainTable {
-    /// File of uncertainties (see `kinetostat tolerance --help`).
-    pub file: Spanned<String>,
-    /// Machines that are drawn.
-    pub machines: Option<Spanned<usize>>,
-    /// Of the draws.
-    pub seed: Option<u32>,
-}
-
-/// The same as options.
+/// What is uncertain, as options.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct UncertainFlags {
     /// What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the errors before and

@@ -2,7 +2,7 @@
 
 use kinetostat::Wrench;
 
-use crate::file::Source;
+use crate::file::source::{CUTTING_PARTS, Source};
 
 /// Names of the load's components, and of its factor.
 const LOADS: [&str; 7] = [
@@ -22,10 +22,6 @@ const LOADS_OF_PROGRAM: [&str; 4] = [
     CUTTING_PARTS[1],
     CUTTING_PARTS[2],
 ];
-
-/// Parts of the force of the cut, each with coefficients of its own: against the way of a tooth, against its normal, along its edge; of a
-/// stated milling force along the feed, across it, along the tool.
-pub const CUTTING_PARTS: [&str; 3] = ["tangential", "radial", "axial"];
 
 /// The load that a file's numbers may be of.
 #[derive(Clone, Copy, Debug)]

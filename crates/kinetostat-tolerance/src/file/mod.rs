@@ -2,32 +2,17 @@
 
 mod load;
 mod rows;
-
-use std::ops::Range;
+mod source;
+mod written;
 
 use kinetostat::Wrench;
-use kinetostat_model::{Model, ModelError, Problem, Severity};
-use serde::Deserialize;
-use serde_spanned::Spanned;
+use kinetostat_model::{Model, ModelError};
 
 use crate::file::load::Load;
+use crate::file::written::{Reader, Written};
 use crate::uncertain::{Uncertain, Uncertainties};
 
-pub use load::CUTTING_PARTS;
-
-/// What an uncertain number is of.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Source {
-    /// A number of the model file, by its path.
-    Parameter(String),
-    /// A component of the load on the tool: force (N), then moment (N m).
-    Load(usize),
-    /// A factor on the whole load, 1 in the drawing: how far all cutting coefficients may be off together.
-    LoadFactor,
-    /// A factor on one part of the force of the cut, 1 in the drawing, as an index into [`CUTTING_PARTS`]: how far its coefficients
-    /// may be off.
-    CuttingPart(usize),
-}
+pub use source::{CUTTING_PARTS, Source};
 
 /// What a file of uncertainties says.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,53 +21,6 @@ pub struct UncertaintyFile {
     pub uncertainties: Uncertainties,
     /// What each is of.
     pub sources: Vec<Source>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    schema: Spanned<u32>,
-    #[serde(default)]
-    uncertain: Vec<Spanned<Row>>,
-    #[serde(default)]
-    correlation: Vec<Spanned<Pair>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    parameter: Option<Spanned<String>>,
-    load: Option<Spanned<String>>,
-    normal: Option<Spanned<f64>>,
-    normal_percent: Option<Spanned<f64>>,
-    uniform: Option<Spanned<f64>>,
-    uniform_percent: Option<Spanned<f64>>,
-    triangular: Option<Spanned<f64>>,
-    triangular_percent: Option<Spanned<f64>>,
-    #[serde(default, rename = "source")]
-    _source: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Pair {
-    between: Spanned<[String; 2]>,
-    coefficient: Spanned<f64>,
-}
-
-/// The text with its name: where problems are told.
-struct Reader<'a> {
-    text: &'a str,
-    file: &'a str,
-    problems: Vec<Problem>,
-}
-
-impl Reader<'_> {
-    fn refuse(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        let words = [message.into(), help.into()];
-        let problem = Problem::found(Severity::Error, self.file, self.text, span, "", words);
-        self.problems.push(problem);
-    }
 }
 
 impl UncertaintyFile {

@@ -7,7 +7,8 @@ use serde_spanned::Spanned;
 
 use crate::distribution::Distribution;
 use crate::file::load::Load;
-use crate::file::{Pair, Reader, Row, Source};
+use crate::file::source::Source;
+use crate::file::written::{Pair, Reader, Row};
 use crate::uncertain::Uncertain;
 
 impl Reader<'_> {
