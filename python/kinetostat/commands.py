@@ -139,6 +139,8 @@ def compensate(
     no_comments: bool = False,
     flat_program: _Path | None = None,
     chord_tolerance_um: float | None = None,
+    uncertain: _Path | None = None,
+    machines: int | None = None,
     limit: str | float | Sequence[str | float] | None = None,
     report: _Path | None = None,
     points: _Path | None = None,
@@ -260,6 +262,11 @@ def compensate(
     chord_tolerance_um : float
         How far the chords of arcs may leave them, micrometres [default: 0.4, in a compensated
         program at most 0.8 of the path's default tolerance]
+    uncertain : path
+        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
+        errors before and after compensation come as a band over many machines
+    machines : int
+        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
@@ -371,6 +378,8 @@ def compensate(
         ("--no-comments", no_comments),
         ("--flat-program", flat_program),
         ("--chord-tolerance-um", chord_tolerance_um),
+        ("--uncertain", uncertain),
+        ("--machines", machines),
         ("--limit", limit),
         ("--report", report),
         ("--points", points),
@@ -439,6 +448,8 @@ def deflect(
     no_comments: bool = False,
     flat_program: _Path | None = None,
     chord_tolerance_um: float | None = None,
+    uncertain: _Path | None = None,
+    machines: int | None = None,
     limit: str | float | Sequence[str | float] | None = None,
     report: _Path | None = None,
     points: _Path | None = None,
@@ -558,6 +569,11 @@ def deflect(
     chord_tolerance_um : float
         How far the chords of arcs may leave them, micrometres [default: 0.4, in a compensated
         program at most 0.8 of the path's default tolerance]
+    uncertain : path
+        What is uncertain about machine and load (TOML; see `kinetostat tolerance --help`): the
+        errors before and after compensation come as a band over many machines
+    machines : int
+        Number of machines drawn for the band, rounded up to a multiple of 16 [default: 1024]
     limit : str | float | Sequence[str | float]
         Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
         tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second,
@@ -631,6 +647,8 @@ def deflect(
         ("--no-comments", no_comments),
         ("--flat-program", flat_program),
         ("--chord-tolerance-um", chord_tolerance_um),
+        ("--uncertain", uncertain),
+        ("--machines", machines),
         ("--limit", limit),
         ("--report", report),
         ("--points", points),
