@@ -44,6 +44,13 @@ impl Reader<'_> {
                 {
                     return self.assign(item, indices, value);
                 }
+                if name.len() == 1 && !indices.is_empty() {
+                    return self.fault(
+                        &item.span,
+                        "the number in brackets says which axis, group or spindle is meant, and that is not followed",
+                        "write the code, or the axis by its name",
+                    );
+                }
                 if let Some((group, axis)) = coordinate(&name) {
                     return self.coordinate(item, (group, axis), *how, value, words);
                 }

@@ -34,7 +34,8 @@ impl Reader<'_> {
             || words.has_direction()
             || turns && self.state.oriented && words.purpose == Purpose::Motion;
         match words.purpose {
-            Purpose::Dwell | Purpose::Limits => return,
+            Purpose::Dwell => return self.no_place_beside_dwell(&words),
+            Purpose::Limits => return,
             Purpose::Machine if !words.has_axes() => return,
             Purpose::Machine => {
                 let end = [0, 1, 2].map(|axis| match words.axes[axis] {
@@ -51,6 +52,21 @@ impl Reader<'_> {
             self.direction(block, &words);
         }
         self.motion(block, &words, stated);
+    }
+
+    /// G4 stands in a block of its own [SINUMERIK, fundamentals]: what becomes of a place beside it is not known.
+    fn no_place_beside_dwell(&mut self, words: &Words) {
+        let places = words.axes.iter().chain(&words.centre).flatten();
+        let turned = words.rotary.iter().map(|(_, angle, _)| angle);
+        let beside = places.chain(turned).map(|place| place.word.clone());
+        let beside = beside.chain(words.direction_words()).next();
+        if let Some(word) = beside {
+            self.fault(
+                &word,
+                "a dwell (G4) and a place stand in one block",
+                "write G4 in a block of its own",
+            );
+        }
     }
 
     fn change_tool(&mut self, words: &Words) {

@@ -51,6 +51,17 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
             "polar coordinates are not followed; let the CAM system write X, Y, Z",
         ),
         ("G33 Z5 K1", "feed and spindle go together"),
+        // Group 1, number 3 is G2; group 1, number 1 is G0.
+        (
+            "G[1]=3 X10 Y10 CR=10",
+            "which axis, group or spindle is meant",
+        ),
+        ("M[2]=3", "which axis, group or spindle is meant"),
+        ("X[AX1]=10", "which axis, group or spindle is meant"),
+        (
+            "X10 Y5 G4 F1",
+            "a dwell (G4) and a place stand in one block; write G4 in a block of its own",
+        ),
         ("MIRROR X0", "it mirrors or scales the path"),
         ("SCALE X2", "it mirrors or scales the path"),
         (
