@@ -5,7 +5,7 @@ use crate::heidenhain::expand::hole::{Hole, Retract, Stroke};
 use crate::heidenhain::expand::numbers::{length, trimmed};
 use crate::heidenhain::expand::run::{Fault, Run};
 use crate::heidenhain::expand::values::begins_value;
-use crate::heidenhain::words::{Word, words_of};
+use crate::heidenhain::words::{Value, Word, words_of};
 use crate::options::UnknownTargets;
 
 /// Parameters of the drilling cycles.
@@ -14,9 +14,28 @@ const OWN: [&str; 15] = [
     "Q256", "Q379", "Q395",
 ];
 
+/// Without these a hole lies nobody knows where: set-up clearance, depth, surface.
+const NEEDED: [&str; 3] = ["Q200", "Q201", "Q203"];
+
+/// The words of a cycle whose name ends before its first parameter: of `DRILLING Q200=+2` the letters take the parameter for their value.
+fn named(bytes: &[u8], words: &[Word]) -> Option<Vec<Word>> {
+    let last = words.last()?.span.end;
+    let at = (2..words.len().saturating_sub(1)).find(|i| {
+        matches!(words[*i].value, Value::Parameter { .. }) && begins_value(&words[i + 1], bytes)
+    })?;
+    let Value::Parameter { name, .. } = &words[at].value else {
+        return None;
+    };
+    let mut parted = words[..at].to_vec();
+    parted.extend(words_of(bytes, &(name.start..last)));
+    Some(parted)
+}
+
 impl Run<'_> {
     pub(crate) fn cycle(&mut self, at: (usize, usize), words: &[Word]) -> Result<(), Fault> {
         let file = self.programs[at.0].file;
+        let parted = named(file.bytes(), words);
+        let words = parted.as_deref().unwrap_or(words);
         let Some(kind) = words.get(1) else {
             return self.substituted(at, words).map(|_| ());
         };
@@ -119,6 +138,16 @@ impl Run<'_> {
     pub(crate) fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);
         let cycle = self.cycle.unwrap_or(0);
+        let missing = NEEDED
+            .iter()
+            .find(|name| self.parameters.value(name).is_none());
+        if let (Some(name), 200 | 201 | 203) = (missing, cycle) {
+            return Err(self.fault(
+                at,
+                format!("{name} of cycle {cycle} is stated nowhere"),
+                "state it in the definition of the cycle",
+            ));
+        }
         if cycle != 1 && value("Q395") != 0.0 {
             return Err(self.fault(
                 at,

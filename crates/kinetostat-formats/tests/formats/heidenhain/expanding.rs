@@ -258,16 +258,20 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "line 5: `L X+1 M99`: cycle 207 is called, and what it does is not followed",
         ),
         (
-            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=+10 ~\n Q206=+5\nL X+1 M99\n",
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=+10 ~\n Q203=+0 ~\n Q206=+5\nL X+1 M99\n",
             "the depth of the cycle is above the surface",
         ),
         (
-            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10\nL X+1 M99\n",
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q203=+0\nL X+1 M99\n",
             "the cycle has no feed",
         ),
         (
-            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q395=+1\nL X+1 M99\n",
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q203=+0 ~\n Q395=+1\nL X+1 M99\n",
             "the drill's full diameter (Q395)",
+        ),
+        (
+            "CYCL DEF 200 DRILLING ~\n Q201=-10 ~\n Q206=+9 ~\n Q203=+0\nL X+1 M99\n",
+            "Q200 of cycle 200 is stated nowhere",
         ),
         ("Q1 = 1\n/L X+Q1\n", "skipped or not"),
         (
@@ -281,6 +285,29 @@ fn runs_are_bounded_and_faults_name_their_line() {
     }
     let deep = format!("Q1 = {}1\nL X+Q1\n", "(".repeat(100_000));
     assert!(refused(&deep).contains("nested more than 64 deep"));
+}
+
+/// The first parameter may stand behind the name of the cycle, on its line.
+#[test]
+fn parameters_on_the_line_of_the_cycle_count() {
+    let hole = |cycle: &str| {
+        blocks_of(&format!(
+            "TOOL CALL 1 Z S100\nL Z+50 R0 FMAX M3\n{cycle}\nL X+1 FMAX M99\n"
+        ))
+    };
+    let below = "CYCL DEF 200 DRILL ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+150 ~\n Q202=+10 ~\n Q203=+0 ~\n Q204=+50";
+    let expected = hole(below);
+    assert!(
+        expected.iter().any(|line| line == "L Z-10 R0 F150"),
+        "{expected:?}"
+    );
+    for beside in [
+        "CYCL DEF 200 DRILL Q200=+2 ~\n Q201=-10 ~\n Q206=+150 ~\n Q202=+10 ~\n Q203=+0 ~\n Q204=+50",
+        "CYCL DEF 200 UNIVERSAL DRILL Q201=-10 Q200=2 Q206=150 Q202=10 Q203=0 Q204=50",
+        "CYCL DEF 200 Q200=+2 Q201=-10 Q206=+150 Q202=+10 Q203=+0 Q204=+50",
+    ] {
+        assert_eq!(hole(beside), expected, "{beside}");
+    }
 }
 
 #[test]

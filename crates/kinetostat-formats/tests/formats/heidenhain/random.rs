@@ -50,7 +50,7 @@ pub fn kind() -> Kind {
             "CYCL DEF 7.1 X+5\n",
             "CYCL DEF 10.1 ROT+30\n",
             "CYCL DEF 11.1 SCL 0.1\n",
-            "CYCL DEF 200 DRILL ~\n Q200=+2 ~\n Q201=-3 ~\n Q206=+9\n",
+            "CYCL DEF 200 DRILL ~\n Q200=+2 ~\n Q201=-3 ~\n Q206=+9 ~\n Q203=+0\n",
             "TOOL CALL 2 Z F100\n",
             "END PGM A MM\n",
             "99999999999999999999 ",
