@@ -1,6 +1,6 @@
 //! The band of the errors of a program over many machines.
 
-use kinetostat_machining::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand, Watch};
+use kinetostat_machining::{BandPlace, ScatteredError, UncertaintyBand, Watch};
 
 use crate::along_program::UncertainRun;
 use crate::draws::Draws;
@@ -32,7 +32,7 @@ pub fn band(
     let largest = answers(&file.uncertainties, draws, &samples, lines);
     let mut band = UncertaintyBand::default();
     name.clone_into(&mut band.file);
-    band.uncertain = numbers(file);
+    band.uncertain = file.uncertainties.as_stated();
     band.machines = draws.len();
     band.unanswered = samples.failures.no_machine + samples.failures.no_answer;
     band.unstable = samples.failures.unstable;
@@ -43,17 +43,6 @@ pub fn band(
     band.before = scattered.next().unwrap_or_default();
     band.after = scattered.next();
     Ok(band)
-}
-
-fn numbers(file: &UncertaintyFile) -> Vec<UncertainNumber> {
-    let number = |u: &crate::uncertain::Uncertain| UncertainNumber {
-        name: u.name.clone(),
-        value: u.value,
-        unit: u.unit.clone(),
-        distribution: u.distribution.word().to_owned(),
-        spread: u.distribution.spread(),
-    };
-    file.uncertainties.each().iter().map(number).collect()
 }
 
 fn scattered(answer: &OutputAnswer) -> ScatteredError {

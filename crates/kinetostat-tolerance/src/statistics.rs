@@ -8,7 +8,7 @@ use crate::draws::{Draws, REPLICATES};
 /// Of all bounds of confidence.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// Shares whose quantiles are told.
+/// Shares whose quantiles are given.
 pub const SHARES: [f64; 5] = [0.025, 0.05, 0.5, 0.95, 0.975];
 
 /// A number estimated from draws, and how far it may be off with [`CONFIDENCE`].

@@ -1,5 +1,6 @@
 //! Uncertain numbers, independent or correlated, and draws of them.
 
+use kinetostat_machining::UncertainNumber;
 use nalgebra::DMatrix;
 
 use crate::distribution::{Distribution, score, share};
@@ -88,6 +89,19 @@ impl Uncertainties {
     #[must_use]
     pub fn is_correlated(&self) -> bool {
         self.correlated.is_some()
+    }
+
+    /// The numbers as a result lists them.
+    #[must_use]
+    pub fn as_stated(&self) -> Vec<UncertainNumber> {
+        let number = |u: &Uncertain| UncertainNumber {
+            name: u.name.clone(),
+            value: u.value,
+            unit: u.unit.clone(),
+            distribution: u.distribution.word().to_owned(),
+            spread: u.distribution.spread(),
+        };
+        self.each.iter().map(number).collect()
     }
 
     /// As the drawing states them.

@@ -12,7 +12,7 @@ use crate::job::values::{NotAllowed, chosen};
 use crate::options::whole;
 use crate::ui::failure::{Answer, Failure};
 
-/// Machines that are drawn where nobody says how many.
+/// Machines that are drawn by default.
 const MACHINES: usize = 1024;
 
 /// Fewer say nothing of nineteen in twenty.

@@ -1,7 +1,7 @@
 //! The answer of `tolerance`, stable names with units.
 
-use kinetostat_machining::Warning;
-use kinetostat_tolerance::{Failures, OutputAnswer, SobolIndex, Uncertain};
+use kinetostat_machining::{UncertainNumber, Warning};
+use kinetostat_tolerance::{Failures, OutputAnswer, SobolIndex};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -16,7 +16,7 @@ pub(crate) struct ToleranceAnswer {
     pub(crate) seed: u64,
     /// Of all bounds.
     pub(crate) confidence: f64,
-    pub(crate) uncertain: Vec<UncertainAnswer>,
+    pub(crate) uncertain: Vec<UncertainNumber>,
     pub(crate) correlated: bool,
     /// Draws without a whole answer.
     pub(crate) failures: Failures,
@@ -25,28 +25,6 @@ pub(crate) struct ToleranceAnswer {
     pub(crate) sobol_failures: Option<Failures>,
     pub(crate) places: Vec<PlaceResults>,
     pub(crate) warnings: Vec<Warning>,
-}
-
-#[derive(Serialize)]
-pub(crate) struct UncertainAnswer {
-    pub(crate) name: String,
-    pub(crate) value: f64,
-    pub(crate) unit: String,
-    pub(crate) distribution: &'static str,
-    /// Standard deviation of a normal one, half width of another.
-    pub(crate) spread: f64,
-}
-
-impl UncertainAnswer {
-    pub(crate) fn of(u: &Uncertain) -> Self {
-        Self {
-            name: u.name.clone(),
-            value: u.value,
-            unit: u.unit.clone(),
-            distribution: u.distribution.word(),
-            spread: u.distribution.spread(),
-        }
-    }
 }
 
 #[derive(Serialize)]

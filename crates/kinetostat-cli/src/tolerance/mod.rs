@@ -24,7 +24,7 @@ use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::place::arguments::PlaceArgs;
 use crate::place::query::{PlaceQuery, place_query_of};
-use crate::tolerance::answer::{ColumnResult, PlaceResults, ToleranceAnswer, UncertainAnswer};
+use crate::tolerance::answer::{ColumnResult, PlaceResults, ToleranceAnswer};
 use crate::tolerance::arguments::{Asked, ToleranceArgs};
 use crate::ui::csv_table::{cell, written};
 use crate::ui::failure::{Answer, Failure};
@@ -263,7 +263,7 @@ fn answer_of(
         machines: study.draws.len(),
         seed: args.seed.unwrap_or(0) as u64,
         confidence: CONFIDENCE,
-        uncertain: numbers.each().iter().map(UncertainAnswer::of).collect(),
+        uncertain: numbers.as_stated(),
         correlated: numbers.is_correlated(),
         failures: drawn.samples.failures.clone(),
         sobol_failures: drawn.sobol.as_ref().map(|(_, failed)| failed.clone()),

@@ -33,7 +33,7 @@ pub struct SourceEvent {
     pub rest: Option<EventKind>,
     /// It acts behind the motion of its line, not before.
     pub(crate) is_behind: bool,
-    /// It states the speed of a spindle that stands still: machines are told it where the spindle starts.
+    /// It states the speed of a spindle that stands still: a made program states it where the spindle starts.
     pub(crate) states_speed: bool,
     /// It names a tool, whatever else it is about.
     pub(crate) is_of_tool: bool,

@@ -38,7 +38,7 @@ pub(super) struct Pair {
     pub(super) coefficient: Spanned<f64>,
 }
 
-/// The text with its name: where problems are told.
+/// The text with its name: where problems are gathered.
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) file: &'a str,
