@@ -92,6 +92,10 @@ pub fn built(tools: &Environment, profile: &str, into: &Path) -> Result<PathBuf>
         .arg(into);
     // Debugging information is six times the module, and packing it takes half a minute.
     build.arg("--strip");
+    if profile == "dev" {
+        // The tests of the workspace have compiled everything else already.
+        build.args(["--features", "features-of-tests"]);
+    }
     step(&format!("the wheel, profile {profile}"), &mut build)?;
     let mut found = std::fs::read_dir(into)?
         .filter_map(|entry| Some(entry.ok()?.path()))
