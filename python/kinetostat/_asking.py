@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,6 +29,16 @@ def triple(name: str, value: ArrayLike | None, factor: float = 1.0) -> list[floa
         return None
     found: list[float] = (one(name, value, (3,)) * factor).tolist()
     return found
+
+
+def node_loads(loads: Mapping[str, ArrayLike] | Sequence[str] | None) -> list[str] | None:
+    """Forces on nodes, N, in the words of a command."""
+    if loads is None:
+        return None
+    if not isinstance(loads, Mapping):
+        return list(loads)
+    forces = ((node, one(f"loads[{node!r}]", force, (3,)).tolist()) for node, force in loads.items())
+    return [f"{node}={','.join(map(repr, force))}" for node, force in forces]
 
 
 def bare(machine: Machine) -> tuple[Machine, float | None]:

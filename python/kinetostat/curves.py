@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import enum
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
 from kinetostat._arrays import Floats, one
-from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple, wrenches
+from kinetostat._asking import coordinates_in_si, node_loads, numbers_or_nan, place, triple, wrenches
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -313,7 +313,7 @@ def curve(
     free: str | None = None,
     constant_force: ArrayLike | None = None,
     constant_moment: ArrayLike | None = None,
-    loads: Sequence[str] | None = None,
+    loads: Mapping[str, ArrayLike] | Sequence[str] | None = None,
     branches: int | None = None,
     points: int | None = None,
     search_all: bool = False,
@@ -337,8 +337,8 @@ def curve(
         Directions in which the tool is held or free, as in ``"x,y,rz"``; also ``all``, ``none``, ``rotations``, ``others``.
     constant_force, constant_moment : array_like, shape (3,), optional
         What acts all the time, N and N m.
-    loads : sequence of str, optional
-        Forces on named nodes all the time, ``"node=fx,fy,fz"``, N.
+    loads : dict of str to array_like of shape (3,), or sequence of str, optional
+        Forces on named nodes all the time, N, base axes; ``"node=fx,fy,fz"`` as words. A node of a limb is ``"limb:node"``.
     branches, points : int, optional
         Branches, and points of one branch, at most.
     search_all : bool
@@ -383,7 +383,7 @@ def curve(
         free=free,
         constant_force=triple("constant_force", constant_force),
         constant_moment=triple("constant_moment", constant_moment),
-        load=loads,
+        load=node_loads(loads),
         branches=branches,
         points=points,
         all=search_all,

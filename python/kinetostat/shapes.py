@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
 from kinetostat._arrays import Floats
-from kinetostat._asking import coordinates_in_si, numbers_or_nan, place, triple, wrenches
+from kinetostat._asking import coordinates_in_si, node_loads, numbers_or_nan, place, triple, wrenches
 
 if TYPE_CHECKING:
     from kinetostat.machine import Progress
@@ -74,7 +74,7 @@ def shapes(
     free: str | None = None,
     constant_force: ArrayLike | None = None,
     constant_moment: ArrayLike | None = None,
-    loads: Sequence[str] | None = None,
+    loads: Mapping[str, ArrayLike] | Sequence[str] | None = None,
     starts: int | None = None,
     fruitless: int | None = None,
     progress: Progress | None = None,
@@ -121,7 +121,7 @@ def shapes(
         free=free,
         constant_force=triple("constant_force", constant_force),
         constant_moment=triple("constant_moment", constant_moment),
-        load=loads,
+        load=node_loads(loads),
         starts=starts,
         fruitless=fruitless,
         progress=progress,

@@ -62,6 +62,19 @@ def test_pitchfork_of_the_z_chain() -> None:
     np.testing.assert_allclose(np.diff(y), middle * np.diff(x), atol=2e-3)
 
 
+def test_a_force_on_a_node_is_an_array_or_words() -> None:
+    posture = ks.Machine.preset("three_link_z").posture()
+    question = {"direction": [1, 0, 0], "displacement": (0, -0.05)}
+    found = posture.curve(**question, loads={"first joint": np.array([0, 0.01, 0])})
+    said = posture.curve(**question, loads=["first joint=0,0.01,0"])
+    np.testing.assert_array_equal(found.branches[0].force, said.branches[0].force)
+    assert len(found.branches[0].force) > 2
+    # Two bars of a small angle to the line of the tool: a force across presses them apart.
+    assert np.abs(found.branches[0].wrench[:, 1]).min() > 1e-3
+    with pytest.raises(ks.ArgumentError, match=r"first joint.*3"):
+        posture.curve(**question, loads={"first joint": [0, 0.01]})
+
+
 def test_critical_load_of_the_z_chain() -> None:
     found = critical_load(ks.Machine.preset("three_link_z").posture(), [-1, 0, 0], most=3)
     (shape,) = [c for c in found.critical_loads if c.judged is Judged.SHAPE]

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["test"] => test::run(),
-        ["test", "--python"] => python::check(),
+        ["test", "--python"] => python::prepare().and_then(python::check),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),

@@ -19,37 +19,70 @@ use crate::{root, step};
 use environment::{Environment, folder};
 use interpreter::{Interpreter, ends};
 
-/// Tests of the package on the oldest and the newest CPython at hand.
+/// Environments for the tests of the package on the oldest and the newest CPython at hand.
+pub struct Prepared {
+    oldest: Interpreter,
+    tools: Environment,
+    /// The newest where it is another one, with its environment where pip could make one.
+    newest: Option<(Interpreter, Option<Environment>)>,
+}
+
+/// Makes environments; none, and it is said, where Python or the package index is missing.
 ///
 /// # Errors
-/// A test that fails. Where Python or the package index is missing it is said, and nothing fails.
-pub fn check() -> Result<()> {
+/// An environment that cannot be made.
+pub fn prepare() -> Result<Option<Prepared>> {
     let Some((oldest, newest)) = ends() else {
         skipped("there is no CPython from 3.10 with pip and venv on this machine");
-        return Ok(());
+        return Ok(None);
     };
     let Some(tools) = Environment::with_test_tools(&oldest)? else {
         skipped("the package index cannot be reached: pip could not install what the tests need");
+        return Ok(None);
+    };
+    let newest = match newest {
+        Some(python) => {
+            let own = Environment::with_test_tools(&python)?;
+            if own.is_none() {
+                skipped(&format!(
+                    "pip could not install the tests' tools for CPython {python}"
+                ));
+            }
+            Some((python, own))
+        }
+        None => None,
+    };
+    Ok(Some(Prepared {
+        oldest,
+        tools,
+        newest,
+    }))
+}
+
+/// Tests of the package.
+///
+/// # Errors
+/// A test that fails.
+pub fn check(prepared: Option<Prepared>) -> Result<()> {
+    let Some(Prepared {
+        oldest,
+        tools,
+        newest,
+    }) = prepared
+    else {
         return Ok(());
     };
     let wheel = wheel::built(&tools, "dev", &folder().join("wheels"))?;
     static_checks(&tools, &wheel)?;
-    for python in [Some(&oldest), newest.as_ref()].into_iter().flatten() {
+    let others = newest.as_ref().map(|(python, _)| python);
+    for python in [Some(&oldest), others].into_iter().flatten() {
         bare(python, &wheel)?;
     }
     let plain: &[(&str, &str)] = &[];
     tests(&tools, "in the plain locale", plain)?;
-    let last = match &newest {
+    let last = match newest.and_then(|(_, own)| own) {
+        Some(last) => last.holding(&wheel)?,
         None => tools,
-        Some(newest) => match Environment::with_test_tools(newest)? {
-            Some(last) => last.holding(&wheel)?,
-            None => {
-                skipped(&format!(
-                    "pip could not install the tests' tools for CPython {newest}"
-                ));
-                tools
-            }
-        },
     };
     let comma = comma_locale()?;
     let comma: Vec<(&str, &str)> = comma

@@ -33,21 +33,27 @@ struct OfTool {
 }
 
 impl OfTool {
-    fn new(drawn: &Mechanism, tool: Pose, places: &[ProgramPlace], number: Option<u32>) -> Self {
+    fn new(
+        drawn: &Mechanism,
+        tool: Pose,
+        places: &[ProgramPlace],
+        number: Option<u32>,
+    ) -> Result<Self, TaskError> {
         let own = places.iter().enumerate().filter(|(_, p)| p.tool == number);
         let (indices, own): (Vec<usize>, Vec<&ProgramPlace>) = own.unzip();
         let batch = Batch::new(&drawn.with_tool(&tool));
+        let wrenches: Vec<Wrench> = own.iter().map(|place| place.wrench).collect();
         let commanded = |pose: fn(&ProgramPlace) -> Pose| {
             let poses: Vec<Pose> = own.iter().map(|place| pose(place)).collect();
-            batch.commanded(&poses)
+            batch.commanded_under(&poses, &wrenches)
         };
-        Self {
-            wanted: commanded(|place| place.wanted),
-            commanded: commanded(|place| place.commanded),
+        Ok(Self {
+            wanted: commanded(|place| place.wanted)?,
+            commanded: commanded(|place| place.commanded)?,
             tool,
             batch,
             indices,
-        }
+        })
     }
 }
 
@@ -88,7 +94,7 @@ impl UncertainRun {
             sources: file.sources.clone(),
             places: places.to_vec(),
             parts,
-            tools: numbers.into_iter().map(of_tool).collect(),
+            tools: numbers.into_iter().map(of_tool).collect::<Result<_, _>>()?,
             compensated,
         };
         let mut out = vec![0.0; run.width()];

@@ -122,7 +122,9 @@ pub struct UncertainMachine {
     drawn: Mechanism,
     /// The same, compiled: what all draws have of it is made once.
     batch: Batch,
+    /// Where the tool is to be, without load and under it.
     places: Commanded,
+    loaded: Commanded,
     /// Commands that compensate the load with the numbers of the drawing.
     compensated: Commanded,
     wrench: Wrench,
@@ -155,20 +157,23 @@ impl UncertainMachine {
         let nominal: Vec<f64> = parametric.parameters().iter().map(|p| p.value).collect();
         let drawn = parametric.mechanism(&nominal)?.with_tool(tool);
         let batch = Batch::new(&drawn);
-        let mut targets = Vec::new();
-        if quantities.contains(&Quantity::Compensated) {
-            let positions = Directions::NONE.with(0).with(1).with(2);
-            let wrenches = vec![wrench; places.len()];
-            let found = batch.targets_under_load(places, &wrenches, positions)?;
-            targets = found.targets;
-        }
+        let wrenches = vec![wrench; places.len()];
+        let compensated = match quantities.contains(&Quantity::Compensated) {
+            true => {
+                let positions = Directions::NONE.with(0).with(1).with(2);
+                let found = batch.targets_under_load(places, &wrenches, positions)?;
+                batch.commanded_under(&found.targets, &wrenches)?
+            }
+            false => batch.commanded(&[]),
+        };
         let machine = Self {
             parametric,
             sources: file.sources.clone(),
             tool: *tool,
             drawn,
-            places: batch.commanded(places),
-            compensated: batch.commanded(&targets),
+            places: batch.commanded_under(places, &vec![Wrench::zero(); places.len()])?,
+            loaded: batch.commanded_under(places, &wrenches)?,
+            compensated,
             batch,
             wrench,
             quantities: quantities.to_vec(),
@@ -256,8 +261,8 @@ impl UncertainMachine {
             Quantity::Deviation,
             Quantity::Stiffness,
         ]) {
-            let out = &mut room.loaded;
-            batch.equilibrium_commanded_into(&self.places, wrenches, Details::Stability, out)?;
+            let (places, out) = (&self.loaded, &mut room.loaded);
+            batch.equilibrium_commanded_into(places, wrenches, Details::Stability, out)?;
             let stable = (0..count).filter_map(|i| room.loaded.stability(i));
             unstable = stable.filter(|s| !s.stable).count();
         }

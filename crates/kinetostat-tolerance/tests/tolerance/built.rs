@@ -69,7 +69,10 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
         let poses = places(&as_drawn, size);
         let known = drawn.commanded(&poses);
         let loads = vec![load; poses.len()];
+        let started = drawn.commanded_under(&poses, &loads).expect("equilibria");
         let mut found = BatchEquilibrium::default();
+        let mut from_drawn = BatchEquilibrium::default();
+        let (mut worst_from_drawn, mut from_drawn_solved) = (Worst::new(), 0);
         let (mut worst, mut solved) = (Worst::new(), 0);
         // More and less than drawn, one after the other in the same rooms.
         for share in [1.0, -1.0, 0.5] {
@@ -80,6 +83,15 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
                 .built(built)
                 .and_then(|b| {
                     b.equilibrium_commanded_into(&known, &loads, Details::Stability, &mut found)
+                })
+                .expect("answers");
+            // Loaded otherwise than where the drawn machine was looked at.
+            let others = vec![Wrench(load.0 * (1.0 + 0.2 * share)); poses.len()];
+            drawn
+                .built(built)
+                .and_then(|b| {
+                    let out = &mut from_drawn;
+                    b.equilibrium_commanded_into(&started, &others, Details::Stiffness, out)
                 })
                 .expect("answers");
             let alone = built.commanded_as(&as_drawn).expect("as drawn");
@@ -94,6 +106,13 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
                     rows.map(f64::to_bits).collect()
                 };
                 assert_eq!(bits(&found), bits(&compiled), "{name}, place {i}");
+                if from_drawn.status[i] == Status::Vectorised {
+                    from_drawn_solved += 1;
+                    let posture = alone.posture(&poses[i]).expect("a posture");
+                    let general = posture.deflected_by(&others[i]).expect("an equilibrium");
+                    let off = pose_residual(&from_drawn.tool_pose(i), &general.tool);
+                    worst_from_drawn.add_at(off.0.norm(), || format!("{name}, place {i}"));
+                }
                 if found.status[i] != Status::Vectorised {
                     continue;
                 }
@@ -106,5 +125,10 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
         }
         assert!(solved >= 3 * 15, "{name}: only {solved} are vectorised");
         assert!(worst.value() < 1e-12, "{name}: {worst:?}");
+        assert_eq!(from_drawn_solved, solved, "{name}");
+        assert!(
+            worst_from_drawn.value() < 1e-12,
+            "{name}: {worst_from_drawn:?}"
+        );
     }
 }

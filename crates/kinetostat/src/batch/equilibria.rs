@@ -1,6 +1,7 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
 use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
+use crate::batch::limb::loaded::{EXACT, IN_USE};
 use crate::batch::limb::shape::springs;
 use crate::batch::machine::group::Places;
 use crate::batch::plan::steps::Plan;
@@ -365,7 +366,8 @@ impl Batch {
         // Rotations about some axes only do not add up: what they lead to depends on the way there.
         if (3..6).all(|k| directions[k] == directions[3]) {
             let wanted = Some(directions);
-            self.vectorised(&places, wrenches, wanted, &mut equilibrium, &mut table);
+            let beside = [&mut table, &mut Table::none(poses.len())];
+            self.vectorised(&places, wrenches, wanted, &mut equilibrium, beside);
         }
         let mut targets = poses.to_vec();
         for i in 0..poses.len() {
@@ -405,19 +407,24 @@ impl Batch {
             .is_ok_and(|plans| plans.iter().all(whole))
     }
 
-    /// Solves those postures that kernels can.
+    /// Solves those postures that kernels can. Beside the equilibria: where they are commanded (12 numbers as of the tool), and
+    /// the wrenches on the tips of all limbs, both only where the tables have columns.
     fn vectorised(
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
         directions: Option<Directions>,
         out: &mut BatchEquilibrium,
-        targets: &mut Table,
+        [targets, tips]: [&mut Table; 2],
     ) {
         let (Ok(nominal), Ok(actual)) = (&self.nominal, &self.actual) else {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
+        let precision = match places.have_a_start() || self.along {
+            true => IN_USE,
+            false => EXACT,
+        };
         // On a path only the first posture of each lane's run has no start from its neighbour.
         let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };
         let mut tables = [
@@ -428,11 +435,12 @@ impl Batch {
             &mut out.stiffness,
             &mut out.stability,
             targets,
+            tips,
         ]
         .map(|table| table.parts(blocks));
         let parts = out.status.chunks_mut(BLOCK * blocks).enumerate();
         let jobs = parts.map(|(k, status)| {
-            let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
+            let next = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| tables[i].next().unwrap_or_default());
             let [
                 tool_out,
                 coordinates,
@@ -441,6 +449,7 @@ impl Batch {
                 stiffness,
                 stability,
                 targets,
+                tips,
             ] = next;
             Job::Loaded {
                 nominal,
@@ -451,6 +460,7 @@ impl Batch {
                 wrenches: &wrenches[k * blocks * BLOCK..],
                 directions,
                 along: self.along,
+                precision,
                 buffers: &self.buffers,
                 answers: Answers {
                     tool: tool_out,
@@ -460,6 +470,7 @@ impl Batch {
                     stiffness,
                     stability,
                     targets,
+                    wrenches: tips,
                     status,
                 },
             }
@@ -479,6 +490,29 @@ impl Batch {
         })
     }
 
+    /// Those equilibria that kernels find, with the wrenches on the tips of all limbs (six numbers each, about the tip, base
+    /// axes); the tool's numbers are none where they find nothing.
+    pub(crate) fn standing(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        out: &mut BatchEquilibrium,
+    ) -> Result<Table> {
+        self.as_many(places, wrenches)?;
+        let count = places.len();
+        out.reset(self, Details::Rest, count);
+        let mut tips = Table::default();
+        tips.reset(6 * self.mechanism.limbs().len(), count);
+        let beside = [&mut Table::none(count), &mut tips];
+        self.vectorised(places, wrenches, None, out, beside);
+        for i in 0..count {
+            if out.status[i] != Status::Vectorised {
+                out.tool.set_row(i, |_| f64::NAN);
+            }
+        }
+        Ok(tips)
+    }
+
     pub(crate) fn loaded(
         &self,
         places: &Places<'_>,
@@ -489,9 +523,8 @@ impl Batch {
         self.as_many(places, wrenches)?;
         out.reset(self, query, places.len());
         if query != Details::Stability || self.stability_by_kernels() {
-            let mut none = Table::default();
-            none.reset(0, places.len());
-            self.vectorised(places, wrenches, None, out, &mut none);
+            let [targets, tips] = &mut [0; 2].map(|_| Table::none(places.len()));
+            self.vectorised(places, wrenches, None, out, [targets, tips]);
         }
         let scalar = |i: usize| {
             let posture = self.posture(places, i)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pulp::{Simd, WithSimd};
 
 use crate::batch::buffers::Buffers;
-use crate::batch::limb::loaded::{ALONG_PATH, EXACT};
+use crate::batch::limb::loaded::Precision;
 use crate::batch::limb::reach::{Joints, MOST_STEPS};
 use crate::batch::limb::shape::Shape;
 use crate::batch::limb::unloaded::ForwardPass;
@@ -49,6 +49,7 @@ pub(crate) enum Job<'a> {
         directions: Option<Directions>,
         /// The postures lie along a path: each starts from the one before, in runs of one per lane.
         along: bool,
+        precision: Precision,
         buffers: &'a Buffers,
         answers: Answers<'a>,
     },
@@ -64,6 +65,8 @@ pub(crate) struct Answers<'a> {
     pub stability: &'a mut [f64],
     /// Commanded poses, 12 numbers as `tool`.
     pub targets: &'a mut [f64],
+    /// On the tips of all limbs, six numbers each, about the tip, base axes.
+    pub wrenches: &'a mut [f64],
     pub status: &'a mut [Status],
 }
 
@@ -117,6 +120,7 @@ impl WithSimd for Job<'_> {
                 wrenches,
                 directions,
                 along,
+                precision,
                 buffers,
                 mut answers,
             } => {
@@ -127,7 +131,7 @@ impl WithSimd for Job<'_> {
                 if !answers.stability.is_empty() && machine.shapes.is_empty() {
                     machine.shapes = actual.iter().map(|a| Shape::new(simd, a)).collect();
                 }
-                machine.precision = if along { ALONG_PATH } else { EXACT };
+                machine.precision = precision;
                 let count = answers.status.len();
                 // As many runs as a block has lanes, so that a run is the same on every instruction set.
                 let run = if along { count.div_ceil(BLOCK) } else { 1 };
@@ -146,10 +150,10 @@ impl WithSimd for Job<'_> {
                             Places::Known {
                                 poses,
                                 joints,
-                                width,
+                                standing,
                             } => {
                                 let target = group.target(simd, poses);
-                                machine.start_with(simd, &group, target, (joints, width))
+                                machine.start_with(simd, &group, target, joints, standing)
                             }
                             Places::Poses(poses) if first > from => {
                                 machine.go_on(simd, group.target(simd, poses), directions)
@@ -182,6 +186,11 @@ impl<S: Simd> Machine<S> {
         if !answers.targets.is_empty() {
             group.put(answers.targets, 0, &self.target.rotation);
             group.put(answers.targets, 9, &self.target.point);
+        }
+        if !answers.wrenches.is_empty() {
+            for (i, limb) in self.limbs.iter().enumerate() {
+                group.put(answers.wrenches, 6 * i, &limb.wrench);
+            }
         }
         group.put(answers.tool, 0, &self.rotation);
         group.put(answers.tool, 9, &self.point);

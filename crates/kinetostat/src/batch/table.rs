@@ -14,6 +14,23 @@ pub struct Table {
     data: Vec<f64>,
 }
 
+/// So many numbers of each posture, as in a [`Table`].
+#[derive(Clone, Copy)]
+pub(crate) struct Columns<'a> {
+    pub numbers: &'a [f64],
+    pub width: usize,
+}
+
+impl Columns<'_> {
+    /// Without the first postures, which are whole blocks.
+    pub fn from(self, first: usize) -> Self {
+        Self {
+            numbers: &self.numbers[first * self.width..],
+            width: self.width,
+        }
+    }
+}
+
 impl PartialEq for Table {
     fn eq(&self, other: &Self) -> bool {
         (self.width, self.count) == (other.width, other.count)
@@ -26,6 +43,14 @@ impl Table {
     pub(crate) fn reset(&mut self, width: usize, count: usize) {
         (self.width, self.count) = (width, count);
         self.data.resize(count.div_ceil(BLOCK) * width * BLOCK, 0.0);
+    }
+
+    /// Of so many rows without numbers.
+    pub(crate) fn none(count: usize) -> Self {
+        Self {
+            count,
+            ..Self::default()
+        }
     }
 
     /// Numbers per posture.
@@ -69,6 +94,13 @@ impl Table {
     #[must_use]
     pub fn data(&self) -> &[f64] {
         &self.data
+    }
+
+    pub(crate) fn columns(&self) -> Columns<'_> {
+        Columns {
+            numbers: &self.data,
+            width: self.width,
+        }
     }
 
     /// One of the commands in this row lies outside its actuator's limits.

@@ -22,6 +22,7 @@ use crate::batch::plan::steps::{Joint, Law, Plan, Spring, Step};
 pub(crate) const MOST_PASSES: usize = 30;
 
 /// When a lane is done.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Precision {
     /// Relative change of the torques that the next pass would bring.
     pub torque: f64,
@@ -38,8 +39,9 @@ pub(crate) const EXACT: Precision = Precision {
     place: 1e-13,
 };
 
-/// Along a path. A program is written in tenths of micrometres: what is left of a place is a millionth of that.
-pub(crate) const ALONG_PATH: Precision = Precision {
+/// Along a path, and of one machine of many. A program is written in tenths of micrometres, and so are tolerances: what is
+/// left of a place is a millionth of that.
+pub(crate) const IN_USE: Precision = Precision {
     torque: 1e-10,
     last: 1e-7,
     place: 1e-12,

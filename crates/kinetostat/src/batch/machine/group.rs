@@ -5,7 +5,7 @@ use pulp::Simd;
 use crate::batch::limb::reach::Target;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::status::Status;
-use crate::batch::table::BLOCK;
+use crate::batch::table::{BLOCK, Columns};
 use crate::spatial::{Pose, Wrench};
 
 /// Below this relative pivot a posture is left to the general engine: its rank has to be decided.
@@ -19,12 +19,21 @@ pub(crate) enum Places<'a> {
         commands: &'a [f64],
         each: usize,
     },
-    /// With the joints that lead to the poses, `width` numbers each as in a [`crate::batch::Table`].
+    /// With the joints that lead to the poses, and where a machine like this one stands there under a load.
     Known {
         poses: &'a [Pose],
-        joints: &'a [f64],
-        width: usize,
+        joints: Columns<'a>,
+        standing: Option<Standing<'a>>,
     },
+}
+
+/// A loaded machine: 12 numbers of its tool as in [`crate::batch::BatchEquilibrium`], coordinates of all limbs, six numbers of
+/// the wrench on the tip of each; not numbers where it is not known.
+#[derive(Clone, Copy)]
+pub(crate) struct Standing<'a> {
+    pub tool: Columns<'a>,
+    pub coordinates: Columns<'a>,
+    pub wrenches: Columns<'a>,
 }
 
 impl<'a> Places<'a> {
@@ -33,6 +42,11 @@ impl<'a> Places<'a> {
             Self::Poses(poses) | Self::Known { poses, .. } => poses.len(),
             Self::Joints { commands, each } => commands.len() / each,
         }
+    }
+
+    /// A machine like the one at hand is known to stand at them under a load.
+    pub fn have_a_start(&self) -> bool {
+        matches!(self, Self::Known { standing, .. } if standing.is_some())
     }
 
     /// Without the first ones, which are whole blocks.
@@ -46,11 +60,15 @@ impl<'a> Places<'a> {
             Self::Known {
                 poses,
                 joints,
-                width,
+                standing,
             } => Self::Known {
                 poses: &poses[first..],
-                joints: &joints[first * width..],
-                width,
+                joints: joints.from(first),
+                standing: standing.map(|s| Standing {
+                    tool: s.tool.from(first),
+                    coordinates: s.coordinates.from(first),
+                    wrenches: s.wrenches.from(first),
+                }),
             },
         }
     }
@@ -182,19 +200,13 @@ impl Group {
 
     /// Numbers of these postures from their places of a table, those after the first `from` of `width`.
     #[inline(always)]
-    pub fn numbers<S: Simd>(
-        &self,
-        simd: S,
-        (table, width): (&[f64], usize),
-        from: usize,
-        to: &mut [Lanes<S>],
-    ) {
+    pub fn numbers<S: Simd>(&self, simd: S, table: Columns<'_>, from: usize, to: &mut [Lanes<S>]) {
         for (k, x) in to.iter_mut().enumerate() {
             let mut values = [0.0; BLOCK];
             for lane in 0..S::F64_LANES {
                 let item = self.item(lane);
-                let block = (item / BLOCK) * width + from + k;
-                values[lane] = table[block * BLOCK + item % BLOCK];
+                let block = (item / BLOCK) * table.width + from + k;
+                values[lane] = table.numbers[block * BLOCK + item % BLOCK];
             }
             *x = Lanes::load(simd, &values);
         }

@@ -4,11 +4,12 @@ use pulp::Simd;
 
 use crate::batch::limb::reach::{MOST_STEPS, Target};
 use crate::batch::machine::corrector::Corrector;
-use crate::batch::machine::group::{Group, REGULAR};
+use crate::batch::machine::group::{Group, REGULAR, Standing};
 use crate::batch::machine::loaded::{Machine, bounded};
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{minus, product, product_transposed, select};
+use crate::batch::table::Columns;
 use crate::spatial::Directions;
 
 /// The unloaded machine's own compliance, which corrects the passes of an equilibrium, is found anew where the machine
@@ -56,14 +57,16 @@ impl<S: Simd> Machine<S> {
         good.least_of(self.update_compliance(simd, one))
     }
 
-    /// The machine commanded to a place, unloaded, with joints that are known: one in the lanes that can go on.
+    /// The machine commanded to a place, with joints that are known, unloaded or as one like it stands there under a load: one
+    /// in the lanes that can go on.
     #[inline(always)]
     pub fn start_with(
         &mut self,
         simd: S,
         group: &Group,
         place: Target<S>,
-        (joints, width): (&[f64], usize),
+        joints: Columns<'_>,
+        standing: Option<Standing<'_>>,
     ) -> Lanes<S> {
         let mut all = Lanes::new(simd, 0.0);
         (self.place, self.target) = (place, place);
@@ -71,7 +74,7 @@ impl<S: Simd> Machine<S> {
         let mut from = 0;
         for own in &mut self.joints {
             for numbers in [&mut own.commands, &mut own.passive] {
-                group.numbers(simd, (joints, width), from, numbers);
+                group.numbers(simd, joints, from, numbers);
                 from += numbers.len();
                 for x in numbers.iter() {
                     all = x.times_plus(x.same(0.0), all);
@@ -84,7 +87,44 @@ impl<S: Simd> Machine<S> {
             return good;
         }
         self.start_limbs();
+        if let Some(standing) = standing {
+            self.stand(simd, group, standing);
+        }
         good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
+    }
+
+    /// Started limbs and platform as those of another machine stand, in the lanes where that is known.
+    #[inline(always)]
+    fn stand(&mut self, simd: S, group: &Group, standing: Standing<'_>) {
+        let zero = Lanes::new(simd, 0.0);
+        let mut tool = [zero; 12];
+        group.numbers(simd, standing.tool, 0, &mut tool);
+        let mut all = zero;
+        for x in &tool {
+            all = x.times_plus(zero, all);
+        }
+        let known = zero.where_less(all + 1.0, all.same(1.0), zero);
+        for k in 0..9 {
+            self.rotation[k] = select(known, tool[k], self.rotation[k]);
+        }
+        for k in 0..3 {
+            self.point[k] = select(known, tool[9 + k], self.point[k]);
+        }
+        let mut from = 0;
+        for (i, limb) in self.limbs.iter_mut().enumerate() {
+            limb.bent = true;
+            let mut own = [zero];
+            for x in &mut limb.coordinates {
+                group.numbers(simd, standing.coordinates, from, &mut own);
+                *x = select(known, own[0], *x);
+                from += 1;
+            }
+            let mut wrench = [zero; 6];
+            group.numbers(simd, standing.wrenches, 6 * i, &mut wrench);
+            for k in 0..6 {
+                limb.wrench[k] = select(known, wrench[k], limb.wrench[k]);
+            }
+        }
     }
 
     /// The machine commanded to the next place of a path: it goes there as it is bent, with the correction that it has in
