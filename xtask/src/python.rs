@@ -160,7 +160,8 @@ fn static_checks(tools: &Environment, wheel: &Path) -> Result<()> {
 fn tests(environment: &Environment, title: &str, settings: &[(&str, &str)]) -> Result<()> {
     let with = |words: &[&str]| {
         let mut run = environment.python();
-        run.args(["-m", "pytest"])
+        // A process on every core, each with whole files: what a file prepares is prepared once.
+        run.args(["-m", "pytest", "-n", "auto", "--dist", "loadfile"])
             .args(words)
             .env_remove("MPLBACKEND");
         if title.contains("display") {
