@@ -9,8 +9,7 @@ use kinetostat_machining::ProgramPlace;
 use kinetostat_model::{Model, ParametricModel};
 
 use crate::file::{CUTTING_PARTS, Source, UncertaintyFile};
-use crate::machine::{Room, TaskError, at};
-use crate::study::DependsOnMachine;
+use crate::machine::{DependsOnMachine, Room, TaskError, at};
 
 /// Parts of the force of the cut at every place: what one of them would be more by, if it were as large again.
 pub type CuttingParts = [Vec<Wrench>; CUTTING_PARTS.len()];
@@ -165,9 +164,7 @@ impl DependsOnMachine for UncertainRun {
     }
 
     fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
-        let of_model = self.sources.iter().zip(values);
-        let of_model = of_model.filter(|(source, _)| matches!(source, Source::Parameter(_)));
-        let numbers: Vec<f64> = of_model.map(|(_, value)| *value).collect();
+        let numbers = Source::of_model(&self.sources, values);
         let built = self.parametric.mechanism(&numbers)?;
         let each = self.columns();
         let (largest, of_places) = out.split_at_mut(each);

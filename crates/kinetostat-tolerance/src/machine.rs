@@ -113,6 +113,18 @@ pub enum TaskError {
     Stopped(#[from] kinetostat_machining::RunError),
 }
 
+/// What depends on uncertain numbers.
+pub trait DependsOnMachine: Sync {
+    /// Numbers of one answer.
+    fn width(&self) -> usize;
+
+    /// The answer of the machine with these numbers, NaN where there is none. Returns the places at which it is not stable.
+    ///
+    /// # Errors
+    /// [`TaskError`] where the numbers make no machine.
+    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError>;
+}
+
 /// A machine as a function of its uncertain numbers.
 #[derive(Clone, Debug)]
 pub struct UncertainMachine {
@@ -209,41 +221,53 @@ impl UncertainMachine {
             .collect()
     }
 
-    /// Numbers of one answer: places times columns.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        self.places() * self.columns().len()
-    }
-
     /// Number of places.
     #[must_use]
     pub fn places(&self) -> usize {
         self.places.poses().len()
     }
 
-    /// The machine with these numbers: place after place, column after column; NaN where a place has no answer. Returns the places at
-    /// which the equilibrium under the load is not stable.
-    ///
-    /// # Errors
-    /// [`TaskError::Model`] where the numbers make no machine.
-    pub fn answer(
-        &self,
-        values: &[f64],
-        room: &mut Room,
-        out: &mut [f64],
-    ) -> Result<usize, TaskError> {
-        let mut numbers = Vec::with_capacity(values.len());
+    fn put(&self, place: usize, room: &Room, row: &mut [f64]) {
+        let target = self.places.poses()[place].translation.vector;
+        let mut rest = row;
+        for quantity in &self.quantities {
+            let (own, after) = std::mem::take(&mut rest).split_at_mut(quantity.columns().len());
+            rest = after;
+            let moved = match quantity {
+                Quantity::Error => at(&room.unloaded, place) - target,
+                Quantity::Deflection => at(&room.loaded, place) - at(&room.unloaded, place),
+                Quantity::Deviation => at(&room.loaded, place) - target,
+                Quantity::Compensated => at(&room.compensated, place) - target,
+                Quantity::Stiffness => {
+                    own.copy_from_slice(&stiffness(&room.loaded, place));
+                    continue;
+                }
+            };
+            let mm = moved * 1e3;
+            own.copy_from_slice(&[mm.norm(), mm.x, mm.y, mm.z]);
+        }
+    }
+}
+
+impl DependsOnMachine for UncertainMachine {
+    /// Places times columns.
+    fn width(&self) -> usize {
+        self.places() * self.columns().len()
+    }
+
+    /// Place after place, column after column; NaN where a place has no answer.
+    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
         let (mut wrench, mut factor) = (self.wrench, 1.0);
         for (source, value) in self.sources.iter().zip(values) {
             match source {
-                Source::Parameter(_) => numbers.push(*value),
                 Source::Load(k) => wrench.0[*k] = *value,
                 Source::LoadFactor => factor = *value,
                 // Of one wrench no parts are known: its file has none.
-                Source::CuttingPart(_) => {}
+                Source::Parameter(_) | Source::CuttingPart(_) => {}
             }
         }
         wrench.0 *= factor;
+        let numbers = Source::of_model(&self.sources, values);
         let built = self.parametric.mechanism(&numbers)?.with_tool(&self.tool);
         let batch = self.batch.built(&built)?;
         let count = self.places();
@@ -275,27 +299,6 @@ impl UncertainMachine {
             self.put(place, room, row);
         }
         Ok(unstable)
-    }
-
-    fn put(&self, place: usize, room: &Room, row: &mut [f64]) {
-        let target = self.places.poses()[place].translation.vector;
-        let mut rest = row;
-        for quantity in &self.quantities {
-            let (own, after) = std::mem::take(&mut rest).split_at_mut(quantity.columns().len());
-            rest = after;
-            let moved = match quantity {
-                Quantity::Error => at(&room.unloaded, place) - target,
-                Quantity::Deflection => at(&room.loaded, place) - at(&room.unloaded, place),
-                Quantity::Deviation => at(&room.loaded, place) - target,
-                Quantity::Compensated => at(&room.compensated, place) - target,
-                Quantity::Stiffness => {
-                    own.copy_from_slice(&stiffness(&room.loaded, place));
-                    continue;
-                }
-            };
-            let mm = moved * 1e3;
-            own.copy_from_slice(&[mm.norm(), mm.x, mm.y, mm.z]);
-        }
     }
 }
 

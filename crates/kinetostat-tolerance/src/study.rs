@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::draws::Draws;
 use crate::linear::{ENOUGH, Linear, linear, linear_points, nonlinearity};
-use crate::machine::{Room, TaskError, UncertainMachine};
+use crate::machine::{DependsOnMachine, Room, TaskError};
 use crate::sensitivity::{SobolIndex, design_row, design_rows, sobol_indices};
 use crate::statistics::Summary;
 use crate::uncertain::Uncertainties;
@@ -53,28 +53,6 @@ impl Samples {
             .step_by(self.width.max(1))
             .copied()
             .collect()
-    }
-}
-
-/// What depends on uncertain numbers.
-pub trait DependsOnMachine: Sync {
-    /// Numbers of one answer.
-    fn width(&self) -> usize;
-
-    /// The answer of the machine with these numbers, NaN where there is none. Returns the places at which it is not stable.
-    ///
-    /// # Errors
-    /// [`TaskError`] where the numbers make no machine.
-    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError>;
-}
-
-impl DependsOnMachine for UncertainMachine {
-    fn width(&self) -> usize {
-        Self::width(self)
-    }
-
-    fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
-        Self::answer(self, values, room, out)
     }
 }
 

@@ -15,9 +15,9 @@ use kinetostat_machining::straight_tool;
 use kinetostat_model::Model;
 use kinetostat_report::Plot;
 use kinetostat_tolerance::{
-    CONFIDENCE, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity, Samples, SobolIndex,
-    TaskError, UncertainMachine, UncertaintyFile, answers, linearised, monte_carlo,
-    sobol as sobol_of,
+    CONFIDENCE, DependsOnMachine, Draws, Failures, Linear, MOST_DRAWS, OutputAnswer, Quantity,
+    Samples, SobolIndex, TaskError, UncertainMachine, UncertaintyFile, answers, linearised,
+    monte_carlo, sobol as sobol_of,
 };
 
 use crate::files::input_files::InputFiles;

@@ -14,6 +14,15 @@ pub enum Source {
     CuttingPart(usize),
 }
 
+impl Source {
+    /// Those of some values that are numbers of the model file.
+    pub(crate) fn of_model(sources: &[Self], values: &[f64]) -> Vec<f64> {
+        let each = sources.iter().zip(values);
+        let own = each.filter(|(source, _)| matches!(source, Self::Parameter(_)));
+        own.map(|(_, value)| *value).collect()
+    }
+}
+
 /// Parts of the force of the cut, each with coefficients of its own: against the way of a tooth, against its normal, along its edge; of a
 /// stated milling force along the feed, across it, along the tool.
 pub const CUTTING_PARTS: [&str; 3] = ["tangential", "radial", "axial"];

@@ -4,7 +4,7 @@
 use kinetostat::nalgebra::{Matrix6, Point3, UnitQuaternion, Vector3, Vector6};
 use kinetostat::{Pose, Wrench};
 use kinetostat_model::Model;
-use kinetostat_tolerance::{Quantity, Room, UncertainMachine, UncertaintyFile};
+use kinetostat_tolerance::{DependsOnMachine, Quantity, Room, UncertainMachine, UncertaintyFile};
 
 /// Points of the legs, m: on the base, and on the platform in the axes of the tool.
 struct Legs {

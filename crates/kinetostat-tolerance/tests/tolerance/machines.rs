@@ -5,8 +5,8 @@ use kinetostat::{Pose, Wrench};
 use kinetostat_machining::{Unwatched, Watch};
 use kinetostat_model::Model;
 use kinetostat_tolerance::{
-    Draws, OutputAnswer, Quantity, UncertainMachine, UncertaintyFile, answers, linearised,
-    monte_carlo, sobol,
+    DependsOnMachine, Draws, OutputAnswer, Quantity, UncertainMachine, UncertaintyFile, answers,
+    linearised, monte_carlo, sobol,
 };
 
 /// Two springs in a row along z and a length beside them.
