@@ -1,7 +1,7 @@
 //! KUKA KRL: programs and data lists read together, and what the writer must know of the language.
 //!
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`aggregate`], [`values`], [`frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
+//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
 //! [`resolve`]). [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
@@ -9,6 +9,7 @@
 //! Instructions for System Integrators.
 
 pub(crate) mod aggregate;
+pub(crate) mod assigned_frames;
 pub(crate) mod behind_ends;
 pub(crate) mod calls;
 pub(crate) mod folds;
@@ -19,6 +20,7 @@ pub(crate) mod motion;
 pub(crate) mod parser;
 pub(crate) mod reader;
 pub(crate) mod resolve;
+pub(crate) mod role;
 pub(crate) mod settings;
 pub(crate) mod state;
 pub(crate) mod steps;

@@ -4,15 +4,14 @@ use std::collections::BTreeMap;
 
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
+use crate::making::reconfigured::changes;
 use crate::making::routines::{running_lines, words_of};
 use crate::making::step::StatedConfiguration;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::target::{Configuration, Target};
 use crate::path::of_program::RobotPath;
-
-/// Lines are named up to so many.
-const MOST_NAMED: usize = 20;
+use crate::text::line_words::in_words;
 
 /// Whether a program is made in the language of its source, of those whose targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
@@ -25,7 +24,7 @@ pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
 }
 
 /// The text of a configuration; none where nothing is stated.
-fn text_of(language: Language, configuration: &Configuration) -> Option<String> {
+pub(crate) fn text_of(language: Language, configuration: &Configuration) -> Option<String> {
     if configuration.text.trim().is_empty() {
         return None;
     }
@@ -49,9 +48,10 @@ pub(crate) fn kept(
         return Vec::new();
     }
     let switches = Switches::of(program, robot.file);
+    let changes = changes(program, robot);
     let of_target = |target: &Target| text_of(program.language, &target.pose()?.configuration);
-    let motions = robot.motions.iter();
-    let stated = motions.map(|index| {
+    let motions = robot.motions.iter().enumerate();
+    let stated = motions.map(|(number, index)| {
         let Some(motion) = program.motions.get(*index) else {
             return StatedConfiguration::default();
         };
@@ -63,13 +63,14 @@ pub(crate) fn kept(
             end: of_target(&motion.target),
             via,
             is_followed: !switches.is_off_at(motion.line),
+            changes: changes.contains(&number),
         }
     });
     stated.collect()
 }
 
 /// Where `ConfJ` of RAPID switches what joint motions do with configurations.
-struct Switches {
+pub(crate) struct Switches {
     /// Lines with motions behind `ConfJ\Off`.
     off: BTreeMap<usize, bool>,
     /// Where the order of the lines is not known, and it stands somewhere.
@@ -77,7 +78,7 @@ struct Switches {
 }
 
 impl Switches {
-    fn of(program: &RobotProgram, file: usize) -> Self {
+    pub(crate) fn of(program: &RobotProgram, file: usize) -> Self {
         let mut found = Self {
             off: BTreeMap::new(),
             somewhere: false,
@@ -107,7 +108,7 @@ impl Switches {
         found
     }
 
-    fn is_off_at(&self, line: usize) -> bool {
+    pub(crate) fn is_off_at(&self, line: usize) -> bool {
         self.off.get(&line).copied().unwrap_or(self.somewhere)
     }
 }
@@ -137,39 +138,6 @@ pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
             in_words(&lines)
         ),
     ))
-}
-
-/// Lines in words, those that follow one another as one.
-pub(crate) fn in_words(lines: &[usize]) -> String {
-    let mut ranges: Vec<[usize; 2]> = Vec::new();
-    for line in lines {
-        match ranges.last_mut() {
-            Some([_, to]) if *to + 1 == *line => *to = *line,
-            _ => ranges.push([*line, *line]),
-        }
-    }
-    let named = ranges.iter().take(MOST_NAMED);
-    let named: Vec<String> = named
-        .map(|[from, to]| match to - from {
-            0 => from.to_string(),
-            1 => format!("{from}, {to}"),
-            _ => format!("{from} to {to}"),
-        })
-        .collect();
-    let rest: usize = ranges
-        .iter()
-        .skip(MOST_NAMED)
-        .map(|[from, to]| to - from + 1)
-        .sum();
-    let more = match (rest, lines.last()) {
-        (1.., Some(last)) => format!(" and {rest} more, the last {last}"),
-        _ => String::new(),
-    };
-    let word = match lines.len() {
-        1 => "line",
-        _ => "lines",
-    };
-    format!("{word} {}{more}", named.join(", "))
 }
 
 /// Why configurations cannot be kept in another language.

@@ -41,6 +41,8 @@ pub(crate) struct Course {
     pub is_of_robot: bool,
     /// Of every move, how the arm reaches its places, where the source says it in the same language.
     pub configurations: Vec<StatedConfiguration>,
+    /// Of every move, its speeds of turning and of external axes, where the source states them in the same language.
+    pub other_speeds: Vec<Option<Box<str>>>,
 }
 
 impl Course {
@@ -72,6 +74,7 @@ impl Course {
             left_out,
             is_of_robot: false,
             configurations: Vec::new(),
+            other_speeds: Vec::new(),
         }
     }
 

@@ -4,15 +4,18 @@ use std::collections::BTreeMap;
 
 use kinetostat_program::Knowledge;
 
+use crate::making::computed_frames::computed_frames;
 use crate::making::configurations;
 use crate::making::course::{Course, at, place_of};
-use crate::making::dynamics::dynamics;
+use crate::making::dynamics::{dynamics, other_speeds, turning_speeds};
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
 use crate::making::of_external_axes::external_axes;
 use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
+use crate::making::outside_calls::outside_calls;
+use crate::making::reconfigured;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
 use crate::making::stated::is_identity;
@@ -51,6 +54,7 @@ pub fn make_of_robot(
 ) -> Result<Made, Vec<MakeError>> {
     let mut faults = not_once(program);
     faults.extend(arcs_from_elsewhere(program, robot));
+    faults.extend(computed_frames(program, template));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -87,6 +91,7 @@ pub fn make_of_robot(
         // What the template states holds, and the rest of the source's would not go with it.
         course.configurations.clear();
     }
+    course.other_speeds = other_speeds(program, robot, language);
     let mut made = make_along(&robot.path, &course, &template, language)?;
     // What is named stands before what is taken for granted.
     made.findings.splice(0..0, named);
@@ -110,10 +115,20 @@ pub fn make_of_robot(
     ) {
         made.findings.extend(zones(program));
     }
+    made.findings.extend(outside_calls(program, robot.file));
     made.findings.extend(external_axes(program));
     made.findings.extend(dynamics(program, robot.file));
+    made.findings.extend(turning_speeds(program, language));
     let is_kept = made.states_configuration && template.configuration.is_none();
     made.findings.extend(moved.filter(|_| is_kept));
+    let keeps =
+        configurations::is_same(program.language, language) && template.configuration.is_none();
+    let stated = template.configuration.as_deref();
+    made.findings.extend(reconfigured::findings(
+        program,
+        robot,
+        (keeps, stated, language),
+    ));
     made.findings
         .extend(lost_configurations(program, &template, language));
     Ok(made)
@@ -232,8 +247,8 @@ fn not_once(program: &RobotProgram) -> Vec<MakeError> {
     others
         .map(|motion| {
             let reason = match motion.runs {
-                Runs::OnCondition => "the motion is in a branch: whether it runs is not known",
-                Runs::Elsewhere => "nothing in these files calls the routine of this motion",
+                Runs::OnCondition => "the motion is in a branch, or behind what may end the program or its routine before: whether it runs is not known",
+                Runs::Elsewhere => "nothing in these files leads to this motion: it never runs (its routine is not called, or the program ends before)",
                 _ => "the motion is in a loop, or in a routine that is called more than once",
             };
             MakeError::at(
@@ -338,5 +353,6 @@ fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         left_out: by_line.into_values().flatten().collect(),
         is_of_robot: true,
         configurations: Vec::new(),
+        other_speeds: Vec::new(),
     }
 }

@@ -268,10 +268,15 @@ impl Planner<'_> {
     fn made(&mut self, index: usize) {
         let path = self.path;
         let motion = &path.moves[index];
+        let stated = self.course.configurations.get(index);
+        let stated = stated.filter(|stated| stated.end.is_some() || stated.via.is_some());
+        let reconfigures = stated.is_some_and(|stated| stated.changes);
         // Another tip goes there from where it is.
         let same_tool = self.tool == self.last_tool;
-        let goes =
-            motion.has_length() || motion.turns_in_place() || self.comes_from_elsewhere(motion);
+        let goes = motion.has_length()
+            || motion.turns_in_place()
+            || reconfigures
+            || self.comes_from_elsewhere(motion);
         if self.begun && same_tool && !goes {
             return;
         }
@@ -314,9 +319,9 @@ impl Planner<'_> {
                 .follow(followed, motion.line, pieces.ends.len());
         }
         self.last_tool = self.tool;
-        let stated = self.course.configurations.get(index);
-        let stated = stated.filter(|stated| stated.end.is_some() || stated.via.is_some());
         let rapid = motion.kind == MoveKind::Rapid;
+        let other_speeds = self.course.other_speeds.get(index).and_then(Option::as_ref);
+        let by_joints = !self.begun || reconfigures;
         let mut from = 0.0;
         for to in pieces.ends {
             let via = 0.5 * (from + to);
@@ -329,7 +334,7 @@ impl Planner<'_> {
                     centre: centre(motion),
                     clockwise,
                 },
-                Shape::Line if !self.begun || (rapid && self.template.rapids == Rapids::Joint) => {
+                Shape::Line if by_joints || (rapid && self.template.rapids == Rapids::Joint) => {
                     Way::Joint
                 }
                 Shape::Line => Way::Line,
@@ -347,9 +352,10 @@ impl Planner<'_> {
                 orientation: self.orientation(motion, to),
                 axis,
                 speed_mm_per_s,
+                other_speeds: other_speeds.cloned().filter(|_| !rapid),
                 rapid,
                 first: !self.begun,
-                exact: !self.begun,
+                exact: by_joints,
                 configuration: stated.cloned().map(Box::new),
             }));
             self.begun = true;

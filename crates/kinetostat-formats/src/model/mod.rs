@@ -9,6 +9,7 @@ pub(crate) mod frame;
 pub(crate) mod joint_arm;
 pub(crate) mod motion;
 pub(crate) mod orientation;
+pub(crate) mod outside_call;
 pub(crate) mod parsed;
 pub(crate) mod program;
 pub(crate) mod site;
