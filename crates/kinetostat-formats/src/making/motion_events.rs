@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::ls::motion::event_of;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
-use crate::making::order_words::orders_only;
+use crate::making::statements::of_line;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
@@ -49,37 +49,65 @@ fn events_of_motion(
         }
         _ => None,
     };
-    let (line, last) = (
-        motion.line,
-        source.line_of(motion.span.end.saturating_sub(1)),
-    );
-    let mut events = Vec::new();
     let begin = source.range_of(motion.line).start;
+    let own = program.motions.iter();
+    let before = own.filter(|other| {
+        let is_before = other.span.start < motion.span.start;
+        other.file == motion.file && other.line == motion.line && is_before
+    });
+    let number = Some(before.count());
+    let mut events = Vec::new();
     if program.language == Language::Rapid && free.start <= begin {
         // What stands between two motions of a line is behind the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
-        if !text.is_empty() && !orders_only(program.language, &text) {
-            events.push(SourceEvent::words_alone(line, EventKind::Other, text));
-        }
+        events.extend(of_line(program.language, motion.line, &text));
     }
     if let Some((text, is_behind)) = found {
         events.push(SourceEvent {
             is_behind,
-            ..SourceEvent::words_alone(line, EventKind::Other, text)
+            motion: number,
+            ..SourceEvent::words_alone(motion.line, EventKind::Other, text)
         });
     }
-    if program.language == Language::Rapid {
-        let end = source.range_of(last).end.min(free.end);
-        let text = words(source.part(&(motion.span.end.min(end)..end)));
-        if !text.is_empty() && !text.starts_with('!') {
-            events.push(SourceEvent {
-                is_behind: true,
-                place: format!("line {last}"),
-                ..SourceEvent::words_alone(line, EventKind::Other, text)
-            });
-        }
-    }
+    events.extend(
+        behind(program, source, motion, free.end).map(|event| SourceEvent {
+            is_behind: true,
+            motion: number,
+            ..event
+        }),
+    );
     events
+}
+
+/// What stands behind a motion on its last line, up to where the next one begins.
+fn behind(
+    program: &RobotProgram,
+    source: &SourceFile,
+    motion: &Motion,
+    next: usize,
+) -> impl Iterator<Item = SourceEvent> {
+    let last = source.line_of(motion.span.end.saturating_sub(1));
+    let end = source.range_of(last).end.min(next);
+    let text = words(source.part(&(motion.span.end.min(end)..end)));
+    let comment = match program.language {
+        Language::Krl => ";",
+        Language::Apt => "$$",
+        _ => "!",
+    };
+    let is_said = match program.language {
+        Language::Rapid => true,
+        Language::Krl | Language::Apt => text.starts_with(comment),
+        _ => false,
+    };
+    let found = match is_said {
+        true => of_line(program.language, motion.line, &text),
+        false => Vec::new(),
+    };
+    let place = format!("line {last}");
+    found.into_iter().map(move |event| SourceEvent {
+        place: place.clone(),
+        ..event
+    })
 }
 
 /// What an instruction of RAPID does beside its motion, and whether it does so behind it.

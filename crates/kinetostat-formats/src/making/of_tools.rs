@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::making::course::before;
+use crate::making::course::before_motion;
 use crate::making::events::SourceEvent;
-use crate::making::fault::MakeFinding;
+use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
-use crate::making::stated::{has_own_zero, is_identity, is_mass};
+use crate::making::stated::{has_own_zero, is_identity, is_mass, of_tool};
 use crate::making::template::{StatedFrame, StatedTool};
 use crate::model::frame::FrameUse;
+use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
@@ -23,6 +24,8 @@ pub(crate) struct MadeTools {
     pub tools: BTreeMap<u32, StatedTool>,
     /// What got a number, or another name.
     pub findings: Vec<MakeFinding>,
+    /// What cannot be written of them, by the line of the first motion.
+    pub faults: Vec<MakeError>,
 }
 
 /// Whether a language takes tools by statements of their own, as machines do.
@@ -48,6 +51,7 @@ pub(crate) fn tools_of_source(
         tool: StatedTool::default(),
         tools: BTreeMap::new(),
         findings: Vec::new(),
+        faults: Vec::new(),
     };
     let all = &robot.tools;
     let is_one = all.len() == 1;
@@ -75,6 +79,11 @@ pub(crate) fn tools_of_source(
             axes_of_moment: load.map(|load| load.axes_of_moment),
             inertia_kg_m2: load.map(|load| load.inertia_kg_m2),
         };
+        made.faults.extend(faults_at(
+            program,
+            |motion| same_frame(&motion.tool, tool),
+            of_tool(&stated, language),
+        ));
         made.findings.extend(renamed(
             program,
             (tool, own),
@@ -90,6 +99,22 @@ pub(crate) fn tools_of_source(
         }
     }
     made
+}
+
+/// Faults of what the source itself states, by the line of the first motion that uses it.
+pub(crate) fn faults_at(
+    program: &RobotProgram,
+    uses: impl Fn(&Motion) -> bool,
+    faults: Vec<MakeError>,
+) -> Vec<MakeError> {
+    let first = program.motions.iter().find(|motion| uses(motion));
+    let line = first.map(|motion| motion.line);
+    let faults = faults.into_iter().map(|fault| MakeError {
+        line,
+        is_of_template: false,
+        ..fault
+    });
+    faults.collect()
 }
 
 /// The loads of the source's tools, where the made program declares them; a controller takes a tool of -1 kg for one without.
@@ -199,7 +224,7 @@ pub(crate) fn changes_of_source(
         let end = events.partition_point(|(at, _)| at < order);
         let said = events[..end].iter().rev().take_while(|(at, _)| *at >= from);
         let mut said = said.filter(|(_, event)| event.is_of_tool);
-        let at = said.next().map_or(order - order % before(1), |(at, _)| *at);
+        let at = said.next().map_or(before_motion(*order), |(at, _)| *at);
         changes.push((at, number));
     }
     changes

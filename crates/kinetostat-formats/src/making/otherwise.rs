@@ -8,6 +8,7 @@ use crate::making::event_kind::EventKind;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::Followed;
+use crate::text::line_words::in_words;
 
 /// What is otherwise, counted.
 #[derive(Default)]
@@ -16,6 +17,8 @@ pub(crate) struct Otherwise {
     followed: BTreeMap<Followed, (usize, usize, usize)>,
     /// By kind: how many events are notes alone, with the first of them.
     lost: BTreeMap<EventKind, (usize, String)>,
+    /// Lines of optional stops that always stop.
+    always: Vec<usize>,
 }
 
 impl Otherwise {
@@ -29,6 +32,11 @@ impl Otherwise {
     /// An event is a note alone.
     pub(crate) fn lose(&mut self, kind: EventKind, note: String) {
         self.lost.entry(kind).or_insert((0, note)).0 += 1;
+    }
+
+    /// An optional stop is one without a condition.
+    pub(crate) fn stop_always(&mut self, line: usize) {
+        self.always.push(line);
     }
 
     /// All of it in words.
@@ -58,7 +66,16 @@ impl Otherwise {
             };
             MakeFinding::of(None, format!("{}: {lines} ({first})", kind.words()))
         });
-        followed.chain(lost).collect()
+        let always = self.always.first().map(|first| {
+            MakeFinding::of(
+                *first,
+                format!(
+                    "an optional stop, which a switch of the machine decides on, always stops here ({})",
+                    in_words(&self.always)
+                ),
+            )
+        });
+        followed.chain(lost).chain(always).collect()
     }
 }
 

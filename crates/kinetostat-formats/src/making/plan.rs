@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
 use crate::making::course::Course;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
@@ -140,10 +141,12 @@ impl Planner<'_> {
             self.event(*at, event);
         }
         if !self.begun && self.faults.is_empty() {
-            self.faults.push(MakeError::of(
+            let line = moves.first().map_or(1, |motion| motion.line);
+            self.fault(
+                line,
                 "the program has no move to a place that is known",
                 "give a program that moves the tool",
-            ));
+            );
         }
     }
 
@@ -175,7 +178,12 @@ impl Planner<'_> {
         let mut lost: BTreeSet<EventKind> = BTreeSet::new();
         for action in &event.actions {
             match action.is_in(self.language) {
-                true => self.steps.push(Step::Action(*action)),
+                true => {
+                    if *action == EventAction::OptionalStop && !of_a_machine {
+                        self.otherwise.stop_always(event.line);
+                    }
+                    self.steps.push(Step::Action(*action));
+                }
                 false => {
                     lost.insert(action.kind());
                 }

@@ -15,6 +15,7 @@ mod refused;
 mod round_trips;
 mod running;
 mod same_language;
+mod statements;
 mod tools;
 
 use kinetostat_formats::*;
