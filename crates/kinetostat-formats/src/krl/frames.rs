@@ -49,6 +49,16 @@ impl Values<'_> {
         FrameUse { name, frame }
     }
 
+    /// The same with an index that is no literal number.
+    pub(crate) fn computed(&self, role: Role, index: &str) -> FrameUse {
+        let name = format!("{}[{}]", role.array(), key(index));
+        let reason = "its number is computed while the program runs".to_owned();
+        self.stated(&name).unwrap_or(FrameUse {
+            name,
+            frame: Frame::Unknown { reason },
+        })
+    }
+
     /// What the program gives an element; none where it gives it nothing.
     fn given(
         &self,

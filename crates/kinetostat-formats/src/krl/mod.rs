@@ -3,7 +3,7 @@
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
-//! [`resolve`]). [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
+//! [`resolve`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
 //! Instructions for System Integrators.
@@ -16,6 +16,7 @@ pub(crate) mod folds;
 pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod lex;
+pub(crate) mod loads;
 pub(crate) mod motion;
 pub(crate) mod parser;
 pub(crate) mod reader;

@@ -235,9 +235,14 @@ impl Setter<'_, '_> {
                     true => (Role::Tool, Thing::Tool),
                     false => (Role::Base, Thing::Base),
                 };
-                let number = number_of(file, &value).filter(|number| *number >= 0.0);
-                let slot =
-                    number.map_or(Slot::Unknown, |number| self.numbered(role, number as u32));
+                let slot = match number_of(file, &value).filter(|number| *number >= 0.0) {
+                    Some(number) => self.numbered(role, number as u32),
+                    None if value.is_empty() => Slot::Unknown,
+                    None => {
+                        let frame = self.values.computed(role, &file.text(&value));
+                        self.settings.frames.slot(frame)
+                    }
+                };
                 state.set(thing, slot);
             }
             b"VEL_CP" => {

@@ -24,6 +24,18 @@ const OF_KRL: [&str; 8] = [
 /// What `BAS` sets of it.
 const OF_BAS: [&str; 5] = ["VEL_PTP", "ACC_PTP", "ACC_CP", "PTP_PARAMS", "PTP_DAT"];
 
+/// Instructions of RAPID that do, wherever they stand on their line.
+const OF_RAPID: [&str; 5] = [
+    "VELSET",
+    "SPEEDREFRESH",
+    "ACCSET",
+    "PATHACCLIM",
+    "WORLDACCLIM",
+];
+
+/// Statements of TP programs.
+const OF_TP: [&str; 3] = ["OVERRIDE", "JOINT_MAX_SPEED", "LINEAR_MAX_SPEED"];
+
 /// Whether a line states such a thing.
 fn states(language: Language, words: &[String]) -> bool {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -31,6 +43,8 @@ fn states(language: Language, words: &[String]) -> bool {
         (Language::Krl, ["VEL", "ORI1" | "ORI2", ..]) => true,
         (Language::Krl, ["BAS", what, ..]) => OF_BAS.contains(what),
         (Language::Krl, [first, _, ..]) => OF_KRL.contains(first),
+        (Language::Rapid, all) => all.iter().any(|word| OF_RAPID.contains(word)),
+        (Language::FanucLs, [first, ..]) if OF_TP.contains(first) => true,
         // Behind the zone of a motion.
         (Language::FanucLs, ["J" | "L" | "C" | "A", others @ ..]) => others.iter().any(|word| {
             let percent = word.strip_prefix("ACC");
@@ -49,7 +63,7 @@ pub(crate) fn dynamics(program: &RobotProgram, file: usize) -> Option<MakeFindin
     Some(MakeFinding::of(
         *lines.first()?,
         format!(
-            "accelerations, and speeds of turning and of joint motions, are not those of the source ({}): joint_speed_percent and acceleration_m_per_s2 of the template state what is written",
+            "accelerations, overrides, and speeds of turning and of joint motions, are not those of the source ({}): joint_speed_percent and acceleration_m_per_s2 of the template state what is written",
             in_words(&lines)
         ),
     ))

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::krl::loads::tool_loads as loads_of_krl;
 use crate::making::course::before_motion;
 use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
@@ -11,9 +12,10 @@ use crate::making::template::{StatedFrame, StatedTool};
 use crate::model::frame::FrameUse;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::tool_load::ToolLoad;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
-use crate::rapid::loads::{ToolLoad, tool_loads};
+use crate::rapid::loads::tool_loads;
 use crate::text::name::Name;
 
 /// The tools of a made program.
@@ -119,10 +121,18 @@ pub(crate) fn faults_at(
 
 /// The loads of the source's tools, where the made program declares them; a controller takes a tool of -1 kg for one without.
 fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<Name, ToolLoad> {
-    if (program.language, language) != (Language::Rapid, MakeLanguage::Rapid) {
-        return BTreeMap::new();
-    }
-    let mut loads = tool_loads(&program.files);
+    let mut loads = match (program.language, language) {
+        (Language::Rapid, MakeLanguage::Rapid) => tool_loads(&program.files),
+        (Language::Krl, MakeLanguage::Rapid) => {
+            let loads = loads_of_krl(&program.files).into_iter();
+            let named = loads.filter_map(|(number, load)| {
+                let name = format!("TOOL_DATA[{number}]");
+                Some((Name::of(name.as_bytes())?, load))
+            });
+            named.collect()
+        }
+        _ => return BTreeMap::new(),
+    };
     loads.retain(|_, load| is_mass(load.mass_kg));
     loads
 }

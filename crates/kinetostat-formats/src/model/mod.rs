@@ -16,3 +16,4 @@ pub(crate) mod site;
 pub(crate) mod stated_arm;
 pub(crate) mod stated_axes;
 pub(crate) mod target;
+pub(crate) mod tool_load;

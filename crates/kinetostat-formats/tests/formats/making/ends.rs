@@ -125,6 +125,18 @@ fn machines_end_at_the_end_of_their_programs() {
 }
 
 #[test]
+fn what_stands_behind_the_end_of_an_apt_file_does_not_run() {
+    let text = "UNITS/MM\nRAPID\nGOTO/0,0,5\nFEDRAT/200,MMPM\nGOTO/0,0,0\nFINI\nGOTO/9,0,0\n";
+    for text in [text.to_owned(), text.replace("FINI", "END")] {
+        let found = refused(Language::Apt, &text);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].0, Some(7));
+    }
+    let paths = text.replace("FINI\n", "END-OF-PATH\nTOOL PATH/B,TOOL,T2\n");
+    of_robot(Language::Apt, &paths, MakeLanguage::Csv);
+}
+
+#[test]
 fn each_call_of_what_is_not_there_is_named_with_its_lines() {
     let krl = "DEF a( )\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.01\nPTP {X 0,Y 0,Z 5,A 0,B 0,C 180}\nSUB1()\nGRIP(1)\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.01\nLIN {X 9,Y 0,Z 5,A 0,B 0,C 180}\nGRIP(2)\nEND\n";
     let tp = ls(&[&TWO[..], &["  CALL SUB1", "  CALL SR[1]", "  CALL SUB1"]].concat());
@@ -193,6 +205,10 @@ fn a_tool_whose_number_the_run_computes_is_not_guessed() {
     for (text, what) in [
         (
             text.to_owned(),
+            "which tool `TOOL_DATA[N]` is, is not known",
+        ),
+        (
+            text.replace("$TOOL=TOOL_DATA[N]", "BAS(#TOOL,N)"),
             "which tool `TOOL_DATA[N]` is, is not known",
         ),
         (
