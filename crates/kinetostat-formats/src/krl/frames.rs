@@ -66,14 +66,10 @@ impl Values<'_> {
         number: u32,
         given: &Given,
     ) -> Option<Result<Isometry3<f64>, String>> {
-        let of_element =
-            |own: &&Assignment| own.role == role && own.number.is_none_or(|own| own == number);
-        let mut all = self.symbols.frames_assigned.iter().filter(of_element);
+        let of = |number: Option<u32>| self.symbols.frames_assigned.get(&(role, number));
+        let mut all = of(Some(number)).into_iter().chain(of(None)).flatten();
         let first = all.next()?;
-        let literal = |own: &Assignment| {
-            let value = own.value.as_ref().filter(|_| own.number.is_some())?;
-            self.literal_frame(own.routine, value)
-        };
+        let literal = |one: &Assignment| self.literal_frame(one.routine, one.value.as_ref()?);
         let line = first.line;
         let Some(frame) = literal(first) else {
             return Some(Err(format!(

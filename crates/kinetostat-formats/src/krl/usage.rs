@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::krl::aggregate::literal_index;
-use crate::krl::assigned_frames::Assignment;
+use crate::krl::assigned_frames::{Assignment, MOST};
 use crate::krl::lex::{Kind, TokenFile};
 use crate::krl::role::Role;
 use crate::krl::symbols::{Meaning, Symbols};
@@ -180,13 +180,17 @@ impl Notes<'_, '_, '_, '_> {
         let (place, element) = place_of(self.file, at, end);
         let is_whole = place == (at..end);
         let span = self.file.span(&(at..at + 1));
-        self.symbols.frames_assigned.push(Assignment {
-            role,
-            number: element.filter(|_| place.len() > 1),
-            routine: self.routine,
-            line: self.file.source.line_of(span.start),
-            value: value.filter(|_| is_whole),
-        });
+        let number = element.filter(|_| place.len() > 1);
+        let all = self.symbols.frames_assigned.entry((role, number));
+        let all = all.or_default();
+        let is_last = all.len() + 1 == MOST;
+        if all.len() < MOST {
+            all.push(Assignment {
+                routine: self.routine,
+                line: self.file.source.line_of(span.start),
+                value: value.filter(|_| is_whole && !is_last && number.is_some()),
+            });
+        }
     }
 
     /// Something rests on the values of the names in these tokens.

@@ -3,7 +3,7 @@
 use crate::making::fault::MakeError;
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::{Frame, FrameUse};
-use crate::model::program::RobotProgram;
+use crate::model::program::{Language, RobotProgram};
 
 /// Each, by the line of its first motion, where the template does not say what it is.
 pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Vec<MakeError> {
@@ -22,7 +22,7 @@ pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Ve
             let Frame::Unknown { reason } = &used.frame else {
                 continue;
             };
-            if !is_computed(used) || named.contains(&used.name.as_str()) {
+            if !is_computed(program.language, used) || named.contains(&used.name.as_str()) {
                 continue;
             }
             named.push(&used.name);
@@ -36,11 +36,12 @@ pub(crate) fn computed_frames(program: &RobotProgram, template: &Template) -> Ve
     faults
 }
 
-/// An element of an array whose index is no number, or the value of an expression.
-fn is_computed(used: &FrameUse) -> bool {
+/// An element of an array whose index is no number, or the value of an expression or of a variable.
+fn is_computed(language: Language, used: &FrameUse) -> bool {
     let name = used.name.as_str();
     let Some((_, inside)) = name.split_once(['[', '{', '(']) else {
-        return false;
+        // Tools and bases of KRL have numbers; where nothing sets $TOOL and $BASE, those of the controller count.
+        return language == Language::Krl && !name.starts_with('$');
     };
     let index = inside.trim_end_matches([']', '}', ')']);
     index.trim().parse::<u32>().is_err()

@@ -3,7 +3,7 @@
 //! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements;
 //! [`siemens_events`] and [`heidenhain_events`]: the words of blocks, with [`turning`], how the spindle turns, and [`words`], what they do
 //! before a motion and behind it),
-//! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`]: their
+//! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`], [`stated_configurations`]: their
 //! postures), [`plan`] makes steps
 //! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
@@ -53,6 +53,7 @@ pub(crate) mod routines;
 pub(crate) mod siemens_events;
 pub(crate) mod siemens_words;
 pub(crate) mod stated;
+pub(crate) mod stated_configurations;
 pub(crate) mod statements;
 pub(crate) mod step;
 pub(crate) mod stops;

@@ -25,22 +25,31 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
         let before = before.checked_sub(1).map_or(0, |before| ends[before]);
         let next = starts.partition_point(|start| *start < motion.span.end);
         let next = starts.get(next).copied().unwrap_or(usize::MAX);
-        events.extend(events_of_motion(program, motion, before..next));
+        let Some(source) = program.files.get(file) else {
+            continue;
+        };
+        let begin = source.range_of(motion.line).start;
+        let number = |from: usize| starts.partition_point(|start| *start < from);
+        let number = number(motion.span.start).saturating_sub(number(begin));
+        events.extend(events_of_motion(
+            program.language,
+            source,
+            (motion, number),
+            before..next,
+        ));
     }
     events
 }
 
-/// The events in the statement of a motion, before it on its line, and behind it up to where the next one begins; `free` is from
-/// where the last one ends up to there.
+/// The events in the statement of a motion, with its number on its line; before it there, and behind it up to where the next one begins;
+/// `free` is from where the last one ends up to there.
 fn events_of_motion(
-    program: &RobotProgram,
-    motion: &Motion,
+    language: Language,
+    source: &SourceFile,
+    (motion, number): (&Motion, usize),
     free: Range<usize>,
 ) -> Vec<SourceEvent> {
-    let Some(source) = program.files.get(motion.file) else {
-        return Vec::new();
-    };
-    let found = match program.language {
+    let found = match language {
         Language::Rapid => of_rapid(source, motion),
         Language::FanucLs => {
             let event = event_of(source.bytes(), &motion.span);
@@ -50,17 +59,12 @@ fn events_of_motion(
         _ => None,
     };
     let begin = source.range_of(motion.line).start;
-    let own = program.motions.iter();
-    let before = own.filter(|other| {
-        let is_before = other.span.start < motion.span.start;
-        other.file == motion.file && other.line == motion.line && is_before
-    });
-    let number = Some(before.count());
+    let number = Some(number);
     let mut events = Vec::new();
-    if program.language == Language::Rapid && free.start <= begin {
+    if language == Language::Rapid && free.start <= begin {
         // What stands between two motions of a line is behind the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
-        events.extend(of_line(program.language, motion.line, &text));
+        events.extend(of_line(language, motion.line, &text));
     }
     if let Some((text, is_behind)) = found {
         events.push(SourceEvent {
@@ -70,7 +74,7 @@ fn events_of_motion(
         });
     }
     events.extend(
-        behind(program, source, motion, free.end).map(|event| SourceEvent {
+        behind(language, source, motion, free.end).map(|event| SourceEvent {
             is_behind: true,
             motion: number,
             ..event
@@ -81,7 +85,7 @@ fn events_of_motion(
 
 /// What stands behind a motion on its last line, up to where the next one begins.
 fn behind(
-    program: &RobotProgram,
+    language: Language,
     source: &SourceFile,
     motion: &Motion,
     next: usize,
@@ -89,18 +93,18 @@ fn behind(
     let last = source.line_of(motion.span.end.saturating_sub(1));
     let end = source.range_of(last).end.min(next);
     let text = words(source.part(&(motion.span.end.min(end)..end)));
-    let comment = match program.language {
+    let comment = match language {
         Language::Krl => ";",
         Language::Apt => "$$",
         _ => "!",
     };
-    let is_said = match program.language {
+    let is_said = match language {
         Language::Rapid => true,
         Language::Krl | Language::Apt => text.starts_with(comment),
         _ => false,
     };
     let found = match is_said {
-        true => of_line(program.language, motion.line, &text),
+        true => of_line(language, motion.line, &text),
         false => Vec::new(),
     };
     let place = format!("line {last}");

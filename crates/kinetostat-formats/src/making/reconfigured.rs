@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::making::configurations::{Switches, text_of};
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
+use crate::making::stated_configurations::{Switches, text_of};
 use crate::model::motion::MotionKind;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::target::{Configuration, Target};

@@ -1,5 +1,7 @@
 //! Calls of what is in none of the files: it may move the tool, and nobody sees it.
 
+use std::collections::BTreeMap;
+
 use crate::text::line_words::in_words;
 
 /// A call of what is in none of the files.
@@ -22,13 +24,14 @@ pub(crate) struct CallsOfOne<'c> {
 /// Calls by file and name, in the order of the first ones.
 pub(crate) fn by_name(calls: &[OutsideCall]) -> Vec<CallsOfOne<'_>> {
     let mut found: Vec<CallsOfOne<'_>> = Vec::new();
+    let mut known: BTreeMap<(usize, Option<&str>), usize> = BTreeMap::new();
     for call in calls {
-        let name = call.name.as_deref();
-        let known = (found.iter_mut()).find(|of| of.file == call.file && of.name == name);
-        match known {
+        let (file, name) = (call.file, call.name.as_deref());
+        let index = *known.entry((file, name)).or_insert(found.len());
+        match found.get_mut(index) {
             Some(of) => of.lines.push(call.line),
             None => found.push(CallsOfOne {
-                file: call.file,
+                file,
                 name,
                 lines: vec![call.line],
             }),

@@ -208,6 +208,10 @@ fn a_tool_whose_number_the_run_computes_is_not_guessed() {
             "which tool `TOOL_DATA[N]` is, is not known",
         ),
         (
+            text.replace("$TOOL=TOOL_DATA[N]", "$TOOL=TC"),
+            "which tool `TC` is, is not known",
+        ),
+        (
             text.replace("$TOOL=TOOL_DATA[N]", "BAS(#TOOL,N)"),
             "which tool `TOOL_DATA[N]` is, is not known",
         ),
