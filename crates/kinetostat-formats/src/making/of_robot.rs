@@ -40,7 +40,8 @@ use crate::text::name::Name;
 /// ```
 ///
 /// # Errors
-/// Those of [`crate::make`]; and motions in loops and branches, which run not once.
+/// Those of [`crate::make`]; motions in loops and branches and behind what may end the program, which run not once; tools and work objects of
+/// which the run alone knows which they are.
 pub fn make_of_robot(
     program: &RobotProgram,
     robot: &RobotPath,

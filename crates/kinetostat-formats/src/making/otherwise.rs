@@ -8,7 +8,9 @@ use crate::making::event_kind::EventKind;
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::Followed;
-use crate::text::line_words::in_words;
+
+/// Optional stops are named up to so many.
+const MOST_SHOWN: usize = 20;
 
 /// What is otherwise, counted.
 #[derive(Default)]
@@ -67,13 +69,18 @@ impl Otherwise {
             MakeFinding::of(None, format!("{}: {lines} ({first})", kind.words()))
         });
         let always = self.always.first().map(|first| {
-            MakeFinding::of(
-                *first,
-                format!(
-                    "an optional stop, which a switch of the machine decides on, always stops here ({})",
-                    in_words(&self.always)
-                ),
-            )
+            // Each for itself: of an expanded program it is said from where it came.
+            let shown = self.always.iter().take(MOST_SHOWN);
+            let shown: Vec<String> = shown.map(|line| format!("line {line}")).collect();
+            let more = match self.always.len().saturating_sub(MOST_SHOWN) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let message = format!(
+                "an optional stop, which a switch of the machine decides on, always stops here ({}{more})",
+                shown.join(", ")
+            );
+            MakeFinding::of(*first, message)
         });
         followed.chain(lost).chain(always).collect()
     }

@@ -139,7 +139,7 @@ fn an_optional_stop_that_always_stops_is_named() {
         ] {
             let made = of_robot(language, text, into);
             assert!(
-                found(&made, "always stops here (lines 4, 5)"),
+                found(&made, "always stops here (line 4, line 5)"),
                 "{:?}",
                 made.findings
             );
