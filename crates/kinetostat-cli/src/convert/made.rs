@@ -59,9 +59,9 @@ fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Fai
     };
     let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
     let failure = Failure::input(text);
-    match (first.line, &template.name) {
-        (None, Some(name)) => failure.within(name),
-        (None, None) => failure,
-        (Some(_), _) => setting.within(failure),
+    match (first.is_of_template, &template.name) {
+        (true, Some(name)) => failure.within(name),
+        (true, None) => failure,
+        (false, _) => setting.within(failure),
     }
 }

@@ -56,6 +56,7 @@ mod refusals;
 mod reproduce;
 mod robot_oracle;
 mod robot_programs;
+mod robots_converted;
 mod same_figures;
 mod sensible_numbers;
 mod shares;

@@ -223,7 +223,10 @@ impl Reader<'_, '_> {
             zone: Zone::Unstated,
             tool: frame_use(&self.program.frames, &self.state.tool),
             work_object: work_object(&self.program.frames, self.state.system.as_ref()),
-            runs: Runs::Once,
+            runs: match self.state.has_ended {
+                true => Runs::Elsewhere,
+                false => Runs::Once,
+            },
             follows: self.state.last,
             site: MotionSite {
                 keyword: statement.word.clone(),

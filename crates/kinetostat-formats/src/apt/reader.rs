@@ -103,6 +103,7 @@ pub fn read_apt(
         motions,
         findings,
         declarations: Vec::new(),
+        outside_calls: Vec::new(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }

@@ -32,6 +32,8 @@ pub(crate) struct State {
     /// MSYS in the part's axes, mm.
     pub system: Option<Isometry3<f64>>,
     pub tool: String,
+    /// FINI or END ended the program.
+    pub has_ended: bool,
 }
 
 impl State {
@@ -52,6 +54,7 @@ impl State {
             in_cycle: false,
             system: None,
             tool: "TOOL".to_owned(),
+            has_ended: false,
         }
     }
 }

@@ -46,6 +46,7 @@ impl Reader<'_, '_> {
             },
             b"SPINDL" => self.state.spindle = spindle_of(self.file, statement, self.state.spindle),
             b"CIRCLE" => self.circle(statement),
+            b"FINI" | b"END" if statement.arguments.is_empty() => self.state.has_ended = true,
             b"TLON" => {
                 let reason = "the end of the arc is where it meets a line, which is not computed";
                 self.unknown(statement, reason);

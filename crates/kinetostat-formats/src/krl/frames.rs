@@ -5,35 +5,12 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Translation3};
 
 use crate::krl::aggregate::{Position, literal_index, position_of};
+use crate::krl::assigned_frames::{Assignment, Given};
 use crate::krl::lex::TokenFile;
+use crate::krl::role::Role;
 use crate::krl::values::{Values, key};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
-
-/// What a frame is used as.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
-    Tool,
-    Base,
-}
-
-impl Role {
-    /// The array of the numbered ones.
-    pub(crate) fn array(self) -> &'static str {
-        match self {
-            Self::Tool => "TOOL_DATA",
-            Self::Base => "BASE_DATA",
-        }
-    }
-
-    /// The one in force.
-    pub(crate) fn variable(self) -> &'static str {
-        match self {
-            Self::Tool => "$TOOL",
-            Self::Base => "$BASE",
-        }
-    }
-}
 
 /// The pose of six numbers.
 pub(crate) fn isometry(numbers: [f64; 6]) -> Option<Isometry3<f64>> {
@@ -60,21 +37,65 @@ impl Values<'_> {
     }
 
     /// `TOOL_DATA[n]` or `BASE_DATA[n]`; number 0 is the flange or the world.
-    pub(crate) fn numbered(&self, role: Role, number: u32) -> FrameUse {
+    pub(crate) fn numbered(&self, role: Role, number: u32, given: &Given) -> FrameUse {
         let name = format!("{}[{number}]", role.array());
         if let Some(stated) = self.stated(&name) {
             return stated;
         }
-        let frame = match self.known(role, number) {
+        let frame = match self.known(role, number, given) {
             Ok(frame) => Frame::Known(frame),
             Err(reason) => Frame::Unknown { reason },
         };
         FrameUse { name, frame }
     }
 
-    fn known(&self, role: Role, number: u32) -> Result<Isometry3<f64>, String> {
+    /// The same with an index that is no literal number.
+    pub(crate) fn computed(&self, role: Role, index: &str) -> FrameUse {
+        let name = format!("{}[{}]", role.array(), key(index));
+        let reason = "its number is computed while the program runs".to_owned();
+        self.stated(&name).unwrap_or(FrameUse {
+            name,
+            frame: Frame::Unknown { reason },
+        })
+    }
+
+    /// What the program gives an element; none where it gives it nothing.
+    fn given(
+        &self,
+        role: Role,
+        number: u32,
+        given: &Given,
+    ) -> Option<Result<Isometry3<f64>, String>> {
+        let of = |number: Option<u32>| self.symbols.frames_assigned.get(&(role, number));
+        let mut all = of(Some(number)).into_iter().chain(of(None)).flatten();
+        let first = all.next()?;
+        let literal = |one: &Assignment| self.literal_frame(one.routine, one.value.as_ref()?);
+        let line = first.line;
+        let Some(frame) = literal(first) else {
+            return Some(Err(format!(
+                "it is assigned while the program runs, in line {line}, and not in numbers"
+            )));
+        };
+        if let Some(other) = all.find(|own| literal(own) != Some(frame)) {
+            return Some(Err(format!(
+                "it is assigned while the program runs, in lines {line} and {}, and not the same in both",
+                other.line
+            )));
+        }
+        Some(match given.contains(&(role, number)) {
+            true => Ok(frame),
+            false => Err(format!(
+                "it is assigned while the program runs, in line {line}, and whether that ran before is not certain"
+            )),
+        })
+    }
+
+    fn known(&self, role: Role, number: u32, given: &Given) -> Result<Isometry3<f64>, String> {
         if number == 0 {
             return Ok(Isometry3::identity());
+        }
+        if let Some(found) = self.given(role, number, given) {
+            return found;
         }
         let nowhere = || "none of these files states it: give $config.dat, or state it".to_owned();
         let datum = self.symbols.of_system(role.array()).ok_or_else(nowhere)?;
@@ -90,7 +111,7 @@ impl Values<'_> {
     }
 
     /// The frame that an expression is: sums of frames are one behind the other.
-    pub(crate) fn frame(&self, routine: usize, tokens: &Range<usize>) -> FrameUse {
+    pub(crate) fn frame(&self, routine: usize, tokens: &Range<usize>, given: &Given) -> FrameUse {
         let file = self.file(routine);
         let name = key(&file.text(tokens));
         if let Some(stated) = self.stated(&name) {
@@ -98,14 +119,14 @@ impl Values<'_> {
         }
         for role in [Role::Tool, Role::Base] {
             if let Some(number) = self.number_in(file, role, tokens) {
-                return self.numbered(role, number);
+                return self.numbered(role, number, given);
             }
         }
         let mut frame = Isometry3::identity();
         let mut at = tokens.start;
         while at < tokens.end {
             let end = file.find(at..tokens.end, b':').unwrap_or(tokens.end);
-            match self.part(routine, &(at..end)) {
+            match self.part(routine, &(at..end), given) {
                 Ok(part) => frame *= part,
                 Err(reason) => {
                     return FrameUse {
@@ -122,13 +143,35 @@ impl Values<'_> {
         }
     }
 
+    /// A frame in numbers, or a datum with one value.
+    pub(crate) fn literal_frame(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+    ) -> Option<Isometry3<f64>> {
+        let file = self.file(routine);
+        if file.is(tokens.start, b'{') {
+            return whole(&position_of(file, tokens).ok()?);
+        }
+        if Role::of_array(&file.name(tokens.start)?).is_some() {
+            return None;
+        }
+        let (datum, stated) = self.datum(routine, tokens).ok()?;
+        whole(&position_of(&self.files[datum.file], &stated.value).ok()?)
+    }
+
     /// The number in `TOOL_DATA[3]`.
     fn number_in(&self, file: &TokenFile<'_>, role: Role, tokens: &Range<usize>) -> Option<u32> {
         let is_array = file.name(tokens.start)?.is(role.array());
         (is_array && tokens.len() > 1).then(|| literal_index(file, tokens.start + 1..tokens.end))?
     }
 
-    fn part(&self, routine: usize, tokens: &Range<usize>) -> Result<Isometry3<f64>, String> {
+    fn part(
+        &self,
+        routine: usize,
+        tokens: &Range<usize>,
+        given: &Given,
+    ) -> Result<Isometry3<f64>, String> {
         let file = self.file(routine);
         let computed = || "it is computed while the program runs".to_owned();
         if file.is(tokens.start, b'{') {
@@ -144,7 +187,7 @@ impl Values<'_> {
         }
         for role in [Role::Tool, Role::Base] {
             if let Some(number) = self.number_in(file, role, tokens) {
-                return self.known(role, number);
+                return self.known(role, number, given);
             }
         }
         let (datum, stated) = self.datum(routine, tokens).map_err(|(reason, _)| reason)?;

@@ -1,24 +1,27 @@
 //! KUKA KRL: programs and data lists read together, and what the writer must know of the language.
 //!
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`aggregate`], [`values`], [`frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
+//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
-//! [`resolve`]). [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
+//! [`resolve`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
 //! Instructions for System Integrators.
 
 pub(crate) mod aggregate;
+pub(crate) mod assigned_frames;
 pub(crate) mod behind_ends;
 pub(crate) mod calls;
 pub(crate) mod folds;
 pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod lex;
+pub(crate) mod loads;
 pub(crate) mod motion;
 pub(crate) mod parser;
 pub(crate) mod reader;
 pub(crate) mod resolve;
+pub(crate) mod role;
 pub(crate) mod settings;
 pub(crate) mod state;
 pub(crate) mod steps;

@@ -106,6 +106,7 @@ pub(crate) fn parse_krl(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed
         motions: resolved.motions,
         declarations: targets.declarations,
         findings,
+        outside_calls: resolved.outside_calls,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
     };

@@ -3,14 +3,15 @@
 use crate::error::ProgramError;
 use crate::krl::calls::of_calls;
 use crate::krl::folds::{contradiction, folds_of, text_of};
-use crate::krl::frames::Role;
 use crate::krl::kept::{completed, is_beyond, kept_angles};
 use crate::krl::motion::Followed;
+use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing};
 use crate::krl::values::{Reason, Values};
 use crate::krl::walking::walker::Walker;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
 use crate::model::site::{Declaration, SpeedSite, TargetSite};
 use crate::model::target::{PoseTarget, Target};
@@ -20,6 +21,8 @@ use crate::options::UnknownTargets;
 pub(crate) struct Resolved {
     pub motions: Vec<Motion>,
     pub findings: Vec<Finding>,
+    /// What is called and none of the files holds.
+    pub outside_calls: Vec<OutsideCall>,
 }
 
 /// Fills in what is open in a walked program.
@@ -63,6 +66,7 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
     Resolved {
         motions: resolver.done,
         findings: resolver.findings,
+        outside_calls: resolver.settings.calls,
     }
 }
 
@@ -230,7 +234,7 @@ impl Resolver<'_, '_> {
         let reason = format!(
             "since line {}{home} calls `{}`, which is in none of these files and may set another: give its file as well, set {} behind the call, or state it",
             call.line,
-            call.name,
+            call.name.as_deref().unwrap_or_default(),
             role.variable()
         );
         Some(FrameUse {

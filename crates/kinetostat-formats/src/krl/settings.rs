@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::krl::aggregate::{aggregate_of, number_of};
-use crate::krl::frames::Role;
 use crate::krl::lex::TokenFile;
+use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
 use crate::krl::turning::turns_as_followed;
 use crate::krl::values::{Reason, Values};
@@ -99,7 +99,9 @@ impl Setter<'_, '_> {
                     (false, _) => Slot::Unknown,
                     (true, Some(_)) => self.of_point(role, &argument)?,
                     (true, None) => {
-                        let frame = self.values.frame(self.routine, &value);
+                        let frame = self
+                            .values
+                            .frame(self.routine, &value, &self.settings.given);
                         self.settings.frames.slot(frame)
                     }
                 };
@@ -196,7 +198,7 @@ impl Setter<'_, '_> {
     }
 
     fn numbered(&mut self, role: Role, number: u32) -> Slot {
-        let frame = self.values.numbered(role, number);
+        let frame = self.values.numbered(role, number, &self.settings.given);
         self.settings.frames.slot(frame)
     }
 
@@ -233,9 +235,14 @@ impl Setter<'_, '_> {
                     true => (Role::Tool, Thing::Tool),
                     false => (Role::Base, Thing::Base),
                 };
-                let number = number_of(file, &value).filter(|number| *number >= 0.0);
-                let slot =
-                    number.map_or(Slot::Unknown, |number| self.numbered(role, number as u32));
+                let slot = match number_of(file, &value).filter(|number| *number >= 0.0) {
+                    Some(number) => self.numbered(role, number as u32),
+                    None if value.is_empty() => Slot::Unknown,
+                    None => {
+                        let frame = self.values.computed(role, &file.text(&value));
+                        self.settings.frames.slot(frame)
+                    }
+                };
                 state.set(thing, slot);
             }
             b"VEL_CP" => {

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 
+use crate::krl::assigned_frames::Given;
 use crate::krl::values::PointData;
 use crate::model::frame::FrameUse;
 use crate::model::motion::Speed;
+use crate::model::outside_call::OutsideCall;
 
 /// One thing in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -180,15 +182,6 @@ impl<T: Debug> Pool<T> {
     }
 }
 
-/// A call of what is in none of the files.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct OutsideCall {
-    pub file: usize,
-    pub line: usize,
-    /// As it is shown.
-    pub name: String,
-}
-
 /// What slots stand for.
 #[derive(Debug, Default)]
 pub(crate) struct Settings {
@@ -198,4 +191,6 @@ pub(crate) struct Settings {
     pub points: Pool<PointData>,
     /// Calls of what is in none of the files.
     pub calls: Vec<OutsideCall>,
+    /// Tools and bases to which the program gave values up to here.
+    pub given: Given,
 }

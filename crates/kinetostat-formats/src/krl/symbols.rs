@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
+use crate::krl::assigned_frames::Assignments;
 use crate::krl::lex::TokenFile;
 use crate::krl::tree::{Content, DatumNode, Routine};
 use crate::text::name::Name;
@@ -65,6 +66,8 @@ pub(crate) struct Home<'p> {
 pub(crate) struct Symbols<'p> {
     pub data: Vec<Datum>,
     pub routines: Vec<Home<'p>>,
+    /// Statements that change elements of TOOL_DATA and BASE_DATA.
+    pub frames_assigned: Assignments,
     everywhere: BTreeMap<Name, usize>,
     in_module: Vec<BTreeMap<Name, usize>>,
     in_routine: Vec<BTreeMap<Name, Meaning>>,

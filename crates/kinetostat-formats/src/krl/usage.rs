@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use crate::krl::aggregate::literal_index;
+use crate::krl::assigned_frames::{Assignment, MOST};
 use crate::krl::lex::{Kind, TokenFile};
+use crate::krl::role::Role;
 use crate::krl::symbols::{Meaning, Symbols};
 use crate::krl::table::{Ends, motion_row};
 use crate::krl::tree::Statement;
@@ -125,6 +127,7 @@ impl Notes<'_, '_, '_, '_> {
                     }) =>
             {
                 self.assign(assigned, equals);
+                self.frame(assigned, equals, Some(equals + 1..tokens.end));
                 let (place, _) = place_of(self.file, assigned, equals);
                 self.keep(place.start + 1..equals);
                 self.keep(equals..tokens.end);
@@ -169,6 +172,27 @@ impl Notes<'_, '_, '_, '_> {
         }
     }
 
+    /// Notes what changes an element of TOOL_DATA or BASE_DATA, declared or not.
+    fn frame(&mut self, at: usize, end: usize, value: Option<Range<usize>>) {
+        let Some(role) = (self.file.name(at)).and_then(|name| Role::of_array(&name)) else {
+            return;
+        };
+        let (place, element) = place_of(self.file, at, end);
+        let is_whole = place == (at..end);
+        let span = self.file.span(&(at..at + 1));
+        let number = element.filter(|_| place.len() > 1);
+        let all = self.symbols.frames_assigned.entry((role, number));
+        let all = all.or_default();
+        let is_last = all.len() + 1 == MOST;
+        if all.len() < MOST {
+            all.push(Assignment {
+                routine: self.routine,
+                line: self.file.source.line_of(span.start),
+                value: value.filter(|_| is_whole && !is_last && number.is_some()),
+            });
+        }
+    }
+
     /// Something rests on the values of the names in these tokens.
     fn keep(&mut self, tokens: Range<usize>) {
         for at in tokens.clone() {
@@ -199,6 +223,7 @@ impl Notes<'_, '_, '_, '_> {
                 let (place, _) = place_of(self.file, start, end);
                 if place == (start..end) && self.changes(&called, number) {
                     self.assign(start, end);
+                    self.frame(start, end, None);
                 }
                 number += 1;
                 start = end + 1;

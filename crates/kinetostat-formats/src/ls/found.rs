@@ -3,6 +3,7 @@
 use crate::error::ProgramError;
 use crate::ls::ends::Ends;
 use crate::model::motion::Motion;
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
 use crate::model::site::Declaration;
 use crate::options::ReadOptions;
@@ -13,6 +14,7 @@ pub(super) struct Reader<'o> {
     pub options: &'o ReadOptions,
     pub faults: Vec<ProgramError>,
     pub findings: Vec<Finding>,
+    pub outside_calls: Vec<OutsideCall>,
     pub motions: Vec<Motion>,
     pub declarations: Vec<Declaration>,
     pub ends: Ends<'o>,

@@ -6,6 +6,7 @@ use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::program::Program;
 use crate::ls::step::Step;
+use crate::model::outside_call::OutsideCall;
 use crate::text::source::SourceFile;
 
 impl Reader<'_> {
@@ -46,15 +47,11 @@ impl Reader<'_> {
                         program.called.insert(at, *to);
                     }
                     None => {
-                        let line = file.line_of(layouts[index].lines[at].whole.start);
-                        let message = match called {
-                            Some(name) => format!(
-                                "`{}` is in none of these files: it is carried, and if it moves the tool, that is not seen",
-                                crate::error::excerpt(name)
-                            ),
-                            None => "what is called, a register says: it is carried, and if it moves the tool, that is not seen".to_owned(),
-                        };
-                        self.finding(index, line, message);
+                        self.outside_calls.push(OutsideCall {
+                            file: index,
+                            line: file.line_of(layouts[index].lines[at].whole.start),
+                            name: called.map(crate::error::excerpt),
+                        });
                     }
                 }
             }

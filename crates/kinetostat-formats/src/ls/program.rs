@@ -80,7 +80,8 @@ impl Program {
                     }
                     _ => self.faults.push((at, ALONE.0, ALONE.1)),
                 },
-                Step::End | Step::Abort if !open.is_empty() => {
+                // What is behind the end runs where a jump leads there, if at all.
+                Step::End | Step::Abort => {
                     marks.add(at, self.steps.len(), Runs::OnCondition);
                 }
                 Step::Perhaps(step) if matches!(**step, Step::End | Step::Abort) => {

@@ -10,6 +10,7 @@ use crate::ls::order::Order;
 use crate::ls::positions::Positions;
 use crate::ls::program::Place;
 use crate::ls::step::Step;
+use crate::model::motion::Runs;
 use crate::model::parsed::{Parsed, Read};
 use crate::model::program::{Language, RobotProgram};
 use crate::options::{ExternalAxes, ReadOptions};
@@ -55,6 +56,7 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         options,
         faults: Vec::new(),
         findings: Vec::new(),
+        outside_calls: Vec::new(),
         motions: Vec::new(),
         declarations: Vec::new(),
         ends: Ends::of(options),
@@ -94,7 +96,11 @@ pub(crate) fn parse_ls(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed 
         let Some(mut motion) = found else {
             continue;
         };
-        motion.runs = programs[*program].runs[*at].max(order.runs[*program]);
+        motion.runs = match before {
+            Some(_) => programs[*program].runs[*at].max(order.runs[*program]),
+            // Behind END or ABORT, and no jump leads there.
+            None => Runs::Elsewhere,
+        };
         let last = before.map(|state| match state.last {
             Last::Entry => flow.entry[*program].unwrap_or(Last::Unknown),
             last => last,
@@ -115,6 +121,7 @@ fn finish(reader: Reader<'_>, files: Vec<SourceFile>) -> Parsed {
         motions: reader.motions,
         declarations: reader.declarations,
         findings: reader.findings,
+        outside_calls: reader.outside_calls,
         faults: reader.faults,
         external_axes_may_move: reader.options.external_axes != ExternalAxes::Refused,
     };

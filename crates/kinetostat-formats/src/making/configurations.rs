@@ -1,18 +1,15 @@
 //! How the arm reaches the poses of a source: kept in the same language, named as lost in another.
 
-use std::collections::BTreeMap;
-
 use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
-use crate::making::routines::{running_lines, words_of};
+use crate::making::reconfigured::changes;
+use crate::making::stated_configurations::{Switches, text_of};
 use crate::making::step::StatedConfiguration;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Language, RobotProgram};
-use crate::model::target::{Configuration, Target};
+use crate::model::target::Target;
 use crate::path::of_program::RobotPath;
-
-/// Lines are named up to so many.
-const MOST_NAMED: usize = 20;
+use crate::text::line_words::in_words;
 
 /// Whether a program is made in the language of its source, of those whose targets state configurations.
 pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
@@ -22,21 +19,6 @@ pub(crate) fn is_same(source: Language, made: MakeLanguage) -> bool {
             | (Language::Rapid, MakeLanguage::Rapid)
             | (Language::FanucLs, MakeLanguage::FanucLs)
     )
-}
-
-/// The text of a configuration; none where nothing is stated.
-fn text_of(language: Language, configuration: &Configuration) -> Option<String> {
-    if configuration.text.trim().is_empty() {
-        return None;
-    }
-    Some(match language {
-        // Spaces and ends of lines of the source are none of its meaning.
-        Language::Rapid => {
-            let numbers = configuration.numbers.iter().map(|n| format!("{n:.0}"));
-            format!("[{}]", numbers.collect::<Vec<_>>().join(","))
-        }
-        _ => configuration.text.trim().to_owned(),
-    })
 }
 
 /// The configurations of every move of a path, where the source is in the same language.
@@ -49,9 +31,10 @@ pub(crate) fn kept(
         return Vec::new();
     }
     let switches = Switches::of(program, robot.file);
+    let changes = changes(program, robot);
     let of_target = |target: &Target| text_of(program.language, &target.pose()?.configuration);
-    let motions = robot.motions.iter();
-    let stated = motions.map(|index| {
+    let motions = robot.motions.iter().enumerate();
+    let stated = motions.map(|(number, index)| {
         let Some(motion) = program.motions.get(*index) else {
             return StatedConfiguration::default();
         };
@@ -63,53 +46,10 @@ pub(crate) fn kept(
             end: of_target(&motion.target),
             via,
             is_followed: !switches.is_off_at(motion.line),
+            changes: changes.contains(&number),
         }
     });
     stated.collect()
-}
-
-/// Where `ConfJ` of RAPID switches what joint motions do with configurations.
-struct Switches {
-    /// Lines with motions behind `ConfJ\Off`.
-    off: BTreeMap<usize, bool>,
-    /// Where the order of the lines is not known, and it stands somewhere.
-    somewhere: bool,
-}
-
-impl Switches {
-    fn of(program: &RobotProgram, file: usize) -> Self {
-        let mut found = Self {
-            off: BTreeMap::new(),
-            somewhere: false,
-        };
-        let source = match program.files.get(file) {
-            Some(source) if program.language == Language::Rapid => source,
-            _ => return found,
-        };
-        let switch = |line: usize| {
-            let words = words_of(program.language, source, line);
-            let mut pairs = words.windows(2).rev();
-            pairs.find_map(|pair| match (pair[0].as_str(), pair[1].as_str()) {
-                ("CONFJ", "OFF") => Some(true),
-                ("CONFJ", "ON") => Some(false),
-                _ => None,
-            })
-        };
-        let Some(running) = running_lines(program, file) else {
-            found.somewhere = (1..=source.line_count()).any(|line| switch(line) == Some(true));
-            return found;
-        };
-        let mut is_off = false;
-        for running in running {
-            is_off = switch(running.line).unwrap_or(is_off);
-            found.off.entry(running.line).or_insert(is_off);
-        }
-        found
-    }
-
-    fn is_off_at(&self, line: usize) -> bool {
-        self.off.get(&line).copied().unwrap_or(self.somewhere)
-    }
 }
 
 /// That configurations of the source are not those of the made program, with their lines.
@@ -137,39 +77,6 @@ pub(crate) fn lost(program: &RobotProgram, why: &str) -> Option<MakeFinding> {
             in_words(&lines)
         ),
     ))
-}
-
-/// Lines in words, those that follow one another as one.
-pub(crate) fn in_words(lines: &[usize]) -> String {
-    let mut ranges: Vec<[usize; 2]> = Vec::new();
-    for line in lines {
-        match ranges.last_mut() {
-            Some([_, to]) if *to + 1 == *line => *to = *line,
-            _ => ranges.push([*line, *line]),
-        }
-    }
-    let named = ranges.iter().take(MOST_NAMED);
-    let named: Vec<String> = named
-        .map(|[from, to]| match to - from {
-            0 => from.to_string(),
-            1 => format!("{from}, {to}"),
-            _ => format!("{from} to {to}"),
-        })
-        .collect();
-    let rest: usize = ranges
-        .iter()
-        .skip(MOST_NAMED)
-        .map(|[from, to]| to - from + 1)
-        .sum();
-    let more = match (rest, lines.last()) {
-        (1.., Some(last)) => format!(" and {rest} more, the last {last}"),
-        _ => String::new(),
-    };
-    let word = match lines.len() {
-        1 => "line",
-        _ => "lines",
-    };
-    format!("{word} {}{more}", named.join(", "))
 }
 
 /// Why configurations cannot be kept in another language.

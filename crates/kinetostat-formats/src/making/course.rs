@@ -8,25 +8,54 @@ use crate::making::fault::MakeFinding;
 use crate::making::numbers::plain;
 use crate::making::step::StatedConfiguration;
 
-/// Numbers of a line: what acts before its motion, the motion, and what acts behind it.
-const OF_A_LINE: usize = 3;
+/// Numbers of a motion: what acts before it, the motion, and what acts behind it.
+const OF_A_MOTION: usize = 3;
+
+/// Motions of a line that have numbers of their own.
+const MOTIONS_OF_A_LINE: usize = 256;
+
+/// The last number of a line is that of what acts behind all of its motions.
+const OF_A_LINE: usize = OF_A_MOTION * MOTIONS_OF_A_LINE;
 
 /// Statements that are left out are shown up to this many; of further ones the lines.
 const MOST_SHOWN: usize = 20;
 
-/// The number of what acts before the motion of a line.
+/// The number of what acts before the motions of a line.
 pub(crate) fn before(line: usize) -> usize {
     OF_A_LINE * line
 }
 
-/// That of the motion.
-pub(crate) fn at(line: usize) -> usize {
-    OF_A_LINE * line + 1
+/// That of a motion, counted from 0 on its line.
+pub(crate) fn at(line: usize, motion: usize) -> usize {
+    of_motion(line, motion) + 1
 }
 
-/// That of what acts behind it.
+/// That of what acts behind all of them.
 pub(crate) fn behind(line: usize) -> usize {
-    OF_A_LINE * line + 2
+    OF_A_LINE * line + OF_A_LINE - 1
+}
+
+/// That of what acts before the motion of a number.
+pub(crate) fn before_motion(number: usize) -> usize {
+    number - number % OF_A_MOTION
+}
+
+fn of_motion(line: usize, motion: usize) -> usize {
+    OF_A_LINE * line + OF_A_MOTION * motion.min(MOTIONS_OF_A_LINE - 1)
+}
+
+/// Of every one of these lines of motions, how many with the same line stand before it without another between.
+pub(crate) fn counted_on_lines(lines: &[usize]) -> Vec<usize> {
+    let mut last = None;
+    let mut count = 0;
+    let counted = lines.iter().map(|line| {
+        count = match last.replace(*line) == Some(*line) {
+            true => count + 1,
+            false => 0,
+        };
+        count
+    });
+    counted.collect()
 }
 
 /// Events and changes of tools by numbers that ascend in the order in which they run.
@@ -41,6 +70,8 @@ pub(crate) struct Course {
     pub is_of_robot: bool,
     /// Of every move, how the arm reaches its places, where the source says it in the same language.
     pub configurations: Vec<StatedConfiguration>,
+    /// Of every move, its speeds of turning and of external axes, where the source states them in the same language.
+    pub other_speeds: Vec<Option<Box<str>>>,
 }
 
 impl Course {
@@ -72,13 +103,14 @@ impl Course {
             left_out,
             is_of_robot: false,
             configurations: Vec::new(),
+            other_speeds: Vec::new(),
         }
     }
 
     /// The number of a move.
     pub(crate) fn of_move(&self, index: usize, line: usize) -> usize {
         let own = self.of_moves.as_ref().and_then(|all| all.get(index));
-        own.copied().unwrap_or_else(|| at(line))
+        own.copied().unwrap_or_else(|| at(line, 0))
     }
 
     /// The tool that is taken last up to a number.
@@ -112,8 +144,10 @@ impl Course {
 
 /// The number of an event on a line.
 pub(crate) fn place_of(event: &SourceEvent, line: usize) -> usize {
-    match event.is_behind {
-        true => behind(line),
-        false => before(line),
+    match (event.motion, event.is_behind) {
+        (Some(motion), true) => of_motion(line, motion) + 2,
+        (Some(motion), false) => of_motion(line, motion),
+        (None, true) => behind(line),
+        (None, false) => before(line),
     }
 }

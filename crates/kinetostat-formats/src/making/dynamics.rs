@@ -1,9 +1,13 @@
 //! Accelerations, speeds of turning and of joint motions in a source, which no made program states: they are named.
 
-use crate::making::configurations::in_words;
 use crate::making::fault::MakeFinding;
+use crate::making::limits::MakeLanguage;
+use crate::making::rapid::OTHER_SPEEDS;
 use crate::making::routines::words_of;
+use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::{Language, RobotProgram};
+use crate::path::of_program::RobotPath;
+use crate::text::line_words::in_words;
 
 /// Variables of KRL that say how fast the arm moves beside `$VEL.CP`.
 const OF_KRL: [&str; 8] = [
@@ -20,6 +24,18 @@ const OF_KRL: [&str; 8] = [
 /// What `BAS` sets of it.
 const OF_BAS: [&str; 5] = ["VEL_PTP", "ACC_PTP", "ACC_CP", "PTP_PARAMS", "PTP_DAT"];
 
+/// Instructions of RAPID that do, wherever they stand on their line.
+const OF_RAPID: [&str; 5] = [
+    "VELSET",
+    "SPEEDREFRESH",
+    "ACCSET",
+    "PATHACCLIM",
+    "WORLDACCLIM",
+];
+
+/// Statements of TP programs.
+const OF_TP: [&str; 3] = ["OVERRIDE", "JOINT_MAX_SPEED", "LINEAR_MAX_SPEED"];
+
 /// Whether a line states such a thing.
 fn states(language: Language, words: &[String]) -> bool {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -27,6 +43,8 @@ fn states(language: Language, words: &[String]) -> bool {
         (Language::Krl, ["VEL", "ORI1" | "ORI2", ..]) => true,
         (Language::Krl, ["BAS", what, ..]) => OF_BAS.contains(what),
         (Language::Krl, [first, _, ..]) => OF_KRL.contains(first),
+        (Language::Rapid, all) => all.iter().any(|word| OF_RAPID.contains(word)),
+        (Language::FanucLs, [first, ..]) if OF_TP.contains(first) => true,
         // Behind the zone of a motion.
         (Language::FanucLs, ["J" | "L" | "C" | "A", others @ ..]) => others.iter().any(|word| {
             let percent = word.strip_prefix("ACC");
@@ -45,7 +63,55 @@ pub(crate) fn dynamics(program: &RobotProgram, file: usize) -> Option<MakeFindin
     Some(MakeFinding::of(
         *lines.first()?,
         format!(
-            "accelerations, and speeds of turning and of joint motions, are not those of the source ({}): joint_speed_percent and acceleration_m_per_s2 of the template state what is written",
+            "accelerations, overrides, and speeds of turning and of joint motions, are not those of the source ({}): joint_speed_percent and acceleration_m_per_s2 of the template state what is written",
+            in_words(&lines)
+        ),
+    ))
+}
+
+/// Speeds of turning and of external axes in the data of a RAPID speed, where they are not those of the speeds with names.
+fn own_speeds(motion: &Motion) -> Option<&str> {
+    let site = motion.site.speed.as_ref()?;
+    let others = site.after.strip_prefix(',')?.strip_suffix(']')?;
+    (others != OTHER_SPEEDS).then_some(others)
+}
+
+/// Those of every move of a path, where the made program can state them.
+pub(crate) fn other_speeds(
+    program: &RobotProgram,
+    robot: &RobotPath,
+    language: MakeLanguage,
+) -> Vec<Option<Box<str>>> {
+    if (program.language, language) != (Language::Rapid, MakeLanguage::Rapid) {
+        return Vec::new();
+    }
+    let motions = robot.motions.iter();
+    let own = motions.map(|index| Some(own_speeds(program.motions.get(*index)?)?.into()));
+    own.collect()
+}
+
+/// The lines where they are lost.
+pub(crate) fn turning_speeds(
+    program: &RobotProgram,
+    language: MakeLanguage,
+) -> Option<MakeFinding> {
+    if (program.language, language) == (Language::Rapid, MakeLanguage::Rapid) {
+        return None;
+    }
+    let is_of_speed = program.language == Language::Rapid;
+    let own = |motion: &&Motion| {
+        is_of_speed && motion.kind != MotionKind::Joint && own_speeds(motion).is_some()
+    };
+    let mut lines: Vec<usize> = (program.motions.iter().filter(own))
+        .map(|motion| motion.line)
+        .collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let stated = program.motions.iter().find(own).and_then(own_speeds)?;
+    Some(MakeFinding::of(
+        *lines.first()?,
+        format!(
+            "the speeds of turning and of external axes that the source states ({stated}; {}) are not kept: where the tool turns, check how fast it does",
             in_words(&lines)
         ),
     ))

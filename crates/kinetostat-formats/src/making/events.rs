@@ -33,6 +33,8 @@ pub struct SourceEvent {
     pub rest: Option<EventKind>,
     /// It acts behind the motion of its line, not before.
     pub(crate) is_behind: bool,
+    /// Which motion of its line that is, counted from 0; none for all of them.
+    pub(crate) motion: Option<usize>,
     /// It states the speed of a spindle that stands still: a made program states it where the spindle starts.
     pub(crate) states_speed: bool,
     /// It names a tool, whatever else it is about.
@@ -50,6 +52,7 @@ impl SourceEvent {
             actions: Vec::new(),
             rest: Some(kind),
             is_behind: false,
+            motion: None,
             states_speed: false,
             is_of_tool: kind == EventKind::Tool,
         }

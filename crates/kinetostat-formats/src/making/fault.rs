@@ -13,6 +13,8 @@ pub struct MakeError {
     pub reason: String,
     /// What the user can do about it.
     pub remedy: String,
+    /// It is about what the template states, not about the program.
+    pub is_of_template: bool,
 }
 
 fn place(line: Option<usize>) -> String {
@@ -32,6 +34,14 @@ impl MakeError {
             line: None,
             reason: reason.into(),
             remedy: remedy.into(),
+            is_of_template: false,
+        }
+    }
+
+    pub(crate) fn of_template(reason: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            is_of_template: true,
+            ..Self::of(reason, remedy)
         }
     }
 }

@@ -96,6 +96,9 @@ impl Walk<'_> {
             b"L" | b"LN" | b"LP" | b"C" | b"CP" | b"CR" | b"CT" | b"CTP" | b"M" | b"F"
             | b"STOP" => self.path(words),
             b"TOOL" if second(&["CALL"]) => self.tool(words, whole),
+            b"TOOL" if second(&["DEF"]) => {
+                vec![Said::early(EventKind::Tool, Word::NextTool, whole)]
+            }
             b"TOOL" => one(EventKind::Tool),
             b"CYCL" | b"CYCLE" => match cycle_of(words) {
                 // Where coordinates count from, is in the places.

@@ -3,7 +3,7 @@
 //! The way: [`gcode_events`] and [`robot_events`] find what a source says beside its moves ([`motion_events`]: in their statements;
 //! [`siemens_events`] and [`heidenhain_events`]: the words of blocks, with [`turning`], how the spindle turns, and [`words`], what they do
 //! before a motion and behind it),
-//! [`course`] says in which order all of it runs ([`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`]: their
+//! [`course`] says in which order all of it runs ([`robot_course`], [`routines`], [`block_order`]: of robots' programs, [`of_tools`]: their tools, [`configurations`], [`reconfigured`], [`stated_configurations`]: their
 //! postures), [`plan`] makes steps
 //! of moves and events ([`pieces`] divides what the other side has no curve for), one file for each language writes them, [`again`] reads what was written, and [`compare`]
 //! holds it against the path. [`template`] is what the caller states of the cell.
@@ -14,6 +14,7 @@ pub(crate) mod apt;
 pub(crate) mod block_order;
 pub(crate) mod blocks;
 pub(crate) mod compare;
+pub(crate) mod computed_frames;
 pub(crate) mod configurations;
 pub(crate) mod course;
 pub(crate) mod crowded;
@@ -38,16 +39,22 @@ pub(crate) mod of_robot;
 pub(crate) mod of_tools;
 pub(crate) mod order_words;
 pub(crate) mod otherwise;
+pub(crate) mod outside_calls;
 pub(crate) mod parts;
 pub(crate) mod pieces;
 pub(crate) mod plan;
 pub(crate) mod rapid;
+pub(crate) mod reconfigured;
 pub(crate) mod robot_actions;
+pub(crate) mod robot_course;
 pub(crate) mod robot_events;
+pub(crate) mod robot_faults;
 pub(crate) mod routines;
 pub(crate) mod siemens_events;
 pub(crate) mod siemens_words;
 pub(crate) mod stated;
+pub(crate) mod stated_configurations;
+pub(crate) mod statements;
 pub(crate) mod step;
 pub(crate) mod stops;
 pub(crate) mod template;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::ls::motion::event_of;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
-use crate::making::order_words::orders_only;
+use crate::making::statements::of_line;
 use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
@@ -25,22 +25,31 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
         let before = before.checked_sub(1).map_or(0, |before| ends[before]);
         let next = starts.partition_point(|start| *start < motion.span.end);
         let next = starts.get(next).copied().unwrap_or(usize::MAX);
-        events.extend(events_of_motion(program, motion, before..next));
+        let Some(source) = program.files.get(file) else {
+            continue;
+        };
+        let begin = source.range_of(motion.line).start;
+        let number = |from: usize| starts.partition_point(|start| *start < from);
+        let number = number(motion.span.start).saturating_sub(number(begin));
+        events.extend(events_of_motion(
+            program.language,
+            source,
+            (motion, number),
+            before..next,
+        ));
     }
     events
 }
 
-/// The events in the statement of a motion, before it on its line, and behind it up to where the next one begins; `free` is from
-/// where the last one ends up to there.
+/// The events in the statement of a motion, with its number on its line; before it there, and behind it up to where the next one begins;
+/// `free` is from where the last one ends up to there.
 fn events_of_motion(
-    program: &RobotProgram,
-    motion: &Motion,
+    language: Language,
+    source: &SourceFile,
+    (motion, number): (&Motion, usize),
     free: Range<usize>,
 ) -> Vec<SourceEvent> {
-    let Some(source) = program.files.get(motion.file) else {
-        return Vec::new();
-    };
-    let found = match program.language {
+    let found = match language {
         Language::Rapid => of_rapid(source, motion),
         Language::FanucLs => {
             let event = event_of(source.bytes(), &motion.span);
@@ -49,37 +58,60 @@ fn events_of_motion(
         }
         _ => None,
     };
-    let (line, last) = (
-        motion.line,
-        source.line_of(motion.span.end.saturating_sub(1)),
-    );
-    let mut events = Vec::new();
     let begin = source.range_of(motion.line).start;
-    if program.language == Language::Rapid && free.start <= begin {
+    let number = Some(number);
+    let mut events = Vec::new();
+    if language == Language::Rapid && free.start <= begin {
         // What stands between two motions of a line is behind the first.
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
-        if !text.is_empty() && !orders_only(program.language, &text) {
-            events.push(SourceEvent::words_alone(line, EventKind::Other, text));
-        }
+        events.extend(of_line(language, motion.line, &text));
     }
     if let Some((text, is_behind)) = found {
         events.push(SourceEvent {
             is_behind,
-            ..SourceEvent::words_alone(line, EventKind::Other, text)
+            motion: number,
+            ..SourceEvent::words_alone(motion.line, EventKind::Other, text)
         });
     }
-    if program.language == Language::Rapid {
-        let end = source.range_of(last).end.min(free.end);
-        let text = words(source.part(&(motion.span.end.min(end)..end)));
-        if !text.is_empty() && !text.starts_with('!') {
-            events.push(SourceEvent {
-                is_behind: true,
-                place: format!("line {last}"),
-                ..SourceEvent::words_alone(line, EventKind::Other, text)
-            });
-        }
-    }
+    events.extend(
+        behind(language, source, motion, free.end).map(|event| SourceEvent {
+            is_behind: true,
+            motion: number,
+            ..event
+        }),
+    );
     events
+}
+
+/// What stands behind a motion on its last line, up to where the next one begins.
+fn behind(
+    language: Language,
+    source: &SourceFile,
+    motion: &Motion,
+    next: usize,
+) -> impl Iterator<Item = SourceEvent> {
+    let last = source.line_of(motion.span.end.saturating_sub(1));
+    let end = source.range_of(last).end.min(next);
+    let text = words(source.part(&(motion.span.end.min(end)..end)));
+    let comment = match language {
+        Language::Krl => ";",
+        Language::Apt => "$$",
+        _ => "!",
+    };
+    let is_said = match language {
+        Language::Rapid => true,
+        Language::Krl | Language::Apt => text.starts_with(comment),
+        _ => false,
+    };
+    let found = match is_said {
+        true => of_line(language, motion.line, &text),
+        false => Vec::new(),
+    };
+    let place = format!("line {last}");
+    found.into_iter().map(move |event| SourceEvent {
+        place: place.clone(),
+        ..event
+    })
 }
 
 /// What an instruction of RAPID does beside its motion, and whether it does so behind it.

@@ -19,7 +19,7 @@ pub(crate) fn checked(name: &str, language: MakeLanguage) -> Result<String, Make
     };
     is_identifier(&name, most, "the name of the program")?;
     match is_reserved(&name, language) {
-        true => Err(MakeError::of(
+        true => Err(MakeError::of_template(
             format!("`{name}` is a word of its own on controllers"),
             "name the program otherwise (program_name)",
         )),
@@ -63,7 +63,7 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
     let right = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let begins = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic());
     if !begins || !name.chars().all(right) {
-        return Err(MakeError::of(
+        return Err(MakeError::of_template(
             format!(
                 "{what} is `{shown}`, and controllers take letters, digits and _, a letter first"
             ),
@@ -71,7 +71,7 @@ pub(crate) fn is_identifier(name: &str, most: usize, what: &str) -> Result<(), M
         ));
     }
     if name.len() > most {
-        return Err(MakeError::of(
+        return Err(MakeError::of_template(
             format!(
                 "{what}, `{shown}`, has {} characters, {most} are allowed here",
                 name.len()

@@ -2,6 +2,7 @@
 
 use crate::making::fault::MakeFinding;
 use crate::model::external::name_of_axis;
+use crate::model::motion::Motion;
 use crate::model::program::RobotProgram;
 
 /// Of each axis that does not stand at 0 all along, where it stands first, and whether it moves.
@@ -19,7 +20,13 @@ pub(crate) fn external_axes(program: &RobotProgram) -> Vec<MakeFinding> {
             continue;
         };
         let value = at(&first.site.external).unwrap_or_default();
-        let moves = all().filter_map(at).any(|other| other != value);
+        let mut before = program
+            .motions
+            .iter()
+            .take_while(|motion| motion.line != first.line);
+        let is_open =
+            |motion: &Motion| motion.target.pose().is_some() && at(&motion.site.external).is_none();
+        let moves = all().filter_map(at).any(|other| other != value) || before.any(is_open);
         let name = name_of_axis(program.language, axis);
         found.push(MakeFinding::of(
             Some(first.line),

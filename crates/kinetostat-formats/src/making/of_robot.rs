@@ -1,27 +1,25 @@
 //! A program of one robot written for another.
 
-use std::collections::BTreeMap;
-
-use kinetostat_program::Knowledge;
-
+use crate::making::computed_frames::computed_frames;
 use crate::making::configurations;
-use crate::making::course::{Course, at, place_of};
-use crate::making::dynamics::dynamics;
-use crate::making::events::SourceEvent;
+use crate::making::dynamics::{dynamics, other_speeds, turning_speeds};
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::make::{Made, make_along};
 use crate::making::of_external_axes::external_axes;
-use crate::making::of_tools::{changes_of_source, stated, tools_of_source};
-use crate::making::robot_events::events_of_robot;
-use crate::making::routines::running_lines;
-use crate::making::stated::is_identity;
+use crate::making::of_tools::{faults_at, stated, tools_of_source};
+use crate::making::outside_calls::outside_calls;
+use crate::making::reconfigured;
+use crate::making::robot_course::course_of;
+use crate::making::robot_faults::{arcs_from_elsewhere, not_once};
+use crate::making::stated::{is_identity, of_frame};
 use crate::making::template::{StatedFrame, StatedTool, Template};
 use crate::model::frame::FrameUse;
-use crate::model::motion::{Motion, MotionKind, Runs, Zone};
+use crate::model::motion::{Motion, Zone};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::site::TargetSite;
 use crate::path::of_program::RobotPath;
+use crate::path::tools::same_frame;
 use crate::rapid::loads::object_frames;
 use crate::text::name::Name;
 
@@ -42,7 +40,8 @@ use crate::text::name::Name;
 /// ```
 ///
 /// # Errors
-/// Those of [`crate::make`]; and motions in loops and branches, which run not once.
+/// Those of [`crate::make`]; motions in loops and branches and behind what may end the program, which run not once; tools and work objects of
+/// which the run alone knows which they are.
 pub fn make_of_robot(
     program: &RobotProgram,
     robot: &RobotPath,
@@ -51,6 +50,7 @@ pub fn make_of_robot(
 ) -> Result<Made, Vec<MakeError>> {
     let mut faults = not_once(program);
     faults.extend(arcs_from_elsewhere(program, robot));
+    faults.extend(computed_frames(program, template));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -68,14 +68,26 @@ pub fn make_of_robot(
             template.base.object_frame = both.map(|[_, object]| object);
         }
     }
+    if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
+        let uses = |motion: &Motion| same_frame(&motion.work_object, frame);
+        faults.extend(faults_at(
+            program,
+            uses,
+            of_frame(&template.base, "base", language),
+        ));
+    }
     let mut named = Vec::new();
     if template.tools.is_empty() && template.tool == StatedTool::default() {
         let made = tools_of_source(program, robot, language);
         (template.tool, template.tools) = (made.tool, made.tools);
         named = made.findings;
+        faults.extend(made.faults);
     } else if template.tools.is_empty() && robot.tools.len() == 1 {
         let source = tools_of_source(program, robot, language).tool;
         named.extend(completed(&mut template.tool, source));
+    }
+    if !faults.is_empty() {
+        return Err(faults);
     }
     if let (true, Some(frame)) = (given == StatedFrame::default(), &robot.work_object) {
         named.extend(base_by_number(program, frame, &template.base, language));
@@ -87,6 +99,7 @@ pub fn make_of_robot(
         // What the template states holds, and the rest of the source's would not go with it.
         course.configurations.clear();
     }
+    course.other_speeds = other_speeds(program, robot, language);
     let mut made = make_along(&robot.path, &course, &template, language)?;
     // What is named stands before what is taken for granted.
     made.findings.splice(0..0, named);
@@ -110,10 +123,20 @@ pub fn make_of_robot(
     ) {
         made.findings.extend(zones(program));
     }
+    made.findings.extend(outside_calls(program, robot.file));
     made.findings.extend(external_axes(program));
     made.findings.extend(dynamics(program, robot.file));
+    made.findings.extend(turning_speeds(program, language));
     let is_kept = made.states_configuration && template.configuration.is_none();
     made.findings.extend(moved.filter(|_| is_kept));
+    let keeps =
+        configurations::is_same(program.language, language) && template.configuration.is_none();
+    let stated = template.configuration.as_deref();
+    made.findings.extend(reconfigured::findings(
+        program,
+        robot,
+        (keeps, stated, language),
+    ));
     made.findings
         .extend(lost_configurations(program, &template, language));
     Ok(made)
@@ -223,52 +246,6 @@ fn zones(program: &RobotProgram) -> Option<MakeFinding> {
     ))
 }
 
-/// Motions that do not run exactly once.
-fn not_once(program: &RobotProgram) -> Vec<MakeError> {
-    let others = program
-        .motions
-        .iter()
-        .filter(|motion| motion.runs != Runs::Once);
-    others
-        .map(|motion| {
-            let reason = match motion.runs {
-                Runs::OnCondition => "the motion is in a branch: whether it runs is not known",
-                Runs::Elsewhere => "nothing in these files calls the routine of this motion",
-                _ => "the motion is in a loop, or in a routine that is called more than once",
-            };
-            MakeError::at(
-                motion.line,
-                reason,
-                "write its motions one after another, or take them out",
-            )
-        })
-        .collect()
-}
-
-/// Arcs whose way is not known: it depends on where they begin.
-fn arcs_from_elsewhere(program: &RobotProgram, robot: &RobotPath) -> Vec<MakeError> {
-    let moves = robot.path.moves.iter().zip(&robot.motions);
-    let known = moves.filter(|(own, _)| own.known != Knowledge::Nothing);
-    // To the first place the arm goes from wherever it is.
-    let arcs = known.skip(1).filter(|(own, motion)| {
-        let is_arc = program.motions.get(**motion).is_some_and(|motion| {
-            matches!(
-                motion.kind,
-                MotionKind::Circular { .. } | MotionKind::Arc { .. }
-            )
-        });
-        own.known == Knowledge::End && is_arc
-    });
-    arcs.map(|(own, _)| {
-        MakeError::at(
-            own.line,
-            "where this arc begins, or the place on it, is not known: behind a routine that is not in these files, or a place that only the run knows",
-            "write a motion to a stated place before the arc, or give the routine with the program",
-        )
-    })
-    .collect()
-}
-
 /// A work object of the source without a number that has one here.
 fn base_by_number(
     program: &RobotProgram,
@@ -295,48 +272,4 @@ fn base_by_number(
             ),
         )
     })
-}
-
-/// In which order motions, events and changes of tools run.
-fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
-    let events = events_of_robot(program);
-    let Some(running) = running_lines(program, robot.file) else {
-        let mut course = Course::of_lines(&robot.path, &events);
-        let mut events = std::mem::take(&mut course.events);
-        events.iter_mut().for_each(|(_, event)| event.only_words());
-        let moves: Vec<usize> = robot.path.moves.iter().map(|m| at(m.line)).collect();
-        course.tools = changes_of_source(program, robot, (&moves, &events));
-        course.events = events;
-        course.is_of_robot = true;
-        return course;
-    };
-    let mut by_line: BTreeMap<usize, Vec<SourceEvent>> = BTreeMap::new();
-    for event in events {
-        by_line.entry(event.line).or_default().push(event);
-    }
-    let mut placed = Vec::new();
-    let mut order: BTreeMap<usize, usize> = BTreeMap::new();
-    for (index, running) in running.iter().enumerate() {
-        order.entry(running.line).or_insert(index);
-        for mut event in by_line.remove(&running.line).into_iter().flatten() {
-            if running.is_followed {
-                continue;
-            }
-            if !running.is_certain {
-                event.only_words();
-            }
-            placed.push((place_of(&event, index), event));
-        }
-    }
-    placed.sort_by_key(|(order, _)| *order);
-    let number = |line: usize| at(order.get(&line).copied().unwrap_or(line));
-    let moves: Vec<usize> = robot.path.moves.iter().map(|m| number(m.line)).collect();
-    Course {
-        tools: changes_of_source(program, robot, (&moves, &placed)),
-        of_moves: Some(moves),
-        events: placed,
-        left_out: by_line.into_values().flatten().collect(),
-        is_of_robot: true,
-        configurations: Vec::new(),
-    }
 }

@@ -2,17 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::making::course::before;
+use crate::krl::loads::tool_loads as loads_of_krl;
+use crate::making::course::before_motion;
 use crate::making::events::SourceEvent;
-use crate::making::fault::MakeFinding;
+use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
-use crate::making::stated::{has_own_zero, is_identity, is_mass};
+use crate::making::stated::{has_own_zero, is_identity, is_mass, of_tool};
 use crate::making::template::{StatedFrame, StatedTool};
 use crate::model::frame::FrameUse;
+use crate::model::motion::Motion;
 use crate::model::program::{Language, RobotProgram};
+use crate::model::tool_load::ToolLoad;
 use crate::path::of_program::RobotPath;
 use crate::path::tools::{number_in, same_frame, tool_numbers};
-use crate::rapid::loads::{ToolLoad, tool_loads};
+use crate::rapid::loads::tool_loads;
 use crate::text::name::Name;
 
 /// The tools of a made program.
@@ -23,6 +26,8 @@ pub(crate) struct MadeTools {
     pub tools: BTreeMap<u32, StatedTool>,
     /// What got a number, or another name.
     pub findings: Vec<MakeFinding>,
+    /// What cannot be written of them, by the line of the first motion.
+    pub faults: Vec<MakeError>,
 }
 
 /// Whether a language takes tools by statements of their own, as machines do.
@@ -48,6 +53,7 @@ pub(crate) fn tools_of_source(
         tool: StatedTool::default(),
         tools: BTreeMap::new(),
         findings: Vec::new(),
+        faults: Vec::new(),
     };
     let all = &robot.tools;
     let is_one = all.len() == 1;
@@ -75,6 +81,11 @@ pub(crate) fn tools_of_source(
             axes_of_moment: load.map(|load| load.axes_of_moment),
             inertia_kg_m2: load.map(|load| load.inertia_kg_m2),
         };
+        made.faults.extend(faults_at(
+            program,
+            |motion| same_frame(&motion.tool, tool),
+            of_tool(&stated, language),
+        ));
         made.findings.extend(renamed(
             program,
             (tool, own),
@@ -92,12 +103,36 @@ pub(crate) fn tools_of_source(
     made
 }
 
+/// Faults of what the source itself states, by the line of the first motion that uses it.
+pub(crate) fn faults_at(
+    program: &RobotProgram,
+    uses: impl Fn(&Motion) -> bool,
+    faults: Vec<MakeError>,
+) -> Vec<MakeError> {
+    let first = program.motions.iter().find(|motion| uses(motion));
+    let line = first.map(|motion| motion.line);
+    let faults = faults.into_iter().map(|fault| MakeError {
+        line,
+        is_of_template: false,
+        ..fault
+    });
+    faults.collect()
+}
+
 /// The loads of the source's tools, where the made program declares them; a controller takes a tool of -1 kg for one without.
 fn loads_of_source(program: &RobotProgram, language: MakeLanguage) -> BTreeMap<Name, ToolLoad> {
-    if (program.language, language) != (Language::Rapid, MakeLanguage::Rapid) {
-        return BTreeMap::new();
-    }
-    let mut loads = tool_loads(&program.files);
+    let mut loads = match (program.language, language) {
+        (Language::Rapid, MakeLanguage::Rapid) => tool_loads(&program.files),
+        (Language::Krl, MakeLanguage::Rapid) => {
+            let loads = loads_of_krl(&program.files).into_iter();
+            let named = loads.filter_map(|(number, load)| {
+                let name = format!("TOOL_DATA[{number}]");
+                Some((Name::of(name.as_bytes())?, load))
+            });
+            named.collect()
+        }
+        _ => return BTreeMap::new(),
+    };
     loads.retain(|_, load| is_mass(load.mass_kg));
     loads
 }
@@ -199,7 +234,7 @@ pub(crate) fn changes_of_source(
         let end = events.partition_point(|(at, _)| at < order);
         let said = events[..end].iter().rev().take_while(|(at, _)| *at >= from);
         let mut said = said.filter(|(_, event)| event.is_of_tool);
-        let at = said.next().map_or(order - order % before(1), |(at, _)| *at);
+        let at = said.next().map_or(before_motion(*order), |(at, _)| *at);
         changes.push((at, number));
     }
     changes

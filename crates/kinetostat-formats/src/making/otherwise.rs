@@ -9,6 +9,9 @@ use crate::making::fault::MakeFinding;
 use crate::making::limits::MakeLanguage;
 use crate::making::pieces::Followed;
 
+/// Optional stops are named up to so many.
+const MOST_SHOWN: usize = 20;
+
 /// What is otherwise, counted.
 #[derive(Default)]
 pub(crate) struct Otherwise {
@@ -16,6 +19,8 @@ pub(crate) struct Otherwise {
     followed: BTreeMap<Followed, (usize, usize, usize)>,
     /// By kind: how many events are notes alone, with the first of them.
     lost: BTreeMap<EventKind, (usize, String)>,
+    /// Lines of optional stops that always stop.
+    always: Vec<usize>,
 }
 
 impl Otherwise {
@@ -29,6 +34,11 @@ impl Otherwise {
     /// An event is a note alone.
     pub(crate) fn lose(&mut self, kind: EventKind, note: String) {
         self.lost.entry(kind).or_insert((0, note)).0 += 1;
+    }
+
+    /// An optional stop is one without a condition.
+    pub(crate) fn stop_always(&mut self, line: usize) {
+        self.always.push(line);
     }
 
     /// All of it in words.
@@ -58,7 +68,21 @@ impl Otherwise {
             };
             MakeFinding::of(None, format!("{}: {lines} ({first})", kind.words()))
         });
-        followed.chain(lost).collect()
+        let always = self.always.first().map(|first| {
+            // Each for itself: of an expanded program it is said from where it came.
+            let shown = self.always.iter().take(MOST_SHOWN);
+            let shown: Vec<String> = shown.map(|line| format!("line {line}")).collect();
+            let more = match self.always.len().saturating_sub(MOST_SHOWN) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let message = format!(
+                "an optional stop, which a switch of the machine decides on, always stops here ({}{more})",
+                shown.join(", ")
+            );
+            MakeFinding::of(*first, message)
+        });
+        followed.chain(lost).chain(always).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use kinetostat_program::{COMPENSATED_MARK, Knowledge, Move, MoveKind, Path};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::making::action::EventAction;
 use crate::making::course::Course;
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
@@ -140,10 +141,12 @@ impl Planner<'_> {
             self.event(*at, event);
         }
         if !self.begun && self.faults.is_empty() {
-            self.faults.push(MakeError::of(
+            let line = moves.first().map_or(1, |motion| motion.line);
+            self.fault(
+                line,
                 "the program has no move to a place that is known",
                 "give a program that moves the tool",
-            ));
+            );
         }
     }
 
@@ -175,7 +178,12 @@ impl Planner<'_> {
         let mut lost: BTreeSet<EventKind> = BTreeSet::new();
         for action in &event.actions {
             match action.is_in(self.language) {
-                true => self.steps.push(Step::Action(*action)),
+                true => {
+                    if *action == EventAction::OptionalStop && !of_a_machine {
+                        self.otherwise.stop_always(event.line);
+                    }
+                    self.steps.push(Step::Action(*action));
+                }
                 false => {
                     lost.insert(action.kind());
                 }
@@ -268,10 +276,15 @@ impl Planner<'_> {
     fn made(&mut self, index: usize) {
         let path = self.path;
         let motion = &path.moves[index];
+        let stated = self.course.configurations.get(index);
+        let stated = stated.filter(|stated| stated.end.is_some() || stated.via.is_some());
+        let reconfigures = stated.is_some_and(|stated| stated.changes);
         // Another tip goes there from where it is.
         let same_tool = self.tool == self.last_tool;
-        let goes =
-            motion.has_length() || motion.turns_in_place() || self.comes_from_elsewhere(motion);
+        let goes = motion.has_length()
+            || motion.turns_in_place()
+            || reconfigures
+            || self.comes_from_elsewhere(motion);
         if self.begun && same_tool && !goes {
             return;
         }
@@ -314,9 +327,9 @@ impl Planner<'_> {
                 .follow(followed, motion.line, pieces.ends.len());
         }
         self.last_tool = self.tool;
-        let stated = self.course.configurations.get(index);
-        let stated = stated.filter(|stated| stated.end.is_some() || stated.via.is_some());
         let rapid = motion.kind == MoveKind::Rapid;
+        let other_speeds = self.course.other_speeds.get(index).and_then(Option::as_ref);
+        let by_joints = !self.begun || reconfigures;
         let mut from = 0.0;
         for to in pieces.ends {
             let via = 0.5 * (from + to);
@@ -329,7 +342,7 @@ impl Planner<'_> {
                     centre: centre(motion),
                     clockwise,
                 },
-                Shape::Line if !self.begun || (rapid && self.template.rapids == Rapids::Joint) => {
+                Shape::Line if by_joints || (rapid && self.template.rapids == Rapids::Joint) => {
                     Way::Joint
                 }
                 Shape::Line => Way::Line,
@@ -347,9 +360,10 @@ impl Planner<'_> {
                 orientation: self.orientation(motion, to),
                 axis,
                 speed_mm_per_s,
+                other_speeds: other_speeds.cloned().filter(|_| !rapid),
                 rapid,
                 first: !self.begun,
-                exact: !self.begun,
+                exact: by_joints,
                 configuration: stated.cloned().map(Box::new),
             }));
             self.begun = true;

@@ -26,6 +26,9 @@ const ZONES: [f64; 14] = [
 /// External axes that are not there.
 const NO_AXES: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 
+/// Speeds of turning, deg/s, and of external axes, mm/s and deg/s, of the speeds that controllers know by name.
+pub(crate) const OTHER_SPEEDS: &str = "500,5000,1000";
+
 /// A configuration that is not known, and that nothing goes by.
 const UNKNOWN: &str = "[0,0,0,0]";
 
@@ -90,7 +93,7 @@ pub(crate) fn files(
 
 struct Writer<'t> {
     template: &'t Template,
-    /// Names of speeds by their numbers as written.
+    /// Names of speeds by their data as written.
     speeds: BTreeMap<String, String>,
     tool: Option<u32>,
     /// Whether joint motions go to the configuration that they state (`ConfJ\On`); none where the program has not said it yet.
@@ -105,21 +108,27 @@ impl<'t> Writer<'t> {
             tool: None,
             follows_configuration: None,
         };
-        let rapid = writer.speed_number(template.rapid_speed_mm_per_s);
+        let rapid = writer.speed_data(template.rapid_speed_mm_per_s, None);
         writer.speeds.insert(rapid, "vRapid".to_owned());
         for motion in steps.iter().filter_map(Step::motion) {
-            let number = writer.speed_number(motion.speed_mm_per_s);
+            let data = writer.speed_of(motion);
             let count = writer.speeds.len();
             if count < MOST_NAMED_SPEEDS {
                 let name = || format!("vFeed{count}");
-                writer.speeds.entry(number).or_insert_with(name);
+                writer.speeds.entry(data).or_insert_with(name);
             }
         }
         writer
     }
 
-    fn speed_number(&self, mm_per_s: f64) -> String {
-        short(mm_per_s, self.template.speed_decimals.unwrap_or(9))
+    /// What is between the brackets of a speed: of the tip, of turning, of external axes.
+    fn speed_data(&self, mm_per_s: f64, others: Option<&str>) -> String {
+        let number = short(mm_per_s, self.template.speed_decimals.unwrap_or(9));
+        format!("{number},{}", others.unwrap_or(OTHER_SPEEDS))
+    }
+
+    fn speed_of(&self, motion: &MadeMotion) -> String {
+        self.speed_data(motion.speed_mm_per_s, motion.other_speeds.as_deref())
     }
 
     fn declarations(&self) -> String {
@@ -165,9 +174,9 @@ impl<'t> Writer<'t> {
             );
         }
         let slow = short(self.template.joint_speed_percent * 10.0, 3);
-        text += &format!("  CONST speeddata vJoint:=[{slow},500,5000,1000];\n");
-        for (number, name) in &self.speeds {
-            text += &format!("  CONST speeddata {name}:=[{number},500,5000,1000];\n");
+        text += &format!("  CONST speeddata vJoint:=[{slow},{OTHER_SPEEDS}];\n");
+        for (data, name) in &self.speeds {
+            text += &format!("  CONST speeddata {name}:=[{data}];\n");
         }
         text
     }
@@ -264,11 +273,11 @@ impl<'t> Writer<'t> {
             _ => motion.end_configuration().unwrap_or(UNKNOWN),
         };
         let end = self.target(&motion.end, &turn, configuration);
-        let number = self.speed_number(motion.speed_mm_per_s);
-        let speed = match (motion.way, self.speeds.get(&number)) {
+        let data = self.speed_of(motion);
+        let speed = match (motion.way, self.speeds.get(&data)) {
             (Way::Joint, _) => "vJoint".to_owned(),
             (_, Some(name)) => name.clone(),
-            (_, None) => format!("[{number},500,5000,1000]"),
+            (_, None) => format!("[{data}]"),
         };
         let radius = match motion.rapid {
             true => self.template.zones.rapids_mm,

@@ -10,8 +10,9 @@ use crate::making::events::SourceEvent;
 use crate::making::heidenhain_events::events_of_heidenhain;
 use crate::making::motion_events::events_of_motions;
 use crate::making::order_words::orders_only;
-use crate::making::robot_actions::{action_of, kind_of};
+use crate::making::robot_actions::kind_of;
 use crate::making::siemens_events::events_of_siemens;
+use crate::making::statements::of_line;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
 
@@ -56,21 +57,20 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         let kind = kind_of(program.language, &upper);
         let from = spindle.partition_point(|change| change.line < line);
         let turned = spindle.get(from).filter(|change| change.line == line);
-        let action = match turned.map(|change| change.spindle) {
-            Some(spindle) if kind == EventKind::Spindle => Some(EventAction::Spindle {
-                rotation: spindle.rotation,
-                rpm: spindle.speed,
-            }),
-            _ => action_of(program.language, text),
-        };
-        events.push(match action {
-            Some(action) => SourceEvent {
-                // A range, an angle, a speed of the surface: no other language has that.
-                rest: (kind == EventKind::Spindle && !is_turn_alone(&upper)).then_some(kind),
-                ..SourceEvent::acting(line, action, text)
-            },
-            None => SourceEvent::words_alone(line, kind, text),
-        });
+        match turned.map(|change| change.spindle) {
+            Some(spindle) if kind == EventKind::Spindle => {
+                let action = EventAction::Spindle {
+                    rotation: spindle.rotation,
+                    rpm: spindle.speed,
+                };
+                events.push(SourceEvent {
+                    // A range, an angle, a speed of the surface: no other language has that.
+                    rest: (!is_turn_alone(&upper)).then_some(kind),
+                    ..SourceEvent::acting(line, action, text)
+                });
+            }
+            _ => events.extend(of_line(program.language, line, text)),
+        }
     }
     events.sort_by_key(|event| place_of(event, event.line));
     events

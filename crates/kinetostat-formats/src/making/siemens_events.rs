@@ -72,11 +72,15 @@ impl Walk<'_> {
         if changes_tool {
             self.master.turning.turn(SpindleRotation::Stopped);
         }
-        let mut said = Vec::new();
+        let mut said: Vec<Said> = Vec::new();
         for item in &block.items {
             if let Some(own) = self.item(item, &tokens, &mut purpose) {
                 said.push(own);
             }
+        }
+        if self.changes_by_m6 && !changes_tool {
+            let of_tools = said.iter_mut().filter(|own| own.kind == EventKind::Tool);
+            of_tools.for_each(|own| own.word = Word::NextTool);
         }
         let comment = comment(self.source.part(&(block.span.end..range.end)));
         if let Some(comment) = comment {

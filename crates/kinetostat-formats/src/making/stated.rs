@@ -23,7 +23,7 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
     let mut faults = Vec::new();
     let mut within = |name: &str, value: f64, least: f64, most: f64| {
         if !(least..=most).contains(&value) {
-            faults.push(MakeError::of(
+            faults.push(MakeError::of_template(
                 format!("{name} is {value}"),
                 format!("{least} to {most} are allowed"),
             ));
@@ -80,7 +80,7 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
         .as_ref()
         .is_some_and(|joints| joints.len() != 6)
     {
-        faults.push(MakeError::of(
+        faults.push(MakeError::of_template(
             "start_joints_deg has not six values",
             "state six joints; further axes are not written",
         ));
@@ -94,10 +94,10 @@ pub(crate) fn faults(template: &Template, language: MakeLanguage) -> Vec<MakeErr
     faults
 }
 
-fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeError> {
+pub(crate) fn of_tool(tool: &StatedTool, language: MakeLanguage) -> Vec<MakeError> {
     let mut faults = of_frame(&tool.frame, "tool", language);
     if tool.mass_kg.is_some_and(|mass| !is_mass(mass)) {
-        faults.push(MakeError::of(
+        faults.push(MakeError::of_template(
             "mass_kg of a tool is not from 0.001 to 5000",
             "state the mass in kg",
         ));
@@ -110,12 +110,12 @@ pub(crate) fn is_mass(mass_kg: f64) -> bool {
     (1e-3..=5000.0).contains(&mass_kg)
 }
 
-fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<MakeError> {
+pub(crate) fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<MakeError> {
     let mut faults = Vec::new();
     if let Some(name) = &frame.name {
         faults.extend(is_identifier(name, 32, &format!("the name of the {what}")).err());
         if language != MakeLanguage::Rapid {
-            faults.push(MakeError::of(
+            faults.push(MakeError::of_template(
                 format!("the {what} has a name, which RAPID alone has"),
                 "state its number, or its pose",
             ));
@@ -128,14 +128,14 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
     let position = frame.pose.as_ref().map(|pose| pose.translation.vector);
     let too_far = |value: &&f64| value.is_nan() || value.abs() > farthest;
     if let Some(value) = position.iter().flatten().find(too_far) {
-        faults.push(MakeError::of(
+        faults.push(MakeError::of_template(
             format!("pose of the {what}: position_mm has {value:e}, farther than {farthest} mm"),
             "check the number and its unit, mm",
         ));
     }
     let is_elsewhere = frame.pose.as_ref().is_some_and(|pose| !is_identity(pose));
     if has_own_zero(language) && is_number_zero(frame) && is_elsewhere {
-        faults.push(MakeError::of(
+        faults.push(MakeError::of_template(
             format!(
                 "the {what} has the number 0, which is {} on the controller and cannot be set, and its pose is another",
                 match what {
@@ -152,7 +152,7 @@ fn of_frame(frame: &StatedFrame, what: &str, language: MakeLanguage) -> Vec<Make
         _ => 255,
     };
     if frame.number.is_some_and(|number| number > most) {
-        faults.push(MakeError::of(
+        faults.push(MakeError::of_template(
             format!("the number of the {what} is above {most}"),
             "state that of the controller",
         ));
@@ -189,7 +189,7 @@ fn of_configuration(template: &Template, language: MakeLanguage) -> Option<MakeE
     };
     (!right).then(|| {
         let shown: String = text.chars().take(40).filter(|c| !c.is_control()).collect();
-        MakeError::of(
+        MakeError::of_template(
             format!("the configuration is `{shown}`"),
             format!("it is written as {form}"),
         )

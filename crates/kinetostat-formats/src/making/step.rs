@@ -29,6 +29,8 @@ pub(crate) struct StatedConfiguration {
     pub via: Option<String>,
     /// The controller goes by that of a joint motion (RAPID: unless `ConfJ\Off`).
     pub is_followed: bool,
+    /// A joint motion that goes to another one than was stated before: on a straight way the arm would keep that.
+    pub changes: bool,
 }
 
 /// One motion.
@@ -44,6 +46,8 @@ pub(crate) struct MadeMotion {
     /// Direction from the tool's tip to its holder.
     pub axis: Vector3<f64>,
     pub speed_mm_per_s: f64,
+    /// Speeds of turning and of external axes, where the source states them in the same language (RAPID).
+    pub other_speeds: Option<Box<str>>,
     pub rapid: bool,
     /// The first of the program: from wherever the arm is.
     pub first: bool,

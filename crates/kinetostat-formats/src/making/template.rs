@@ -49,7 +49,8 @@ pub struct StatedTool {
 /// What rapids become.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rapids {
-    /// Straight motions at the rapid speed: the way is that of the source.
+    /// Straight motions at the rapid speed: the way is that of the source. Joint motions of a robot that take the arm to another
+    /// configuration stay joint motions in the same language.
     #[default]
     Linear,
     /// Joint motions: faster, on a way that is the controller's.

@@ -15,6 +15,8 @@ pub(crate) enum Word {
     SpindleStop,
     /// The time for which the tool stands still, or what goes with it.
     Dwell,
+    /// Which tool comes next: it is not taken yet.
+    NextTool,
     Other,
 }
 
@@ -144,7 +146,7 @@ impl Words {
             ..Done::default()
         };
         for said in said {
-            done.is_of_tool |= said.kind == EventKind::Tool;
+            done.is_of_tool |= said.kind == EventKind::Tool && said.word != Word::NextTool;
             done.is_silent &= matches!(said.kind, EventKind::Comment | EventKind::End);
             let action = match (said.word, force.spindle, force.dwell_s) {
                 _ if self.is_optional => None,

@@ -82,11 +82,25 @@ pub(crate) fn moving_axis(
     language: Language,
 ) -> Option<ProgramError> {
     let mut known: Vec<Option<f64>> = Vec::new();
+    // A pose before does not state the axis: where it stands there is not known. Positions of TP programs state all that there is.
+    let may_be_open = language != Language::FanucLs;
+    let mut has_pose = false;
     for motion in motions {
         let external = &motion.site.external;
         known.resize(known.len().max(external.len()), None);
         for (axis, value) in external.iter().enumerate() {
             match (known[axis], value) {
+                (None, Some(value)) if may_be_open && has_pose && *value != 0.0 => {
+                    return Some(ProgramError::at(
+                        &files[motion.file],
+                        motion.span.clone(),
+                        format!(
+                            "{} goes to {value}, and the poses before do not state it: the arm stands elsewhere then",
+                            name_of_axis(language, axis)
+                        ),
+                        "state it in all poses, or read with external axes carried if they do not move the arm or the part",
+                    ));
+                }
                 (None, Some(_)) => known[axis] = *value,
                 (Some(before), Some(value)) if before != *value => {
                     return Some(ProgramError::at(
@@ -102,6 +116,7 @@ pub(crate) fn moving_axis(
                 _ => {}
             }
         }
+        has_pose |= motion.target.pose().is_some();
     }
     None
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::model::frame::Frame;
 use crate::model::motion::{Motion, MotionKind};
+use crate::model::outside_call::{OutsideCall, by_name};
 use crate::model::program::Finding;
 use crate::model::target::Target;
 
@@ -52,4 +53,14 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
         }
     }
     findings
+}
+
+/// What is called and none of the files holds, each name once with its lines.
+pub(crate) fn outside_calls(calls: &[OutsideCall]) -> Vec<Finding> {
+    let all = by_name(calls).into_iter().map(|of| Finding {
+        file: of.file,
+        line: of.line(),
+        message: of.message("it is carried"),
+    });
+    all.collect()
 }

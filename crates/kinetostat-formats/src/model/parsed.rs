@@ -2,8 +2,9 @@
 
 use crate::error::ProgramError;
 use crate::model::external::moving_axis;
-use crate::model::findings::{left_as_written, unknown_frames};
+use crate::model::findings::{left_as_written, outside_calls as named_calls, unknown_frames};
 use crate::model::motion::Motion;
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
@@ -22,6 +23,8 @@ pub(crate) struct Read {
     pub motions: Vec<Motion>,
     pub declarations: Vec<Declaration>,
     pub findings: Vec<Finding>,
+    /// What it calls and none of its files holds.
+    pub outside_calls: Vec<OutsideCall>,
     pub faults: Vec<ProgramError>,
     /// Otherwise a motion of one is a fault.
     pub external_axes_may_move: bool,
@@ -37,6 +40,7 @@ impl Parsed {
                 motions: Vec::new(),
                 findings: Vec::new(),
                 declarations: Vec::new(),
+                outside_calls: Vec::new(),
                 rotary: StatedAxes::default(),
             },
             faults,
@@ -50,6 +54,7 @@ impl Parsed {
             motions,
             declarations,
             mut findings,
+            outside_calls,
             mut faults,
             external_axes_may_move,
         } = read;
@@ -58,6 +63,7 @@ impl Parsed {
         }
         sort_faults(&mut faults, &files);
         faults.dedup();
+        findings.extend(named_calls(&outside_calls));
         findings.extend(unknown_frames(&motions));
         findings.extend(left_as_written(&motions));
         findings.sort_by_key(|finding| (finding.file, finding.line));
@@ -67,6 +73,7 @@ impl Parsed {
             motions,
             findings,
             declarations,
+            outside_calls,
             rotary: StatedAxes::default(),
         };
         Self { program, faults }

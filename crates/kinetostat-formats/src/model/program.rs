@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::model::motion::Motion;
+use crate::model::outside_call::OutsideCall;
 use crate::model::site::Declaration;
 use crate::model::stated_axes::StatedAxes;
 use crate::text::source::SourceFile;
@@ -64,6 +65,8 @@ pub struct RobotProgram {
     /// In order of files and lines.
     pub findings: Vec<Finding>,
     pub(crate) declarations: Vec<Declaration>,
+    /// What it calls and none of its files holds.
+    pub(crate) outside_calls: Vec<OutsideCall>,
     /// What it says of the rotary axes of a machine.
     pub(crate) rotary: StatedAxes,
 }

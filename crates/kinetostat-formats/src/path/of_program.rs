@@ -149,7 +149,7 @@ fn path_of_maker(maker: &Maker<'_>) -> Path {
         if motion.runs == Runs::Elsewhere {
             warnings.push(Warning {
                     line: motion.line,
-                    text: "nothing in these files calls the routine of this motion: it is corrected as if it ran by itself"
+                    text: "nothing in these files leads to this motion: it is corrected as if it ran by itself"
                         .to_owned(),
                 });
         }

@@ -108,6 +108,7 @@ pub fn read_poses(
         motions,
         findings,
         declarations: Vec::new(),
+        outside_calls: Vec::new(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
     })
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
 use crate::options::ExternalAxes;
 use crate::rapid::calls::Place;
@@ -103,6 +104,7 @@ impl Walker<'_, '_> {
             }
             Some(_) => {
                 let name = String::from_utf8_lossy(file.word(tokens.start));
+                self.has_ended |= name.eq_ignore_ascii_case("ExitCycle");
                 let effects = EFFECTS
                     .iter()
                     .find(|(word, _)| word.eq_ignore_ascii_case(&name));
@@ -115,16 +117,12 @@ impl Walker<'_, '_> {
                 }
                 place
             }
-            None if !self.unknown_calls.insert((file.index, name)) => Place::Unknown,
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
-                self.findings.push(Finding {
+                self.outside_calls.push(OutsideCall {
                     file: file.index,
                     line: file.source.line_of(span.start),
-                    message: match called.as_str() {
-                        "%" => "what is called is computed: it is carried, and if it moves the tool, that is not seen".to_owned(),
-                        _ => format!("`{called}` is in none of these files: it is carried, and if it moves the tool, that is not seen"),
-                    },
+                    name: (called != "%").then_some(called),
                 });
                 Place::Unknown
             }

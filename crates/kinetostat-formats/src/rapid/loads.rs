@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 
 use crate::model::orientation::OrientationText;
+use crate::model::tool_load::ToolLoad;
 use crate::rapid::expression::{Expression, Value, expression_of};
 use crate::rapid::lex::tokens_of;
 use crate::rapid::literals::{frame_of, values};
@@ -13,18 +14,6 @@ use crate::rapid::parser::modules::modules_of;
 use crate::rapid::tree::{DatumNode, TokenFile};
 use crate::text::name::Name;
 use crate::text::source::SourceFile;
-
-/// `loaddata`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ToolLoad {
-    pub mass_kg: f64,
-    /// In axes of the flange, mm.
-    pub centre_of_mass_mm: Vector3<f64>,
-    /// Turns the axes of the flange into those of the moments of inertia.
-    pub axes_of_moment: UnitQuaternion<f64>,
-    /// About those axes through the centre of mass, kg m^2.
-    pub inertia_kg_m2: Vector3<f64>,
-}
 
 /// The loads of tools whose declaration is a literal, by their names; none of a name that is declared with different ones.
 pub(crate) fn tool_loads(files: &[SourceFile]) -> BTreeMap<Name, ToolLoad> {

@@ -94,6 +94,7 @@ pub(crate) fn parse_rapid(files: Vec<SourceFile>, options: &ReadOptions) -> Pars
         motions: walked.motions,
         declarations: targets.declarations,
         findings: [targets.findings, walked.findings].concat(),
+        outside_calls: walked.outside_calls,
         faults,
         external_axes_may_move: options.external_axes != ExternalAxes::Refused,
     };

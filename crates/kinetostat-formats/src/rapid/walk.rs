@@ -3,11 +3,11 @@
 //! Where a motion begins is known if it is the same at every run. Each routine is walked once; what depends on where it is
 //! called from stays open until all its calls are known.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
 use crate::model::motion::{Motion, Runs};
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
 use crate::options::ReadOptions;
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
@@ -25,6 +25,7 @@ const DEEPEST: usize = 200;
 pub(crate) struct Walked {
     pub motions: Vec<Motion>,
     pub findings: Vec<Finding>,
+    pub outside_calls: Vec<OutsideCall>,
 }
 
 /// Walks `main` and what it calls, then all that nothing calls.
@@ -51,8 +52,9 @@ pub(crate) fn walk(
         motions: Vec::new(),
         places: Vec::new(),
         moves_external_at_entry: false,
+        has_ended: false,
         findings: Vec::new(),
-        unknown_calls: BTreeSet::new(),
+        outside_calls: Vec::new(),
         moving_functions,
         summaries: vec![Summary::default(); count],
         finished: Vec::new(),
@@ -94,7 +96,10 @@ impl Walker<'_, '_> {
         }
         let in_body = self.motions.len();
         self.now.runs = Runs::OnCondition.max(self.now.runs);
+        let has_ended = self.has_ended;
         self.block(&home.routine.handlers, Place::Unknown);
+        // Handlers run where something went wrong.
+        self.has_ended = has_ended;
         // Where handlers move or jumps lead back, no place of the routine is sure.
         if home.routine.jumps || self.motions.len() > in_body {
             let own = (before..in_body).filter(|motion| self.places[*motion].0 == index);
@@ -112,8 +117,8 @@ impl Walker<'_, '_> {
         let runs = self.now.runs;
         for statement in statements {
             place = self.statement(statement, place);
-            if self.now.left.is_some() {
-                // What is behind a RETURN in a branch runs on a condition.
+            if self.now.left.is_some() || self.has_ended {
+                // What is behind a RETURN in a branch, or an EXIT anywhere, runs on a condition.
                 self.now.runs = Runs::OnCondition.max(self.now.runs);
             }
         }
@@ -126,7 +131,8 @@ impl Walker<'_, '_> {
             Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
             Statement::Assignment { tokens, .. } => self.behind_functions(tokens.clone(), place),
             Statement::Label => Place::Unknown,
-            Statement::Leaves { .. } => {
+            Statement::Leaves { tokens } => {
+                self.has_ended |= self.file().word(tokens.start).eq_ignore_ascii_case(b"EXIT");
                 let left = self.now.left.map_or(place, |left| merge(left, place));
                 self.now.left = Some(left);
                 place
@@ -240,6 +246,7 @@ impl Walker<'_, '_> {
         Walked {
             motions: self.motions,
             findings: self.findings,
+            outside_calls: self.outside_calls,
         }
     }
 }

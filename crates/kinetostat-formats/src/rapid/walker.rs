@@ -1,9 +1,8 @@
 //! What a walk knows, and what it found so far.
 
-use std::collections::BTreeSet;
-
 use crate::error::ProgramError;
 use crate::model::motion::{Motion, Runs};
+use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
 use crate::options::{ExternalAxes, UnknownTargets};
 use crate::rapid::calls::{Place, Summary};
@@ -37,9 +36,11 @@ pub(super) struct Walker<'w, 'p> {
     pub places: Vec<(usize, Place)>,
     /// External axes move alone at the beginning of a routine: behind which motions, its calls say.
     pub moves_external_at_entry: bool,
+    /// EXIT or ExitCycle ended the program, on one way at least.
+    pub has_ended: bool,
     pub findings: Vec<Finding>,
-    /// Files and names of what they call and none declares: each is said once.
-    pub unknown_calls: BTreeSet<(usize, Option<Name>)>,
+    /// What is called and none of the files declares.
+    pub outside_calls: Vec<OutsideCall>,
     /// By routine: a function that may move the tool.
     pub moving_functions: Vec<bool>,
     pub summaries: Vec<Summary>,

@@ -56,6 +56,7 @@ pub fn read_siemens(
         motions,
         findings,
         declarations: Vec::new(),
+        outside_calls: Vec::new(),
         rotary,
     })
 }

@@ -4,6 +4,7 @@
 
 pub(crate) mod edits;
 pub(crate) mod flat;
+pub(crate) mod line_words;
 pub(crate) mod name;
 pub(crate) mod number;
 pub(crate) mod source;

@@ -268,3 +268,32 @@ fn pieces_of_a_caller() {
         assert!(refused.to_string().contains("state the share"), "{refused}");
     }
 }
+
+/// Where the axis stands at the poses before, nobody says.
+#[test]
+fn an_axis_that_is_first_stated_in_the_middle_is_refused_as_one_that_moves() {
+    for (case, moves) in [
+        (rapid("9E9", "350"), true),
+        (krl("", ",E1 350.0"), true),
+        // Positions of TP programs state all that there is, others nothing.
+        (ls("", ",\n\tE1=   350.000 mm"), false),
+        // Arms without external axes state zeros here and there.
+        (rapid("9E9", "0"), false),
+        (krl("", ",E1 0.0"), false),
+        (krl(",E1 350.0", ""), false),
+        (krl(",E1 350.0", ",E1 350.0"), false),
+    ] {
+        let files = vec![SourceFile::new("m.txt", case.text.as_bytes())];
+        let found = read(case.language, files, &ReadOptions::default());
+        match (moves, found) {
+            (false, found) => assert!(found.is_ok(), "{found:?}"),
+            (true, found) => {
+                let faults = found.unwrap_err();
+                assert_eq!(faults[0].line, case.line, "{faults:?}");
+                let reason = &faults[0].reason;
+                let words = format!("{} goes to 350, and the poses before do not", case.names);
+                assert!(reason.starts_with(&words), "{faults:?}");
+            }
+        }
+    }
+}

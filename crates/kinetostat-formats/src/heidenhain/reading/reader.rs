@@ -63,6 +63,7 @@ pub fn read_heidenhain(
         motions: found.motions,
         findings,
         declarations: Vec::new(),
+        outside_calls: Vec::new(),
         rotary: StatedAxes {
             letters: options.rotary_axes.clone(),
             motions: found.axes,

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use crate::error::excerpt;
 use crate::krl::calls::Call;
-use crate::krl::state::{OutsideCall, State, Thing};
+use crate::krl::state::{State, Thing};
 use crate::krl::table::row;
 use crate::krl::walking::walker::{DEEPEST, Walker};
 use crate::model::motion::Runs;
-use crate::model::program::Finding;
+use crate::model::outside_call::OutsideCall;
 use crate::table::Treatment;
 use crate::text::name::Name;
 
@@ -67,18 +67,8 @@ impl Walker<'_, '_> {
                 let call = OutsideCall {
                     file: file.index,
                     line: file.source.line_of(file.span(tokens).start),
-                    name: excerpt(file.word(at)),
+                    name: Some(excerpt(file.word(at))),
                 };
-                if self.named.insert(name) {
-                    self.findings.push(Finding {
-                        file: call.file,
-                        line: call.line,
-                        message: format!(
-                            "`{}` is in none of these files: it is carried, and if it moves the tool, that is not seen",
-                            call.name
-                        ),
-                    });
-                }
                 let calls = &mut self.settings.calls;
                 calls.push(call);
                 state.behind_outside(calls.len() - 1)

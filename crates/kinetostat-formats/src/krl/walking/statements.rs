@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
+use crate::krl::role::Role;
 use crate::krl::settings::Setter;
 use crate::krl::state::State;
 use crate::krl::table::row;
+use crate::krl::usage::place_of;
 use crate::krl::walking::walker::Walker;
 use crate::table::Treatment;
 use crate::text::name::Name;
@@ -33,6 +35,20 @@ impl Walker<'_, '_> {
             self.refuse(tokens, reason);
         }
         true
+    }
+
+    /// `TOOL_DATA[4]={X 0,Y 0,Z 180,A 0,B 0,C 0}`.
+    pub(super) fn gives_frame(&mut self, name: &Name, tokens: &Range<usize>) {
+        let (Some(role), true) = (Role::of_array(name), self.is_certain()) else {
+            return;
+        };
+        let Some(equals) = self.file().assign(tokens) else {
+            return;
+        };
+        let (place, element) = place_of(self.file(), tokens.start, equals);
+        if let (Some(number), true) = (element, place == (tokens.start..equals)) {
+            self.settings.given.insert((role, number));
+        }
     }
 
     /// All other statements.

@@ -27,6 +27,7 @@ impl<'p> Walker<'_, 'p> {
         let now = Now {
             routine: index,
             runs,
+            is_certain: depth == 0 || self.is_certain(),
             left: None,
             spline: None,
             depth,
@@ -40,6 +41,11 @@ impl<'p> Walker<'_, 'p> {
         self.summaries[index].leaves = Some(state);
         self.finished.push(index);
         self.now = outer;
+    }
+
+    /// Whether a statement here runs once, on no condition.
+    pub(super) fn is_certain(&self) -> bool {
+        self.now.is_certain && self.now.runs == Runs::Once
     }
 
     fn block(&mut self, statements: &'p [Statement], mut state: State) -> State {
@@ -132,15 +138,18 @@ impl<'p> Walker<'_, 'p> {
             return state;
         }
         if name.is("INTERRUPT") || name.is("TRIGGER") || name.is("GLOBAL") {
+            let runs = std::mem::replace(&mut self.now.runs, Runs::Repeatedly);
             for called in self.interrupting(&tokens) {
                 if !self.summaries[called].begun && self.now.depth < DEEPEST {
                     self.routine(called, self.now.depth + 1);
                 }
             }
+            self.now.runs = runs;
             return state;
         }
         let mut state = self.functions(tokens.clone(), state);
         // What is called was looked at above.
+        self.gives_frame(&name, &tokens);
         if self.puts_in_force(&name, &tokens, &mut state) || file.is(tokens.start + 1, b'(') {
             return state;
         }

@@ -1,6 +1,5 @@
 //! What a walk knows, and what it found so far.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::error::{ProgramError, note};
@@ -14,7 +13,6 @@ use crate::krl::values::{Reason, Values};
 use crate::model::motion::Runs;
 use crate::model::program::Finding;
 use crate::options::UnknownTargets;
-use crate::text::name::Name;
 
 /// Deepest nesting of calls and blocks together.
 pub(super) const DEEPEST: usize = 200;
@@ -25,6 +23,8 @@ pub(super) struct Now {
     pub routine: usize,
     /// Of the statement in its routine.
     pub runs: Runs,
+    /// The routine runs once in a run of the program, as far as the walk came.
+    pub is_certain: bool,
     /// Where a RETURN left it.
     pub left: Option<State>,
     /// What was in force before the spline block that is open.
@@ -45,8 +45,6 @@ pub(crate) struct Walker<'w, 'p> {
     pub summaries: Vec<Summary>,
     /// Callers behind what they call.
     pub finished: Vec<usize>,
-    /// Routines that were named in a finding.
-    pub(super) named: BTreeSet<Name>,
     pub(super) now: Now,
 }
 
@@ -68,10 +66,10 @@ impl<'w, 'p> Walker<'w, 'p> {
             motions: Vec::new(),
             findings: Vec::new(),
             finished: Vec::new(),
-            named: BTreeSet::new(),
             now: Now {
                 routine: 0,
                 runs: Runs::Once,
+                is_certain: true,
                 left: None,
                 spline: None,
                 depth: 0,

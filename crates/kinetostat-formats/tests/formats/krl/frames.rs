@@ -79,7 +79,12 @@ fn frames_are_those_that_statements_set() {
         ("$TOOL=computed(1)", None, None),
         ("$BASE=BASE_DATA[count]", None, None),
         (
-            "BASE_DATA[4]={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=BASE_DATA[4]",
+            "BASE_DATA[4]={X 0,Y 0,Z 7,A 0,B 0,C 0}\n$BASE=BASE_DATA[4]",
+            None,
+            Some([0.0, 0.0, 7.0]),
+        ),
+        (
+            "$BASE=BASE_DATA[4]\nBASE_DATA[4]={X 0,Y 0,Z 7,A 0,B 0,C 0}",
             None,
             None,
         ),

@@ -1,5 +1,6 @@
 //! KUKA KRL.
 
+mod assigned_frames;
 mod broken;
 mod broken_forms;
 mod corrections;

@@ -2,6 +2,7 @@
 //! comparison that `make` does itself.
 
 mod arcs;
+mod ends;
 mod events;
 mod hidden;
 mod machine_words;
@@ -9,10 +10,12 @@ mod machines;
 mod of_robots;
 mod parts;
 mod properties;
+mod reconfigured;
 mod refused;
 mod round_trips;
 mod running;
 mod same_language;
+mod statements;
 mod tools;
 
 use kinetostat_formats::*;

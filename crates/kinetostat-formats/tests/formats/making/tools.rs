@@ -123,3 +123,36 @@ fn names_of_rapid_that_become_numbers_are_named() {
         rapid.findings
     );
 }
+
+/// KRL states what tools weigh in an array beside theirs.
+#[test]
+fn loads_of_krl_are_those_of_rapid() {
+    let krl = |more: &str| {
+        format!(
+            "DEF a( )\nTOOL_DATA[4]={{X 0,Y 0,Z 180,A 0,B 0,C 0}}\nLOAD_DATA[4]={{M 5.5,CM {{X 1,Y 2,Z 60,A 0,B 90,C 0}},J {{X 0.1,Y 0.2,Z 0.05}}}}\n{more}\
+             $BASE=$NULLFRAME\n$TOOL=TOOL_DATA[4]\n$LOAD=LOAD_DATA[4]\n$VEL.CP=0.01\nPTP {{X 0,Y 0,Z 5,A 0,B 0,C 180}}\nLIN {{X 9,Y 0,Z 5,A 0,B 0,C 180}}\nEND\n"
+        )
+    };
+    let stated = "[5.5,[1.000000,2.000000,60.000000],[0.7071067812,0.0000000000,0.7071067812,0.0000000000],0.1,0.2,0.05]]";
+    let made = of_robot(Language::Krl, &krl(""), MakeLanguage::Rapid);
+    let text = text_of(&made, 0);
+    assert!(
+        text.contains("PERS tooldata tool4:=[TRUE,[[0.000000,0.000000,180.000000],")
+            && text.contains(stated),
+        "{text}"
+    );
+    assert!(!found(&made, "1 kg is written"), "{:?}", made.findings);
+    // Not where the program says two things, or another load altogether.
+    for more in [
+        "LOAD_DATA[4].M=7\n",
+        "$LOAD={M 3,CM {X 0,Y 0,Z 9,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\n",
+        "LOAD_DATA[4]={M -1,CM {X 1,Y 2,Z 60,A 0,B 90,C 0},J {X 0.1,Y 0.2,Z 0.05}}\n",
+    ] {
+        let made = of_robot(Language::Krl, &krl(more), MakeLanguage::Rapid);
+        assert!(
+            found(&made, "1 kg is written"),
+            "{more}: {:?}",
+            made.findings
+        );
+    }
+}

@@ -1,0 +1,56 @@
+//! The statements of a line of a robot's program, and what each does beside motions.
+
+use crate::making::event_kind::EventKind;
+use crate::making::events::SourceEvent;
+use crate::making::order_words::orders_only;
+use crate::making::robot_actions::{action_of, kind_of};
+use crate::model::program::Language;
+
+/// Words of RAPID with which a statement on the same line may run on a condition, again, or not at all.
+const OF_BLOCKS: [&str; 17] = [
+    "IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "FOR", "ENDFOR", "WHILE", "ENDWHILE", "TEST", "CASE",
+    "DEFAULT", "ENDTEST", "GOTO", "RETURN", "EXIT", "ERROR",
+];
+
+/// What the statements of a line are; nothing of those that only order the program.
+pub(crate) fn of_line(language: Language, line: usize, text: &str) -> Vec<SourceEvent> {
+    let all = statements(language, text).into_iter();
+    let matter = all.filter(|text| !text.is_empty() && !orders_only(language, text));
+    matter
+        .map(|text| of_statement(language, line, text))
+        .collect()
+}
+
+fn of_statement(language: Language, line: usize, text: &str) -> SourceEvent {
+    let kind = kind_of(language, &text.to_ascii_uppercase());
+    match action_of(language, text).filter(|_| kind != EventKind::Comment) {
+        Some(action) => SourceEvent::acting(line, action, text),
+        None => SourceEvent::words_alone(line, kind, text),
+    }
+}
+
+/// The statements of a line of RAPID and its comment; the whole line of others, and of what belongs to a block.
+fn statements(language: Language, text: &str) -> Vec<&str> {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let capitals = text.to_ascii_uppercase();
+    let is_of_block = (capitals.split(|c| !is_word(c))).any(|word| OF_BLOCKS.contains(&word));
+    if language != Language::Rapid || is_of_block {
+        return vec![text.trim()];
+    }
+    let mut found = Vec::new();
+    let (mut start, mut in_text) = (0, false);
+    for (at, letter) in text.char_indices() {
+        match letter {
+            '"' => in_text = !in_text,
+            ';' if !in_text => {
+                found.push(text[start..=at].trim());
+                start = at + 1;
+            }
+            // A comment behind its statement stays with it.
+            '!' if !in_text => break,
+            _ => {}
+        }
+    }
+    found.push(text[start..].trim());
+    found
+}
