@@ -237,7 +237,7 @@ pub(crate) fn setting(
                 program_files.push(read);
                 inputs.push(path);
             }
-            let (text, flat) = flat_text(&source)?;
+            let (text, flat) = flat_text(&source, expand.comments_asked)?;
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             source.files = vec![text.file];
             source.paths.clear();

@@ -1,0 +1,140 @@
+//! Where directions of the tool say little of its rotary axes: near a pole.
+//!
+//! Two axes turn the tool, one after the other. The area that the two turns span is `n . R(second) z` times one, with `n` the cross
+//! product of both axes: it depends on the angle of the second axis alone, as a cosine, and is zero twice in a revolution. There the
+//! tool lies along the first axis (the pole), or as far from it as it comes, and many angles give nearly one direction.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
+
+use crate::number::{larger, smaller};
+use crate::path::rotary::{Carries, RotaryAxes};
+use crate::path::rotary_turn::RotaryTurn;
+
+/// Turns smaller than this are none, rad.
+const NO_TURN: f64 = 1e-9;
+
+/// Axes whose cross product is smaller turn about one direction.
+const ONE_AXIS: f64 = 1e-6;
+
+impl RotaryAxes {
+    /// The axes from the one that turns all others to the one that turns the tool first, with the directions about which the tool turns
+    /// in the part: tables turn the part away below it.
+    pub(crate) fn in_order_of_turning(&self) -> (Vec<usize>, Vec<UnitVector3<f64>>) {
+        let is_table = |index: &usize| self.axes[*index].carries == Carries::Part;
+        let tables = (0..self.axes.len()).rev().filter(is_table);
+        let heads = (0..self.axes.len()).filter(|index| !is_table(index));
+        let order: Vec<usize> = tables.chain(heads).collect();
+        let about = |index: &usize| match is_table(index) {
+            true => -self.axes[*index].direction,
+            false => self.axes[*index].direction,
+        };
+        let turning = order.iter().map(about).collect();
+        (order, turning)
+    }
+}
+
+impl RotaryTurn {
+    /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` to an angle at which
+    /// directions say little. None where it stands there all along.
+    pub(crate) fn shares_near_poles(&self, near_rad: f64) -> Vec<[f64; 2]> {
+        let (order, turning) = self.axes.in_order_of_turning();
+        let ([_, second], [first_axis, second_axis]) = (order.as_slice(), turning.as_slice())
+        else {
+            return Vec::new();
+        };
+        let across = first_axis.cross(second_axis);
+        let from = self.start_deg[*second].to_radians();
+        let way = self.end_deg[*second].to_radians() - from;
+        if across.norm() < ONE_AXIS || way.abs() < NO_TURN {
+            return Vec::new();
+        }
+        let area = |angle: f64| {
+            let turn = UnitQuaternion::from_axis_angle(second_axis, angle);
+            across.dot(&(turn * Vector3::z()))
+        };
+        let [at_zero, at_quarter] = [area(0.0), area(FRAC_PI_2)];
+        if at_zero.hypot(at_quarter) < ONE_AXIS {
+            return Vec::new();
+        }
+        let first_pole = at_quarter.atan2(at_zero) + FRAC_PI_2;
+        let near = near_rad / across.norm();
+        let (least, largest) = (smaller(from, from + way), larger(from, from + way));
+        let mut number = ((least - near - first_pole) / PI).ceil();
+        let mut shares = Vec::new();
+        while first_pole + number * PI < largest + near {
+            let pole = first_pole + number * PI;
+            let ends = [pole - near, pole + near].map(|angle| (angle - from) / way);
+            let [a, b] = ends.map(|share| share.clamp(0.0, 1.0));
+            shares.push([smaller(a, b), larger(a, b)]);
+            number += 1.0;
+        }
+        shares.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        shares.retain(|[from, to]| from < to && to - from < 1.0);
+        shares
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Unit;
+
+    use super::*;
+    use crate::path::rotary::RotaryAxis;
+    use crate::path::rotary_turn::StatedBy;
+
+    fn turn(axes: [(Carries, Vector3<f64>); 2], from: [f64; 2], to: [f64; 2]) -> RotaryTurn {
+        let axis = |(carries, direction)| RotaryAxis {
+            letter: 'A',
+            carries,
+            direction: Unit::new_normalize(direction),
+            point_mm: Vector3::zeros(),
+            limits_deg: None,
+        };
+        let axes = RotaryAxes {
+            axes: axes.map(axis).to_vec(),
+            tool_at_zero: UnitQuaternion::identity(),
+        };
+        RotaryTurn {
+            axes: axes.into(),
+            start_deg: from.to_vec(),
+            end_deg: to.to_vec(),
+            origin_deg: vec![0.0; 2],
+            great_circle: None,
+            stated: StatedBy::Direction,
+        }
+    }
+
+    #[test]
+    fn poles_lie_where_the_axes_turn_the_tool_about_one_direction() {
+        let (head, table) = (Carries::Tool, Carries::Part);
+        let (x, z) = (Vector3::x(), Vector3::z());
+        let near = 0.01_f64;
+        // A fork head above a table passes the pole at A0, halfway.
+        let fork = turn([(head, x), (table, -z)], [20.0, 0.0], [-20.0, 90.0]);
+        let [[from, to]] = fork.shares_near_poles(near)[..] else {
+            panic!("{:?}", fork.shares_near_poles(near));
+        };
+        let half = near.to_degrees() / 40.0;
+        assert!((from - 0.5 + half).abs() < 1e-12 && (to - 0.5 - half).abs() < 1e-12);
+        // A cradle below a table: from the pole to the other one, upside down.
+        let cradle = turn([(table, x), (table, z)], [0.0, 10.0], [180.0, 40.0]);
+        assert_eq!(cradle.shares_near_poles(near).len(), 2);
+        // A nutating head at 45 degrees: the pole at zero, and the tool flat at half a turn.
+        let leaning = Vector3::new(0.0, 1.0, 1.0);
+        let nutating = turn([(head, z), (head, leaning)], [0.0, -10.0], [90.0, 190.0]);
+        let found = nutating.shares_near_poles(near);
+        let middles: Vec<f64> = found.iter().map(|[a, b]| 0.5 * (a + b)).collect();
+        assert!((middles[0] - 0.05).abs() < 1e-9 && (middles[1] - 0.95).abs() < 1e-9);
+        // One axis along the other, one that stands, and one that stays near the pole have none.
+        let none = [
+            turn([(head, z), (table, z)], [0.0, 10.0], [90.0, 40.0]),
+            turn([(head, x), (table, z)], [5.0, 10.0], [5.0, 40.0]),
+            turn([(head, x), (table, z)], [-0.1, 10.0], [0.1, 40.0]),
+        ];
+        for turn in none {
+            assert!(turn.shares_near_poles(near).is_empty(), "{turn:?}");
+        }
+    }
+}
