@@ -38,4 +38,5 @@ mod tool_turns;
 mod tools;
 mod turns_in_place;
 mod unknown_places;
+mod word_order;
 mod writing;
