@@ -60,8 +60,8 @@ fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Fai
     let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
     let failure = Failure::input(text);
     match (first.line, &template.name) {
-        (None, Some(name)) => failure.within(name),
-        (None, None) => failure,
+        (None, Some(name)) => setting.of_flat(failure).within(name),
+        (None, None) => setting.of_flat(failure),
         (Some(_), _) => setting.within(failure),
     }
 }

@@ -78,14 +78,11 @@ impl Setting {
     }
 
     /// A failure along the program: with its name, and of an expanded one with the lines that its lines came from.
-    pub(crate) fn within(&self, mut failure: Failure) -> Failure {
-        if let Some(flat) = &self.flat {
-            failure.plain = flat.with_sources(&failure.plain);
-        }
-        failure.within(&self.program_name)
+    pub(crate) fn within(&self, failure: Failure) -> Failure {
+        self.of_flat(failure).within(&self.program_name)
     }
 
-    /// A failure that names lines of a robot's program: of an expanded one with the lines that its lines came from.
+    /// A failure that names lines of the program: of an expanded one with the lines that its lines came from.
     pub(crate) fn of_flat(&self, mut failure: Failure) -> Failure {
         if let Some(flat) = &self.flat {
             let named = format!("{}, line ", self.program_name);
