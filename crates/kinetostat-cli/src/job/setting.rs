@@ -85,8 +85,12 @@ impl Setting {
     /// A failure that names lines of the program: of an expanded one with the lines that its lines came from.
     pub(crate) fn of_flat(&self, mut failure: Failure) -> Failure {
         if let Some(flat) = &self.flat {
+            // The flat program of a control or a robot has the name of its first file.
             let named = format!("{}, line ", self.program_name);
-            failure.plain = flat.with_sources(&failure.plain.replace(&named, "line "));
+            failure.plain = match self.robot {
+                Some(_) => flat.with_sources(&failure.plain.replace(&named, "line ")),
+                None => flat.with_sources(&failure.plain),
+            };
         }
         failure
     }

@@ -133,8 +133,7 @@ pub(crate) fn refuse_other_angles(
             return Err(WriteError::Motion {
                 line: motion.line,
                 reason: format!(
-                    "the correction bends here, and between {:.2} and {:.2} % of the block its pieces would have other angles of the rotary axes than the block: directions of the tool say too little of them near the pole (the tool along an axis), or other angles of the same direction are nearer",
-                    100.0 * a.share,
+                    "the correction bends here, and at {:.2} % of the block its pieces would have other angles of the rotary axes than the block: directions of the tool say too little of them near the pole (the tool along an axis), or other angles of the same direction are nearer",
                     100.0 * b.share
                 ),
                 remedy: "let the CAM system write angles of the rotary axes, or shorter blocks here; or widen the tolerance of the path".to_owned(),
