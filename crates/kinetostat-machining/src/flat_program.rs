@@ -206,6 +206,23 @@ fn number_of(text: &str) -> Option<(usize, &str)> {
     Some((line, &text[digits..]))
 }
 
+/// The list that a text begins with, and what stands behind it.
+fn numbers_of(text: &str) -> Option<(Vec<Number>, &str)> {
+    let (line, mut behind) = number_of(text)?;
+    let mut numbers = vec![Number { after: "", line }];
+    let next = |behind| {
+        BETWEEN.into_iter().find_map(|after| {
+            let (line, rest) = number_of(str::strip_prefix(behind, after)?)?;
+            Some((Number { after, line }, rest))
+        })
+    };
+    while let Some((number, rest)) = next(behind) {
+        numbers.push(number);
+        behind = rest;
+    }
+    Some((numbers, behind))
+}
+
 /// The next line that a text names; not one of a file that it names besides (`line 3 of hole.ngc`, `part.toml, line 3`), and not
 /// what stands between backticks.
 fn next_line(text: &str) -> Option<Named> {
@@ -232,21 +249,15 @@ fn next_line(text: &str) -> Option<Named> {
         if number.len() == after.len() {
             continue;
         }
-        let Some((line, mut behind)) = number_of(number) else {
+        let list = match several {
+            true => numbers_of(number),
+            false => {
+                number_of(number).map(|(line, behind)| (vec![Number { after: "", line }], behind))
+            }
+        };
+        let Some((numbers, behind)) = list else {
             continue;
         };
-        let mut numbers = vec![Number { after: "", line }];
-        while several {
-            let next = BETWEEN.into_iter().find_map(|after| {
-                let (line, behind) = number_of(behind.strip_prefix(after)?)?;
-                Some((Number { after, line }, behind))
-            });
-            let Some((number, rest)) = next else {
-                break;
-            };
-            numbers.push(number);
-            behind = rest;
-        }
         let of_another_file = text[..start].strip_suffix(", ").is_some_and(|named| {
             let name = named.rsplit(char::is_whitespace).next();
             name.is_some_and(|name| name.contains('.'))

@@ -319,11 +319,14 @@ fn stated(dialect: Dialect, text: &str) -> BTreeMap<usize, (Vector3<f64>, Option
     all
 }
 
+/// Angles at both ends of a motion, and where it ends.
+type Turned = ([f64; 2], [f64; 2], Vector3<f64>);
+
 /// The angles at the ends of the motions of a text, by its line; none where a control would have to choose between two ways.
 fn run(
     (dialect, machine, limits): (Dialect, Machine, [f64; 2]),
     text: &str,
-) -> Option<BTreeMap<usize, ([f64; 2], [f64; 2], Vector3<f64>)>> {
+) -> Option<BTreeMap<usize, Turned>> {
     let mut now = [0.0; 2];
     let mut all = BTreeMap::new();
     for (line, (place, direction)) in stated(dialect, text) {
