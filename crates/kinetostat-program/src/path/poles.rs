@@ -36,9 +36,35 @@ impl RotaryAxes {
 }
 
 impl RotaryTurn {
-    /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` to an angle at which
-    /// directions say little. None where it stands there all along.
-    pub(crate) fn shares_near_poles(&self, near_rad: f64) -> Vec<[f64; 2]> {
+    /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` (less by the sine of the
+    /// angle between both axes) to an angle at which directions say little, two for each pole. None where it stands there all along.
+    ///
+    /// ```
+    /// use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
+    /// use nalgebra::{UnitQuaternion, Vector3};
+    ///
+    /// let head = |letter, direction| RotaryAxis {
+    ///     letter,
+    ///     carries: Carries::Tool,
+    ///     direction,
+    ///     point_mm: Vector3::zeros(),
+    ///     limits_deg: None,
+    /// };
+    /// let axes = vec![head('C', Vector3::z_axis()), head('A', Vector3::x_axis())];
+    /// let turn = RotaryTurn {
+    ///     axes: RotaryAxes { axes, tool_at_zero: UnitQuaternion::identity() }.into(),
+    ///     start_deg: vec![0.0, 20.0],
+    ///     end_deg: vec![90.0, -20.0],
+    ///     origin_deg: vec![0.0; 2],
+    ///     great_circle: None,
+    ///     stated: StatedBy::Direction,
+    /// };
+    /// // Halfway the tool is upright, along C: within a degree of that from 19 of 40 degrees to 21.
+    /// let [from, to] = turn.shares_near_poles(1_f64.to_radians())[0];
+    /// assert!((from - 19.0 / 40.0).abs() < 1e-12 && (to - 21.0 / 40.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn shares_near_poles(&self, near_rad: f64) -> Vec<[f64; 2]> {
         let (order, turning) = self.axes.in_order_of_turning();
         let ([_, second], [first_axis, second_axis]) = (order.as_slice(), turning.as_slice())
         else {
@@ -73,68 +99,5 @@ impl RotaryTurn {
         shares.sort_by(|a, b| a[0].total_cmp(&b[0]));
         shares.retain(|[from, to]| from < to && to - from < 1.0);
         shares
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::Unit;
-
-    use super::*;
-    use crate::path::rotary::RotaryAxis;
-    use crate::path::rotary_turn::StatedBy;
-
-    fn turn(axes: [(Carries, Vector3<f64>); 2], from: [f64; 2], to: [f64; 2]) -> RotaryTurn {
-        let axis = |(carries, direction)| RotaryAxis {
-            letter: 'A',
-            carries,
-            direction: Unit::new_normalize(direction),
-            point_mm: Vector3::zeros(),
-            limits_deg: None,
-        };
-        let axes = RotaryAxes {
-            axes: axes.map(axis).to_vec(),
-            tool_at_zero: UnitQuaternion::identity(),
-        };
-        RotaryTurn {
-            axes: axes.into(),
-            start_deg: from.to_vec(),
-            end_deg: to.to_vec(),
-            origin_deg: vec![0.0; 2],
-            great_circle: None,
-            stated: StatedBy::Direction,
-        }
-    }
-
-    #[test]
-    fn poles_lie_where_the_axes_turn_the_tool_about_one_direction() {
-        let (head, table) = (Carries::Tool, Carries::Part);
-        let (x, z) = (Vector3::x(), Vector3::z());
-        let near = 0.01_f64;
-        // A fork head above a table passes the pole at A0, halfway.
-        let fork = turn([(head, x), (table, -z)], [20.0, 0.0], [-20.0, 90.0]);
-        let [[from, to]] = fork.shares_near_poles(near)[..] else {
-            panic!("{:?}", fork.shares_near_poles(near));
-        };
-        let half = near.to_degrees() / 40.0;
-        assert!((from - 0.5 + half).abs() < 1e-12 && (to - 0.5 - half).abs() < 1e-12);
-        // A cradle below a table: from the pole to the other one, upside down.
-        let cradle = turn([(table, x), (table, z)], [0.0, 10.0], [180.0, 40.0]);
-        assert_eq!(cradle.shares_near_poles(near).len(), 2);
-        // A nutating head at 45 degrees: the pole at zero, and the tool flat at half a turn.
-        let leaning = Vector3::new(0.0, 1.0, 1.0);
-        let nutating = turn([(head, z), (head, leaning)], [0.0, -10.0], [90.0, 190.0]);
-        let found = nutating.shares_near_poles(near);
-        let middles: Vec<f64> = found.iter().map(|[a, b]| 0.5 * (a + b)).collect();
-        assert!((middles[0] - 0.05).abs() < 1e-9 && (middles[1] - 0.95).abs() < 1e-9);
-        // One axis along the other, one that stands, and one that stays near the pole have none.
-        let none = [
-            turn([(head, z), (table, z)], [0.0, 10.0], [90.0, 40.0]),
-            turn([(head, x), (table, z)], [5.0, 10.0], [5.0, 40.0]),
-            turn([(head, x), (table, z)], [-0.1, 10.0], [0.1, 40.0]),
-        ];
-        for turn in none {
-            assert!(turn.shares_near_poles(near).is_empty(), "{turn:?}");
-        }
     }
 }

@@ -23,6 +23,7 @@ mod internal;
 mod long_blocks;
 mod map;
 mod nc_files;
+mod poles;
 mod properties;
 mod real_programs;
 mod refusal_kinds;
