@@ -6,10 +6,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number::{larger, smaller};
-use crate::path::rotary::{Carries, RotaryAxes};
 use crate::path::rotary_turn::RotaryTurn;
 
 /// Turns smaller than this are none, rad.
@@ -17,23 +16,6 @@ const NO_TURN: f64 = 1e-9;
 
 /// Axes whose cross product is smaller turn about one direction.
 const ONE_AXIS: f64 = 1e-6;
-
-impl RotaryAxes {
-    /// The axes from the one that turns all others to the one that turns the tool first, with the directions about which the tool turns
-    /// in the part: tables turn the part away below it.
-    pub(crate) fn in_order_of_turning(&self) -> (Vec<usize>, Vec<UnitVector3<f64>>) {
-        let is_table = |index: &usize| self.axes[*index].carries == Carries::Part;
-        let tables = (0..self.axes.len()).rev().filter(is_table);
-        let heads = (0..self.axes.len()).filter(|index| !is_table(index));
-        let order: Vec<usize> = tables.chain(heads).collect();
-        let about = |index: &usize| match is_table(index) {
-            true => -self.axes[*index].direction,
-            false => self.axes[*index].direction,
-        };
-        let turning = order.iter().map(about).collect();
-        (order, turning)
-    }
-}
 
 impl RotaryTurn {
     /// The shares of a move of evenly turning axes between which the second axis stands nearer than `near_rad` (less by the sine of the
