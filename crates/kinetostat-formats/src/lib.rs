@@ -44,6 +44,7 @@ mod document;
 mod error;
 pub mod fields;
 mod file_form;
+mod flat_origins;
 mod heidenhain;
 #[doc(hidden)]
 pub mod internal;

@@ -22,6 +22,10 @@ use crate::number::counted;
 ///     flat.with_sources("line 2: too deep"),
 ///     "line 12 of plate.ngc (line 2 of the flat program): too deep"
 /// );
+/// assert_eq!(
+///     flat.with_sources("on the lines 1, 2 and 3"),
+///     "on the lines 1, 12 of plate.ngc and 3 of hole.ngc (lines 1, 2 and 3 of the flat program)"
+/// );
 /// let lines = flat.lines_in("the worst is at line 3, then line 2");
 /// assert_eq!(lines.into_iter().collect::<Vec<_>>(), [2, 3]);
 /// ```
@@ -106,24 +110,39 @@ impl FlatProgram {
     /// between backticks, stays as it is.
     #[must_use]
     pub fn with_sources(&self, text: &str) -> String {
+        self.replaced(text, |word, said, numbers| {
+            let small = word.to_ascii_lowercase();
+            format!("{word} {said} ({small} {numbers} of the flat program)")
+        })
+    }
+
+    /// The same message with the lines of the files alone: of a flat program that nobody sees.
+    ///
+    /// ```
+    /// use kinetostat_machining::FlatProgram;
+    ///
+    /// let flat = FlatProgram::new(vec!["plate.ngc".to_owned()], 2, vec![(0, 1), (0, 7)]);
+    /// assert_eq!(flat.in_sources("line 2: too deep"), "line 7 of plate.ngc: too deep");
+    /// ```
+    #[must_use]
+    pub fn in_sources(&self, text: &str) -> String {
+        self.replaced(text, |word, said, _| format!("{word} {said}"))
+    }
+
+    /// A text in which `say` makes something else of the lines that it names: of the word, the lines of the files and the numbers.
+    fn replaced(&self, text: &str, say: impl Fn(&str, &str, &str) -> String) -> String {
         let mut out = String::with_capacity(text.len());
         let mut rest = text;
         while let Some(found) = next_line(rest) {
             out.push_str(&rest[..found.start]);
-            let word = &rest[found.start..found.end];
-            match self.source_of(found.line) {
-                Some((file, line)) => {
-                    let first = if word.starts_with('L') {
-                        "Line"
-                    } else {
-                        "line"
-                    };
-                    out.push_str(&format!(
-                        "{first} {line} of {file} (line {} of the flat program)",
-                        found.line
-                    ));
+            let own = &rest[found.start..found.end];
+            match self.in_files(&found.numbers) {
+                // `line 12`, or `lines 12, 15 and 20`, with what stands between the numbers.
+                Some(said) => {
+                    let (word, numbers) = own.split_at(found.word);
+                    out.push_str(&say(word, &said, numbers.trim_start()));
                 }
-                None => out.push_str(word),
+                None => out.push_str(own),
             }
             rest = &rest[found.end..];
         }
@@ -137,20 +156,71 @@ impl FlatProgram {
         let mut lines = BTreeSet::new();
         let mut rest = text;
         while let Some(found) = next_line(rest) {
-            if self.source_of(found.line).is_some() {
-                lines.insert(found.line);
-            }
+            let numbers = found.numbers.iter().map(|number| number.line);
+            lines.extend(numbers.filter(|line| self.source_of(*line).is_some()));
             rest = &rest[found.end..];
         }
         lines
     }
 }
 
-/// `line 12` in a text.
+impl FlatProgram {
+    /// The lines of files that lines of the flat program came from, as in `3 and 5 of hole.ngc`; none where one has none.
+    fn in_files(&self, numbers: &[Number]) -> Option<String> {
+        let mut said = String::new();
+        let mut last = None;
+        for number in numbers {
+            let (file, line) = self.source_of(number.line)?;
+            if let Some(before) = last.filter(|before| *before != file) {
+                said.push_str(&format!(" of {before}"));
+            }
+            said.push_str(&format!("{}{line}", number.after));
+            last = Some(file);
+        }
+        Some(format!("{said} of {}", last?))
+    }
+}
+
+/// `line 12`, or `lines 12, 15 and 20`, in a text.
 struct Named {
     start: usize,
     end: usize,
+    /// Letters of the word.
+    word: usize,
+    numbers: Vec<Number>,
+}
+
+/// A number in a list, with what stands before it.
+struct Number {
+    after: &'static str,
     line: usize,
+}
+
+/// What stands between the numbers of a list.
+const BETWEEN: [&str; 4] = [", ", " and ", " to ", " or "];
+
+/// The number that a text begins with, and what stands behind it.
+fn number_of(text: &str) -> Option<(usize, &str)> {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let line = text[..digits].parse().ok()?;
+    Some((line, &text[digits..]))
+}
+
+/// The list that a text begins with, and what stands behind it.
+fn numbers_of(text: &str) -> Option<(Vec<Number>, &str)> {
+    let (line, mut behind) = number_of(text)?;
+    let mut numbers = vec![Number { after: "", line }];
+    let next = |behind| {
+        BETWEEN.into_iter().find_map(|after| {
+            let (line, rest) = number_of(str::strip_prefix(behind, after)?)?;
+            Some((Number { after, line }, rest))
+        })
+    };
+    while let Some((number, rest)) = next(behind) {
+        numbers.push(number);
+        behind = rest;
+    }
+    Some((numbers, behind))
 }
 
 /// The next line that a text names; not one of a file that it names besides (`line 3 of hole.ngc`, `part.toml, line 3`), and not
@@ -171,15 +241,23 @@ fn next_line(text: &str) -> Option<Named> {
             continue;
         };
         // A text for a person may be broken between the word and its number.
+        let (several, after) = match after.strip_prefix('s') {
+            Some(after) => (true, after),
+            None => (false, after),
+        };
         let number = after.trim_start();
         if number.len() == after.len() {
             continue;
         }
-        let digits = number.bytes().take_while(u8::is_ascii_digit).count();
-        let Ok(line) = number[..digits].parse() else {
+        let list = match several {
+            true => numbers_of(number),
+            false => {
+                number_of(number).map(|(line, behind)| (vec![Number { after: "", line }], behind))
+            }
+        };
+        let Some((numbers, behind)) = list else {
             continue;
         };
-        let behind = &number[digits..];
         let of_another_file = text[..start].strip_suffix(", ").is_some_and(|named| {
             let name = named.rsplit(char::is_whitespace).next();
             name.is_some_and(|name| name.contains('.'))
@@ -188,7 +266,12 @@ fn next_line(text: &str) -> Option<Named> {
             continue;
         }
         let end = text.len() - behind.len();
-        return Some(Named { start, end, line });
+        return Some(Named {
+            start,
+            end,
+            word: "line".len() + usize::from(several),
+            numbers,
+        });
     }
     None
 }

@@ -92,6 +92,7 @@ pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, ToolCentrePoint, Units};
 pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
 pub use writing::accounting::{Accounting, ShortBlocksOfLine};
+pub use writing::directed_moves::DIRECTION_DECIMALS;
 pub use writing::jump::Turn;
 pub use writing::options::{Arcs, Circles, WriteOptions};
 pub use writing::plan::{Plan, PlannedMove, PlannedPiece, WrittenEnd, WrittenMove};

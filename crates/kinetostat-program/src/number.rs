@@ -34,6 +34,12 @@ pub(crate) fn of_own_text(text: &str) -> f64 {
     text.parse().unwrap_or(0.0)
 }
 
+/// A number with so many digits after the point.
+pub(crate) fn rounded(value: f64, decimals: usize) -> f64 {
+    let unit = 10_f64.powi(decimals as i32);
+    (value * unit).round() / unit
+}
+
 /// Digits after the point in a number as it was written.
 pub(crate) fn decimals_of(text: &[u8]) -> usize {
     text.iter()

@@ -104,10 +104,10 @@ pub(crate) fn for_run(
     stated.put_into(&mut found.reading.frames, of_robot, &file)?;
     let of_cut = warnings_of_moves(forces.as_ref());
     let mut findings = findings(&setting, &made);
-    findings.extend(of_cut.into_iter().map(|warning| match &setting.flat {
-        Some(flat) => warning.with_sources(flat),
-        None => warning.of_file(setting.program_name.clone()),
-    }));
+    let of_cut = of_cut
+        .into_iter()
+        .map(|warning| of_source(&setting, warning));
+    findings.extend(of_cut);
     let flat = flat(&setting, (&made, divided.as_ref()), language, &file);
     drop(read);
     let out = setting.targets.program.clone().unwrap_or_default();
@@ -296,7 +296,7 @@ impl Stated {
 /// A message about lines of the source, each with its file: lines of a run over a converted program are those of that one.
 fn in_source(setting: &Setting, message: &str) -> String {
     if let Some(flat) = &setting.flat {
-        return flat.with_sources(message);
+        return flat.in_sources(message);
     }
     let mut out = String::with_capacity(message.len());
     let mut rest = message;
@@ -317,21 +317,27 @@ fn in_source(setting: &Setting, message: &str) -> String {
     out + rest
 }
 
+/// A warning about a line of the source, with its file; of a program that was expanded before, the line that it came from.
+fn of_source(setting: &Setting, mut warning: Warning) -> Warning {
+    let flat = setting.flat.as_ref();
+    let found = warning.line.and_then(|line| flat?.source_of(line));
+    let file = found.map_or(setting.program_name.as_str(), |(file, _)| file);
+    warning.line = found.map_or(warning.line, |(_, line)| Some(line));
+    warning.message = in_source(setting, &warning.message);
+    warning.of_file(file.to_owned())
+}
+
 /// What the conversion says, with lines of the source.
 fn findings(setting: &Setting, made: &Made) -> Vec<Warning> {
+    let at_line = |line: usize, text: &str| {
+        of_source(setting, Warning::at_line(WarningCode::Program, line, text))
+    };
     let said = made.findings.iter().map(|finding| match finding.line {
-        Some(line) => Warning::at_line(
-            WarningCode::Program,
-            line,
-            in_source(setting, &finding.message),
-        )
-        .of_file(setting.program_name.clone()),
+        Some(line) => at_line(line, &finding.message),
         None => Warning::new(WarningCode::Program, in_source(setting, &finding.message)),
     });
-    let expanded = setting.expansion_warnings.iter().map(|w| {
-        Warning::at_line(WarningCode::Program, w.line, w.text.clone())
-            .of_file(setting.program_name.clone())
-    });
+    let expanded = setting.expansion_warnings.iter();
+    let expanded = expanded.map(|w| at_line(w.line, &w.text));
     said.chain(expanded).collect()
 }
 

@@ -60,8 +60,8 @@ fn refused(setting: &Setting, template: &TemplateFile, all: &[MakeError]) -> Fai
     let text = fault_list_text("lines", first, all, |fault| fault.reason.as_str());
     let failure = Failure::input(text);
     match (first.is_of_template, &template.name) {
-        (true, Some(name)) => failure.within(name),
-        (true, None) => failure,
+        (true, Some(name)) => setting.of_flat(failure).within(name),
+        (true, None) => setting.of_flat(failure),
         (false, _) => setting.within(failure),
     }
 }

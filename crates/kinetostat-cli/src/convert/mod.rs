@@ -176,7 +176,7 @@ fn with_arm(
 fn flags(args: &ConvertArgs) -> ProgramArgs {
     let mut expansion = args.expansion.clone();
     // The notes of the made program say the lines.
-    expansion.with.no_comments |= expansion.expand;
+    expansion.with.goes_on = true;
     ProgramArgs {
         program: args.program.clone(),
         reading: args.reading.clone(),

@@ -87,7 +87,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };
     let called = with_called_files(&mut source, &args.program, &folders)?;
-    let (text, flat) = flat_text(&source)?;
+    let (text, flat) = flat_text(&source, false)?;
     let Some(out) = &args.out else {
         return print_bytes(text.file.bytes());
     };

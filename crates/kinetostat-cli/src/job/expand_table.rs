@@ -31,7 +31,6 @@ impl ExpandTable {
             ("tool_diameters_mm", self.tool_diameters_mm.is_some()),
             ("parameters", self.parameters.is_some()),
             ("dialect", self.dialect.is_some()),
-            ("comments", self.comments.is_some()),
         ];
         all.into_iter()
             .find_map(|(name, given)| given.then_some(name))

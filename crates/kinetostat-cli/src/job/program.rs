@@ -1,7 +1,9 @@
 //! The program of a run, read and interpreted.
 
 use kinetostat::Directions;
-use kinetostat_program::{Gcode, MachineProgram, Path as ToolPath, Program, faults, interpret};
+use kinetostat_program::{
+    Gcode, MachineProgram, Path as ToolPath, Program, ProgramError, faults, interpret,
+};
 
 use crate::job::expansion::advice::advice;
 use crate::job::robot::read_program::{RobotRead, read_robot};
@@ -84,6 +86,19 @@ impl ReadProgram<'_> {
     }
 }
 
+/// What was found in a flat block stands in a file of the user but for the comment with its line.
+fn without_origin(setting: &Setting, fault: &mut ProgramError) {
+    let flat = setting.flat.as_ref();
+    let Some((_, line)) = flat.and_then(|flat| flat.source_of(fault.line)) else {
+        return;
+    };
+    let comment = fault.found.rsplit_once(" (");
+    let is_origin = |comment: &str| comment.ends_with(&format!("line {line})"));
+    if let Some((block, _)) = comment.filter(|(_, comment)| is_origin(comment)) {
+        fault.found = block.to_owned();
+    }
+}
+
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
     if let Some(source) = &setting.robot {
@@ -94,8 +109,11 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<ReadProgram<'_>> {
         let path = interpret(&program, &setting.reading)?;
         Ok((program, path))
     });
-    let (program, path) = read.map_err(|error| {
-        let all = faults(setting.program.clone(), &setting.reading);
+    let (program, path) = read.map_err(|mut error| {
+        let mut all = faults(setting.program.clone(), &setting.reading);
+        for fault in all.iter_mut().chain([&mut error]) {
+            without_origin(setting, fault);
+        }
         let message = fault_list_text("lines", &error, &all, |fault| fault.reason.as_str());
         let (bytes, path) = (&setting.program, &setting.program_path);
         let first = match setting.flat {

@@ -78,18 +78,19 @@ impl Setting {
     }
 
     /// A failure along the program: with its name, and of an expanded one with the lines that its lines came from.
-    pub(crate) fn within(&self, mut failure: Failure) -> Failure {
-        if let Some(flat) = &self.flat {
-            failure.plain = flat.with_sources(&failure.plain);
-        }
-        failure.within(&self.program_name)
+    pub(crate) fn within(&self, failure: Failure) -> Failure {
+        self.of_flat(failure).within(&self.program_name)
     }
 
-    /// A failure that names lines of a robot's program: of an expanded one with the lines that its lines came from.
+    /// A failure that names lines of the program: of an expanded one with the lines that its lines came from.
     pub(crate) fn of_flat(&self, mut failure: Failure) -> Failure {
         if let Some(flat) = &self.flat {
+            // The flat program of a control or a robot has the name of its first file.
             let named = format!("{}, line ", self.program_name);
-            failure.plain = flat.with_sources(&failure.plain.replace(&named, "line "));
+            failure.plain = match self.robot {
+                Some(_) => flat.with_sources(&failure.plain.replace(&named, "line ")),
+                None => flat.with_sources(&failure.plain),
+            };
         }
         failure
     }
@@ -237,7 +238,7 @@ pub(crate) fn setting(
                 program_files.push(read);
                 inputs.push(path);
             }
-            let (text, flat) = flat_text(&source)?;
+            let (text, flat) = flat_text(&source, expand.comments_asked)?;
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             source.files = vec![text.file];
             source.paths.clear();

@@ -29,6 +29,7 @@ mod engagement;
 mod engagement_of_program;
 mod expand;
 mod expanded;
+mod expanded_lines;
 mod figures;
 mod five_axes;
 mod force;

@@ -1,9 +1,9 @@
 //! A robot's program whose path is corrected: pieces of the path as pieces of motions, and the check of what was written.
 
 use kinetostat_program::{
-    Circles, Corrected, CorrectionField, Curve, MachineProgram, Monitor, Move, Path, Plan,
-    PlannedMove, Verification, WriteError as PathWriteError, WriteOptions as PathWriteOptions,
-    WrittenEnd, WrittenMove,
+    Circles, Corrected, CorrectionField, Curve, DIRECTION_DECIMALS, MachineProgram, Monitor, Move,
+    Path, Plan, PlannedMove, StatedBy, Verification, WriteError as PathWriteError,
+    WriteOptions as PathWriteOptions, WrittenEnd, WrittenMove,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -77,8 +77,19 @@ const SAME_AXIS: f64 = 1e-9;
 impl Correctable<'_> {
     fn text(&self, options: &PathWriteOptions) -> WriteOptions {
         let decimals = usize::from(options.decimals.unwrap_or(4));
+        let by_direction = |motion: &Move| {
+            let turn = motion.tool_turn.as_ref();
+            let rotary = turn.and_then(|turn| turn.rotary.as_ref());
+            rotary.is_some_and(|rotary| rotary.stated == StatedBy::Direction)
+        };
+        // The division counts with these digits.
+        let least = match self.path.path.moves.iter().any(by_direction) {
+            true => DIRECTION_DECIMALS,
+            false => 0,
+        };
         WriteOptions {
             position_decimals: self.writing.position_decimals.max(decimals),
+            quaternion_decimals: self.writing.quaternion_decimals.max(least),
             ..self.writing.clone()
         }
     }

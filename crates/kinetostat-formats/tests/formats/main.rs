@@ -19,6 +19,7 @@ mod circles;
 mod closed_circles;
 mod corners;
 mod correcting;
+mod directions_evenly;
 mod external_axes;
 mod fields;
 mod harness;

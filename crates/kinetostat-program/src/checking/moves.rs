@@ -21,6 +21,9 @@ const SPEED_TOLERANCE: f64 = 1e-3;
 /// Directions of the tool as written and as read again differ by less, rad: their digits.
 const SAME_DIRECTION: f64 = 1e-6;
 
+/// Between two ends the tool may lean by more, rad: near a pole digits of directions turn the axes by more.
+const SAME_WAY: f64 = 1e-4;
+
 /// Largest difference between an angle as written and as read again, in deg: arithmetic only.
 const SAME_ANGLE_DEG: f64 = 1e-7;
 
@@ -334,7 +337,7 @@ impl Verifier<'_> {
             (at(&again.angles_deg(part)) - at(&own.angles_deg(share))).norm()
         });
         // Not a number is off, too.
-        let goes = between.iter().all(|off| *off <= tilted + SAME_DIRECTION);
+        let goes = between.iter().all(|off| *off <= tilted + SAME_WAY);
         match off <= SAME_DIRECTION && (goes || motion.kind == MoveKind::Rapid) {
             true => Ok(()),
             false => Err(fail(

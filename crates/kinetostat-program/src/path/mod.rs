@@ -11,6 +11,7 @@ pub(crate) mod moves;
 pub(crate) mod orientation;
 pub(crate) mod pause;
 pub(crate) mod pauses;
+pub(crate) mod poles;
 pub(crate) mod position_offset;
 pub(crate) mod rotary;
 pub(crate) mod rotary_angles;

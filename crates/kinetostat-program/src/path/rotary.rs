@@ -96,3 +96,20 @@ impl RotaryAxes {
         self.axes.iter().any(|axis| axis.carries == Carries::Part)
     }
 }
+
+impl RotaryAxes {
+    /// The axes from the one that turns all others to the one that turns the tool first, with the directions about which the tool turns
+    /// in the part: tables turn the part away below it.
+    pub(crate) fn in_order_of_turning(&self) -> (Vec<usize>, Vec<UnitVector3<f64>>) {
+        let is_table = |index: &usize| self.axes[*index].carries == Carries::Part;
+        let tables = (0..self.axes.len()).rev().filter(is_table);
+        let heads = (0..self.axes.len()).filter(|index| !is_table(index));
+        let order: Vec<usize> = tables.chain(heads).collect();
+        let about = |index: &usize| match is_table(index) {
+            true => -self.axes[*index].direction,
+            false => self.axes[*index].direction,
+        };
+        let turning = order.iter().map(about).collect();
+        (order, turning)
+    }
+}

@@ -6,7 +6,7 @@
 use nalgebra::{UnitVector3, Vector3};
 
 use crate::number::{larger, smaller};
-use crate::path::rotary::{Carries, RotaryAxes, RotaryAxis};
+use crate::path::rotary::{RotaryAxes, RotaryAxis};
 
 /// Directions off by less than this are reached: the last digits of written directions.
 const REACHED: f64 = 1e-4;
@@ -109,16 +109,7 @@ impl RotaryAxes {
 
     /// All angles that point the tool in a direction, each as near as possible to others; whatever the limits.
     pub(crate) fn pointing(&self, direction: &Vector3<f64>, near_deg: &[f64]) -> Vec<Pointing> {
-        // From the part outwards: tables turn the part away below the tool.
-        let tables = (0..self.axes.len()).rev().filter(|i| self.is_table(*i));
-        let heads = (0..self.axes.len()).filter(|i| !self.is_table(*i));
-        let order: Vec<usize> = tables.chain(heads).collect();
-        let turning: Vec<UnitVector3<f64>> = (order.iter())
-            .map(|index| match self.is_table(*index) {
-                true => -self.axes[*index].direction,
-                false => self.axes[*index].direction,
-            })
-            .collect();
+        let (order, turning) = self.in_order_of_turning();
         let near = |index: usize| near_deg.get(index).copied().unwrap_or(0.0);
         let z = Vector3::z();
         let turn = |axis: &UnitVector3<f64>,
@@ -214,10 +205,6 @@ impl RotaryAxes {
             }
             None => format!("the axes stand within their limits ({stand})"),
         }
-    }
-
-    fn is_table(&self, index: usize) -> bool {
-        self.axes[index].carries == Carries::Part
     }
 }
 

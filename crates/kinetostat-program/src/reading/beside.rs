@@ -142,6 +142,49 @@ pub(crate) fn refuse_other_axes(
     Ok(())
 }
 
+/// A time below zero is none, and LinuxCNC counts it as missing.
+pub(crate) fn refuse_negative_dwell(block: &Block<'_>) -> Result<(), ProgramError> {
+    let times: &[u8] = match block.dwells_before_motion() {
+        true => b"P",
+        false => b"PXUS",
+    };
+    let negative = |word: &&Word| times.contains(&word.letter) && word.value < 0.0;
+    match block.words.iter().find(negative) {
+        Some(word) if block.codes.dwell => Err(block.refuse(
+            ProgramErrorKind::Malformed,
+            Some(word),
+            &format!(
+                "a dwell (G4) of {}{} is below zero",
+                char::from(word.letter),
+                word.value
+            ),
+            "write a time of zero or more",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A dwell beside an arc that goes on from the block before: P counts the turns of an arc as well.
+pub(crate) fn refuse_dwell_with_arc(
+    block: &Block<'_>,
+    motion: Option<Motion>,
+) -> Result<(), ProgramError> {
+    let arc = matches!(motion, Some(Motion::Clockwise | Motion::CounterClockwise));
+    match arc && block.dwells_before_motion() {
+        true => Err(dwell_and_motion(block)),
+        false => Ok(()),
+    }
+}
+
+fn dwell_and_motion(block: &Block<'_>) -> ProgramError {
+    block.refuse(
+        ProgramErrorKind::Ambiguous,
+        None,
+        "a dwell and a motion are in one block: the axis words may belong to either",
+        "write them in two blocks",
+    )
+}
+
 /// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
 pub(crate) fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
     if block.dwells_before_motion() {
@@ -156,12 +199,7 @@ pub(crate) fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramE
         .any(|word| matches!(word.letter, b'P' | b'S'));
     let axes = block.words.iter().filter(axis).count();
     if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
-        return Err(block.refuse(
-            ProgramErrorKind::Ambiguous,
-            None,
-            "a dwell and a motion are in one block: the axis words may belong to either",
-            "write them in two blocks",
-        ));
+        return Err(dwell_and_motion(block));
     }
     Ok(())
 }

@@ -236,11 +236,22 @@ impl<'p> Block<'p> {
         Ok(())
     }
 
-    /// `G4 P1 G0 X5`: the time is P, so the axis words are those of the straight move that follows in the
-    /// same block (LinuxCNC 2.9 dwells, then moves).
+    /// `G4 P1 G0 X5`, or `G4 P1 X5` behind a G0: the time is P, so the axis words are those of the straight move that follows in
+    /// the same block (LinuxCNC 2.9 dwells, then moves).
     pub fn dwells_before_motion(&self) -> bool {
-        let straight = matches!(self.codes.motion, Some(Motion::Rapid | Motion::Feed));
-        self.codes.dwell && straight && self.words.iter().any(|word| word.letter == b'P')
+        let codes = &self.codes;
+        let has = |letters: &[u8]| self.words.iter().any(|word| letters.contains(&word.letter));
+        let other = codes.position_offset.is_some()
+            || codes.machine.is_some()
+            || codes.sets
+            || matches!(codes.tool_length, Some(431 | 432));
+        let moves = match codes.motion {
+            Some(Motion::Rapid | Motion::Feed) => true,
+            Some(_) => false,
+            // U, too, is a time on some controllers.
+            None => !other && has(b"XYZABC") && !has(b"UVW"),
+        };
+        codes.dwell && moves && has(b"P")
     }
 
     /// Letters that are parameters of another code of the block are no coordinates.

@@ -119,7 +119,14 @@ fn vendor_command(line: &[u8], tokens: &[&Spanned]) -> Option<usize> {
                 .any(|letter| word(spanned, *letter).is_some())
         })
     };
-    if plain && (has(b"GM") || (!printers_own && has(b"XYZ"))) {
+    // Mills have motions beside M20 to M87: in another order of words it would be one.
+    let moves = match (printers_own, sets_axes(code as u32)) {
+        (true, true) => false,
+        (true, false) => has(b"XYZAB"),
+        (false, _) => has(b"XYZ"),
+    };
+    // M29 S1000 F300 begins rigid tapping on mills, and printers give it no words.
+    if plain && (has(b"GM") || moves || code == 29.0) {
         return None;
     }
     Some(at + 1)
@@ -133,6 +140,11 @@ fn printer_setting(code: u32) -> bool {
         16..=18 | 20..=29 | 31..=34 | 36 | 42 | 43 | 73 | 75..=78 | 80..=87 | 92
             | 201..=205 | 208 | 350 | 351 | 566 | 569 | 572 | 574 | 579 | 584 | 593 | 906..=908 | 911..=919
     )
+}
+
+/// Those of them that set something of each axis, so that X, Y and Z are theirs.
+fn sets_axes(code: u32) -> bool {
+    matches!(code, 17 | 18 | 84 | 92 | 201..)
 }
 
 /// `X1E5` is X1 and E5 to some controllers and 100000 to others.
@@ -324,7 +336,7 @@ fn subprogram(spanned: &Spanned, what: &str) -> Refused {
 /// Dialects with subroutines, each known by a word.
 fn dialect(tokens: &[&Spanned], first_block: bool) -> Result<(), Refused> {
     let has = |letter: u8| tokens.iter().any(|spanned| word(spanned, letter).is_some());
-    for (index, spanned) in tokens.iter().enumerate() {
+    for spanned in tokens {
         let Token::Word { letter, value, .. } = spanned.token else {
             continue;
         };
@@ -340,8 +352,8 @@ fn dialect(tokens: &[&Spanned], first_block: bool) -> Result<(), Refused> {
             (b'G', 98 | 99) if has(b'C') || has(b'L') => {
                 format!("the label G{code} with a number of a part")
             }
-            // A block that is nothing but L calls a subprogram on some controllers.
-            (b'L', _) if index == 0 && !has(b'G') && !has(b'M') => "a call L".to_owned(),
+            // A block that is nothing but L, wherever it stands, calls a subprogram on some controllers.
+            (b'L', _) if !b"GMXYZABC".iter().any(|letter| has(*letter)) => "a call L".to_owned(),
             _ => continue,
         };
         return Err(subprogram(spanned, &found));

@@ -4,6 +4,7 @@
 use nalgebra::Vector6;
 
 use crate::writing::departure::{Values, departure};
+use crate::writing::directed_moves::DirectedMove;
 use crate::writing::node::{Node, taken_up};
 use crate::writing::options::WriteOptions;
 
@@ -19,7 +20,11 @@ pub(crate) struct Accepted {
 /// piece.
 ///
 /// Both lists are sorted by move and share; moves without accepted stretches keep their nodes.
-pub(crate) fn merge(nodes: Vec<Node>, accepted: &[Accepted], options: &WriteOptions) -> Vec<Node> {
+pub(crate) fn merge(
+    nodes: Vec<Node>,
+    (accepted, directed): (&[Accepted], &[Option<DirectedMove<'_>>]),
+    options: &WriteOptions,
+) -> Vec<Node> {
     if accepted.is_empty() {
         return nodes;
     }
@@ -29,7 +34,9 @@ pub(crate) fn merge(nodes: Vec<Node>, accepted: &[Accepted], options: &WriteOpti
         let move_index = group[0].move_index;
         let own = rest.partition_point(|stretch| stretch.move_index <= move_index);
         let first = rest[..own].partition_point(|stretch| stretch.move_index < move_index);
-        merge_move(group, &rest[first..own], options, &mut merged);
+        let own_stretches = &rest[first..own];
+        let directed = directed[move_index].as_ref();
+        merge_move(group, (own_stretches, directed), options, &mut merged);
         rest = &rest[own..];
     }
     merged
@@ -37,7 +44,7 @@ pub(crate) fn merge(nodes: Vec<Node>, accepted: &[Accepted], options: &WriteOpti
 
 fn merge_move(
     group: &[Node],
-    accepted: &[Accepted],
+    (accepted, directed): (&[Accepted], Option<&DirectedMove<'_>>),
     options: &WriteOptions,
     merged: &mut Vec<Node>,
 ) {
@@ -57,15 +64,18 @@ fn merge_move(
             begins(from).lerp(&b.before, (share - a.share) / (b.share - a.share))
         };
         let first = accepted.partition_point(|stretch| stretch.share < a.share);
-        (from..to).all(|index| {
-            let [here, next] = [group[index].share, group[index + 1].share];
-            accepted
-                .get(first + index - from)
-                .filter(|stretch| stretch.share == here)
-                .is_some_and(|stretch| {
-                    departure(&stretch.values, [chord(here), chord(next)]) <= options.tolerance_mm
-                })
-        })
+        let goes_on = directed.is_none_or(|own| own.goes_on(a.share, b.share));
+        goes_on
+            && (from..to).all(|index| {
+                let [here, next] = [group[index].share, group[index + 1].share];
+                accepted
+                    .get(first + index - from)
+                    .filter(|stretch| stretch.share == here)
+                    .is_some_and(|stretch| {
+                        departure(&stretch.values, [chord(here), chord(next)])
+                            <= options.tolerance_mm
+                    })
+            })
     };
     let last = group.len() - 1;
     let (mut at, mut barrier) = (0, 0);

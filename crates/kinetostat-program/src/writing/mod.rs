@@ -9,6 +9,7 @@ pub(crate) mod blocks;
 pub(crate) mod corner;
 pub(crate) mod corrected_curve;
 pub(crate) mod departure;
+pub(crate) mod directed_moves;
 pub(crate) mod dividing;
 pub(crate) mod emit;
 pub(crate) mod fitted_steps;

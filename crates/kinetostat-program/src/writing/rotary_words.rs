@@ -8,6 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::number;
 use crate::path::moves::{ExtraMode, Move};
 use crate::path::rotary_turn::{RotaryTurn, StatedBy};
+use crate::writing::directed_moves::DIRECTION_DECIMALS;
 use crate::writing::output_state::{OutputMove, OutputState};
 
 /// Digits after the point of words of other axes, at least.
@@ -142,9 +143,6 @@ impl TurnedAxes<'_> {
         words
     }
 }
-
-/// Digits after the point of directions.
-const DIRECTION_DECIMALS: usize = 8;
 
 /// Directions nearer than this are one.
 const SAME_DIRECTION: f64 = 1e-9;

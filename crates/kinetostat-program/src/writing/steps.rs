@@ -10,6 +10,7 @@ use crate::number::larger;
 use crate::path::curve::Curve;
 use crate::path::moves::{Move, Path};
 use crate::writing::corrected_curve::CorrectedCurve;
+use crate::writing::directed_moves::DirectedMove;
 use crate::writing::dividing::beginning::Fitted;
 use crate::writing::dividing::divide::Division;
 use crate::writing::fitted_steps::{curved_pieces, straight_pieces};
@@ -155,7 +156,16 @@ impl<'a> Steps<'a> {
             shape: Shape::Straight,
             options: self.options,
         };
-        straight_pieces(&fit, (&spans, &steps), reached, &shortest)
+        let anew = straight_pieces(&fit, (&spans, &steps), reached, &shortest)?;
+        let says = |own: DirectedMove<'_>| {
+            anew.iter()
+                .all(|step| own.goes_on(step.share_from, step.share_to))
+        };
+        match DirectedMove::of(motion).is_none_or(says) {
+            true => Ok(anew),
+            // Short blocks are told; ends elsewhere would say other angles of the axes.
+            false => Ok(steps),
+        }
     }
 
     fn divided(

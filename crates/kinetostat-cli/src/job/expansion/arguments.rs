@@ -24,6 +24,9 @@ pub(crate) struct ExpansionArgs {
     /// Leave out the comments that say the line of each flat block
     #[arg(long, help_heading = "Expansion")]
     pub(crate) no_comments: bool,
+    /// The flat program is on its way to another language, whose comments those would become.
+    #[arg(skip)]
+    pub(crate) goes_on: bool,
 }
 
 impl ExpansionArgs {

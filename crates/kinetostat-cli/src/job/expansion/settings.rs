@@ -16,6 +16,8 @@ pub(crate) struct ExpandSettings {
     pub(crate) options: ExpandOptions,
     /// Folders of subprograms beside that of the program.
     pub(crate) folders: Vec<PathBuf>,
+    /// A job file asks for comments with the lines of flat blocks: programs of controls have them only then.
+    pub(crate) comments_asked: bool,
     /// The same in sentences, for results.
     pub(crate) words: Vec<String>,
 }
@@ -69,7 +71,7 @@ pub(crate) fn settings(
         options.reading.other_axes = OtherAxes::Carried;
     }
     let table = job.and_then(|j| Some((j, j.job.expand.as_ref()?.get_ref())));
-    let mut comments = !args.no_comments;
+    let mut comments = !args.no_comments && !args.goes_on;
     let in_job = table.and_then(|(_, table)| table.dialect);
     let dialect = args.dialect.or(in_job).map(DialectWord::dialect);
     options.dialect = dialect.unwrap_or_default();
@@ -96,7 +98,9 @@ pub(crate) fn settings(
         false => OriginComments::Left,
     };
     let words = words(&options, &folders);
+    let asked = table.is_some_and(|(_, table)| table.comments == Some(true));
     Ok(ExpandSettings {
+        comments_asked: asked && comments,
         options,
         folders,
         words,

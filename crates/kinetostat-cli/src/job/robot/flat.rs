@@ -7,16 +7,20 @@ use crate::job::robot::read_program::refused;
 use crate::job::robot::source::RobotSource;
 use crate::ui::failure::{Answer, Failure};
 
-/// The flat program, and where its lines came from.
-pub(crate) fn flat_text(source: &RobotSource) -> Answer<(FlatText, FlatProgram)> {
+/// The flat program, and where its lines came from; `comments`: its blocks say it, too.
+pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatText, FlatProgram)> {
     let files = source.files.clone();
-    let names = files.iter().map(|file| file.name().to_owned()).collect();
+    let names: Vec<String> = files.iter().map(|file| file.name().to_owned()).collect();
     let done = expand(source.language, files, &source.settings.reading)
         .map_err(|all| refused(&all, |fault| fault.reason.as_str()).of_program())?;
     let Some(text) = done else {
         return Err(Failure::input(
             "--expand and [expand] are for G-code, SINUMERIK and Heidenhain; a program of a robot is read as it stands, with its routines: leave them out",
         ));
+    };
+    let text = match comments {
+        true => text.with_origins(source.language, &names),
+        false => text,
     };
     let index = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let origins = text.origins.iter();

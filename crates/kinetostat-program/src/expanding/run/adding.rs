@@ -1,6 +1,6 @@
 //! Blocks of plain words, behind all blocks so far.
 
-use crate::error::ProgramError;
+use crate::error::{ProgramError, excerpt};
 use crate::expanding::options::Dialect;
 use crate::expanding::radius::trouble::Trouble;
 use crate::expanding::run::runner::Runner;
@@ -18,6 +18,11 @@ impl Runner<'_> {
             .coordinates
             .block(text, origin, below, self.options.dialect);
         added.map_err(|trouble| match trouble {
+            // What stands in the file: its flat block is another one, which nobody has seen.
+            Trouble::Block(error) if error.line == origin.line => ProgramError {
+                found: excerpt(self.sources[origin.file].text(origin.line - 1)),
+                ..error
+            },
             Trouble::Block(error) => error,
             Trouble::Line((reason, remedy)) => self.refuse(&reason, remedy),
         })?;

@@ -228,6 +228,9 @@ impl Runner<'_> {
             return self.emit(&rest, polar);
         }
         let block = MotionBlock::of(text, polar);
+        if let Some(what) = &block.twice {
+            return Err(self.refuse(what, "keep one of the two words, or write two blocks"));
+        }
         if let Some(code) = self.code_of_spline(&block) {
             self.cycle = None;
             self.spline(code, &block)?;

@@ -44,6 +44,8 @@ pub(crate) struct MotionBlock {
     pub after: Vec<u8>,
     /// N word and block delete.
     pub head: Vec<u8>,
+    /// What the block says twice, in words.
+    pub twice: Option<String>,
 }
 
 impl MotionBlock {
@@ -73,7 +75,13 @@ impl MotionBlock {
     fn word(&mut self, letter: u8, value: f64, piece: &[u8]) {
         match (letter, tenths(value)) {
             (b'N', _) => self.head.extend_from_slice(piece),
-            (b'G', code) if is_motion(code) => self.motion = Some(code),
+            (b'G', code) if is_motion(code) => {
+                if self.motion.replace(code).is_some() {
+                    self.twice = Some(format!(
+                        "G{value} meets another code of its group in the same block"
+                    ));
+                }
+            }
             (b'M', 0 | 10 | 20 | 300 | 600) => {
                 self.after.extend_from_slice(piece);
                 self.after.push(b' ');
@@ -83,9 +91,14 @@ impl MotionBlock {
                     matches!(code, 40 | 100 | 280..=301 | 431 | 432 | 500..=520 | 530 | 680 | 920);
                 self.before.extend_from_slice(piece);
             }
-            (b'L', _) => self.values[usize::from(b'L' - b'A')] = Some(value),
-            (letter, _) if OF_MOTION.contains(&letter) => {
-                self.values[usize::from(letter - b'A')] = Some(value);
+            (letter, _) if letter == b'L' || OF_MOTION.contains(&letter) => {
+                if self.values[usize::from(letter - b'A')]
+                    .replace(value)
+                    .is_some()
+                {
+                    let letter = char::from(letter);
+                    self.twice = Some(format!("the letter {letter} appears twice in one block"));
+                }
             }
             _ => self.before.extend_from_slice(piece),
         }

@@ -157,6 +157,15 @@ fn words_of(
     let optional = |letter: u8, of: fn(&Cycle) -> Option<f64>| {
         block.value(letter).or(same.as_ref().and_then(of))
     };
+    if let Some(time) = block.value(b'P').filter(|time| *time < 0.0) {
+        return wrong(
+            format!(
+                "the dwell of the cycle G{} is below zero (P{time})",
+                code / 10
+            ),
+            "write a time of zero or more",
+        );
+    }
     Ok(Cycle {
         code,
         retract: kept(b'R', |c| c.retract, "retract level")?,

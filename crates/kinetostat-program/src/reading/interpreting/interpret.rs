@@ -3,7 +3,8 @@
 use crate::error::{ProgramError, ProgramErrorKind};
 use crate::path::moves::{Motion, Path};
 use crate::reading::beside::{
-    COORDINATES, refuse_dwell_with_motion, refuse_other_axes, refuse_parameters_of_calls,
+    COORDINATES, refuse_dwell_with_arc, refuse_dwell_with_motion, refuse_negative_dwell,
+    refuse_other_axes, refuse_parameters_of_calls,
 };
 use crate::reading::block::Block;
 use crate::reading::directions::states_direction;
@@ -57,6 +58,7 @@ impl Interpreter<'_> {
             return Ok(());
         }
         refuse_dwell_with_motion(block)?;
+        refuse_negative_dwell(block)?;
         let has_axis_words = COORDINATES
             .iter()
             .chain(ExtraAxes::LETTERS)
@@ -75,6 +77,7 @@ impl Interpreter<'_> {
             self.warn(block.line_number, "the program names its units before it moves: they hold, and not those given (--units, or units under [reading] in the job file)");
         }
         self.modes.set(block)?;
+        refuse_dwell_with_arc(block, self.modes.motion)?;
         self.modes
             .extra
             .count_from(self.rotary_origins[self.modes.work_offset]);

@@ -5,6 +5,7 @@ use nalgebra::Vector6;
 use crate::error::WriteError;
 use crate::field::request::Course;
 use crate::path::curve::Curve;
+use crate::writing::directed_moves::DirectedMove;
 use crate::writing::dividing::stretch::Stretch;
 use crate::writing::node::{Node, is_corrected_at_end, is_divided, taken_up};
 use crate::writing::options::WriteOptions;
@@ -34,6 +35,7 @@ fn boundaries(
     queries: &FieldQueries<'_>,
     move_index: usize,
     (options, fitted): (&WriteOptions, Fitted),
+    directed: Option<&DirectedMove<'_>>,
 ) -> Result<(Vec<Boundary>, Course), WriteError> {
     let motion = &queries.path.moves[move_index];
     let too_many = WriteError::TooManyPieces {
@@ -73,13 +75,44 @@ fn boundaries(
     // Of two at one place the end of a chord stays.
     list.sort_by(|a, b| a.share.total_cmp(&b.share).then(b.fixed.cmp(&a.fixed)));
     list.dedup_by(|b, a| a.share == b.share);
+    if let Some(own) = directed {
+        for share in &own.approaching {
+            insert(*share, false, &mut list);
+        }
+        for pole in &own.near_poles {
+            around(pole, &mut list);
+        }
+    }
     Ok((list, structure.course))
+}
+
+/// Puts the two ends of a stretch across a pole in place of what lies between them; of an arc several chords stay.
+fn around(pole: &[f64; 2], list: &mut Vec<Boundary>) {
+    let inside = |boundary: &Boundary| boundary.share > pole[0] && boundary.share < pole[1];
+    let several = list.iter().filter(|b| inside(b) && b.fixed).count() > 1;
+    if several {
+        return;
+    }
+    let fixed = list.iter().any(|b| inside(b) && b.fixed);
+    // The ends of the move stay, wherever the pole is.
+    list.retain(|b| !inside(b) || b.share == 0.0 || b.share == 1.0);
+    for share in *pole {
+        insert(share, fixed, list);
+    }
+}
+
+fn insert(share: f64, fixed: bool, list: &mut Vec<Boundary>) {
+    let at = list.partition_point(|boundary| boundary.share < share);
+    if list.get(at).is_none_or(|boundary| boundary.share != share) {
+        list.insert(at, Boundary { share, fixed });
+    }
 }
 
 /// Asks for the ends of all first stretches, and the middles between them.
 pub(crate) fn first_round(
     queries: &mut FieldQueries<'_>,
     (options, all_fitted): (&WriteOptions, &[Fitted]),
+    directed: &[Option<DirectedMove<'_>>],
     nodes: &mut Vec<Node>,
 ) -> Result<Vec<Stretch>, WriteError> {
     let path = queries.path;
@@ -87,8 +120,12 @@ pub(crate) fn first_round(
     let mut first = Vec::new();
     for (move_index, motion) in path.moves.iter().enumerate() {
         if is_divided(motion) {
-            let (list, course) =
-                boundaries(queries, move_index, (options, all_fitted[move_index]))?;
+            let (list, course) = boundaries(
+                queries,
+                move_index,
+                (options, all_fitted[move_index]),
+                directed[move_index].as_ref(),
+            )?;
             for pair in list.windows(2) {
                 let [from, to] = [pair[0].share, pair[1].share];
                 requests.push(queries.request(move_index, from));
@@ -141,6 +178,9 @@ pub(crate) fn first_round(
                 course,
                 entire: !fitted && !shared && (pair[0].fixed && pair[1].fixed || list.len() == 2),
                 fitted,
+                across_pole: directed[move_index]
+                    .as_ref()
+                    .is_some_and(|own| own.is_across_pole([pair[0].share, pair[1].share])),
                 share: [pair[0].share, pair[1].share],
                 ends: [value, end],
                 begins,

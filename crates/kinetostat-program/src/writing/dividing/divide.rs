@@ -7,6 +7,7 @@ use crate::field::request::{CorrectionField, Course, Monitor, Request};
 use crate::path::curve::Curve;
 use crate::path::moves::Path;
 use crate::writing::corner::follow_turns;
+use crate::writing::directed_moves::{DirectedMove, directed_moves, refuse_other_angles};
 use crate::writing::dividing::beginning::{Fitted, first_round};
 use crate::writing::dividing::stretch::{Decision, Stretch};
 use crate::writing::jump::Jump;
@@ -36,11 +37,14 @@ pub(crate) fn divide(
     (options, wanted): (&WriteOptions, &dyn Fn(usize) -> Fitted),
     monitor: &dyn Monitor,
 ) -> Result<Division, WriteError> {
+    let directed = directed_moves(path);
     let fitted: Vec<Fitted> = path
         .moves
         .iter()
         .enumerate()
         .map(|(index, motion)| match motion.curve {
+            // Pieces end where directions say the angles.
+            Curve::Arc(_) if directed[index].is_some() => Fitted::Nothing,
             Curve::Arc(_) if is_divided(motion) => wanted(index),
             _ => Fitted::Nothing,
         })
@@ -55,10 +59,10 @@ pub(crate) fn divide(
     };
     let mut nodes = Vec::new();
     let mut accepted = Vec::new();
-    let mut open = first_round(&mut queries, (options, &fitted), &mut nodes)?;
+    let mut open = first_round(&mut queries, (options, &fitted), &directed, &mut nodes)?;
     while !open.is_empty() {
         answer(&mut queries, &mut open, options)?;
-        open = next_round(path, open, options, &mut nodes, &mut accepted);
+        open = next_round((path, &directed), open, options, &mut nodes, &mut accepted);
         if nodes.len() + open.len() > options.max_pieces {
             let line = open
                 .first()
@@ -79,7 +83,8 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    let mut nodes = merge(nodes, &accepted, options);
+    let mut nodes = merge(nodes, (&accepted, &directed), options);
+    refuse_other_angles(path, &nodes, &directed)?;
     let jumps = follow_turns(&mut queries, &mut nodes, options)?;
     accepted.retain(|stretch| {
         let motion = &path.moves[stretch.move_index];
@@ -138,7 +143,7 @@ fn answer(
 
 /// Accepts the good stretches and halves the others.
 fn next_round(
-    path: &Path,
+    (path, directed): (&Path, &[Option<DirectedMove<'_>>]),
     open: Vec<Stretch>,
     options: &WriteOptions,
     nodes: &mut Vec<Node>,
@@ -152,7 +157,15 @@ fn next_round(
         let [from, to] = stretch.share;
         let [first, last] = stretch.ends;
         let share = stretch.at(0.5);
-        match stretch.decide(path, options) {
+        let decision = match (stretch.decide(path, options), &directed[move_index]) {
+            (Decision::Accept | Decision::Refine, Some(own))
+                if !own.goes_on(from, to) && !stretch.is_shortest(path, options) =>
+            {
+                Decision::Halve
+            }
+            (decision, _) => decision,
+        };
+        match decision {
             Decision::Accept | Decision::Refine => stretch.accepted(accepted),
             Decision::Jump => {
                 // No piece is short enough: the correction jumps here. The tool steps at one place.
@@ -185,6 +198,7 @@ fn next_round(
                     course: stretch.course,
                     entire: false,
                     fitted: stretch.fitted,
+                    across_pole: stretch.across_pole,
                     quarters: None,
                     irregular: None,
                 };

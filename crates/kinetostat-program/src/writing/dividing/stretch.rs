@@ -34,6 +34,8 @@ pub(crate) struct Stretch {
     pub entire: bool,
     /// Arcs are fitted to its move.
     pub fitted: bool,
+    /// No piece ends in it unless the correction bends there: directions of the tool would say little of the axes.
+    pub across_pole: bool,
     pub share: [f64; 2],
     pub ends: [Vector6<f64>; 2],
     /// Where the piece begins that the tool goes along; differs from the first end where a jump too
@@ -77,6 +79,21 @@ impl Stretch {
         0.25 * ((4.0 * place).floor() + 0.2 + 0.6 * (4.0 * place).fract())
     }
 
+    fn length_mm(&self, path: &Path, options: &WriteOptions) -> f64 {
+        let motion = &path.moves[self.move_index];
+        let [from, to] = self.share;
+        // Of a move that turns the tool, the way of a point of the tool where that is longer.
+        let turned = motion.way_with_turn_mm(options.turn_lever_mm) * (to - from);
+        larger(motion.length_between_mm(from, to), turned)
+    }
+
+    /// Whether it is too short to be halved.
+    pub fn is_shortest(&self, path: &Path, options: &WriteOptions) -> bool {
+        let [from, to] = self.share;
+        let short = self.length_mm(path, options) <= options.smallest_piece_mm;
+        short || self.at(0.5) <= from || self.at(0.5) >= to
+    }
+
     /// What becomes of it.
     pub fn decide(&self, path: &Path, options: &WriteOptions) -> Decision {
         let Some(values) = self.node_values() else {
@@ -84,9 +101,7 @@ impl Stretch {
         };
         let motion = &path.moves[self.move_index];
         let [from, to] = self.share;
-        // Of a move that turns the tool, the way of a point of the tool where that is longer.
-        let turned = motion.way_with_turn_mm(options.turn_lever_mm) * (to - from);
-        let length = larger(motion.length_between_mm(from, to), turned);
+        let length = self.length_mm(path, options);
         let tolerance = options.tolerance_mm;
         let all_requested = self.quarters.is_some();
         let off = departure(&values, [self.begins, self.ends[1]]);
@@ -128,9 +143,7 @@ impl Stretch {
             false => tolerance,
         };
         if off > bent || surprised {
-            let shortest =
-                length <= options.smallest_piece_mm || self.at(0.5) <= from || self.at(0.5) >= to;
-            return match (all_requested, shortest) {
+            return match (all_requested, self.is_shortest(path, options)) {
                 // As ever: what is off is looked at once more before it is halved.
                 (false, _) => Decision::Refine,
                 (true, true) => Decision::Jump,
@@ -140,7 +153,8 @@ impl Stretch {
         if !all_requested && (needs_quarters || unknown > UNKNOWN * tolerance) {
             return Decision::Refine;
         }
-        if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm {
+        if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm && !self.across_pole
+        {
             return Decision::Halve;
         }
         Decision::Accept

@@ -55,6 +55,20 @@ const BROKEN: &[(&str, usize, &str, &str, &str)] = &[
         "no subprogram O77",
         "folder",
     ),
+    (
+        "G21\nG0 X0 Y0 Z9 F100\nG98 G82 X1 Z-1 R1 P-1\n",
+        3,
+        "G98 G82 X1 Z-1 R1 P-1",
+        "the dwell of the cycle G82 is below zero (P-1)",
+        "zero or more",
+    ),
+    (
+        "G21\nG0 X0 Y0 Z9 F100\nG4 P-2\n",
+        3,
+        "G4 P-2",
+        "a dwell (G4) of P-2 is below zero",
+        "zero or more",
+    ),
     ("G21\nM98\n", 2, "M98", "calls no subprogram", "P1000"),
     ("G21\nM98 P1 L1.5\n", 2, "M98 P1 L1.5", "whole number", "L"),
     (

@@ -55,10 +55,29 @@ pub const MODES_AND_ARCS: &[Refused] = &[
         "two blocks",
     ),
     (
-        "G21\nG0 X0\nG4 P1 X5",
+        "G21\nG0 X0 Y0\nG2 X5 I2.5 F100\nG4 P1 X0 I-2.5",
+        4,
+        "a dwell and a motion",
+        "two blocks",
+    ),
+    (
+        "G21\nG0 X0\nG4 P1 U5",
         3,
         "a dwell and a motion",
         "two blocks",
+    ),
+    (
+        "G21\nG4 P-1",
+        2,
+        "a dwell (G4) of P-1 is below zero",
+        "zero or more",
+    ),
+    ("G21\nG4 X-0.5", 2, "a dwell (G4) of X-0.5", "zero or more"),
+    (
+        "G21\nG0 X5 G4 P-1",
+        2,
+        "a dwell (G4) of P-1",
+        "zero or more",
     ),
     (
         "G21\nG92",

@@ -1,0 +1,61 @@
+//! Comments in a flat program with the lines that its blocks are from.
+
+use crate::model::program::Language;
+use crate::text::flat::FlatText;
+use crate::text::source::SourceFile;
+
+/// Longest line that a comment is added to, bytes.
+const LONGEST: usize = 120;
+
+impl FlatText {
+    /// The same program, in which every block says in a comment the line that it is from, as in `;line 12` or `;drill.spf, line 3`.
+    /// Lines without a block stay, and so do long ones, those that the next line goes on with, and blocks of Heidenhain that are
+    /// a comment or begin and end the program.
+    ///
+    /// ```
+    /// use kinetostat_formats::{Language, ReadOptions, SourceFile, expand_siemens};
+    ///
+    /// let file = SourceFile::new("a.mpf", "R1=5\n;begins\nG1 X=R1 F200\nM30\n");
+    /// let flat = expand_siemens(vec![file], &ReadOptions::default()).unwrap();
+    /// let said = flat.with_origins(Language::Siemens, &["a.mpf".to_owned()]);
+    /// assert_eq!(said.file.bytes(), b";begins\nG1 X=5 F200 ;line 3\nM30 ;line 4\n");
+    /// ```
+    #[must_use]
+    pub fn with_origins(&self, language: Language, names: &[String]) -> Self {
+        let mut bytes = Vec::with_capacity(2 * self.file.bytes().len());
+        let lines = self.file.bytes().split_inclusive(|byte| *byte == b'\n');
+        for (index, line) in lines.enumerate() {
+            let text = line.trim_ascii_end();
+            let end = &line[text.len()..];
+            bytes.extend_from_slice(text);
+            let origin = self.origins.get(index);
+            if let Some((file, from)) = origin.filter(|_| is_block(language, text)) {
+                let named = names.get(*file).filter(|_| *file > 0);
+                let named = named.map_or_else(String::new, |name| format!("{name}, "));
+                bytes.extend_from_slice(format!(" ;{named}line {from}").as_bytes());
+            }
+            bytes.extend_from_slice(end);
+        }
+        Self {
+            file: SourceFile::new(self.file.name(), bytes),
+            ..self.clone()
+        }
+    }
+}
+
+/// Whether a line is a block that a comment may stand behind.
+fn is_block(language: Language, text: &[u8]) -> bool {
+    let text = text.trim_ascii_start();
+    let upper = text.to_ascii_uppercase();
+    let words = upper.split(|byte| byte.is_ascii_whitespace());
+    let mut words = words.skip_while(|word| word.iter().all(u8::is_ascii_digit));
+    let (first, second) = (words.next().unwrap_or_default(), words.next());
+    let own = match language {
+        Language::Heidenhain => {
+            let ends = matches!(first, b"BEGIN" | b"END") && second == Some(b"PGM");
+            first.is_empty() || first.starts_with(b"*") || ends || text.ends_with(b"~")
+        }
+        _ => text.is_empty() || text.starts_with(b"%"),
+    };
+    !own && text.len() <= LONGEST && !text.contains(&b';')
+}
