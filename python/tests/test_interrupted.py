@@ -52,6 +52,9 @@ CALLS = {
     "command equilibria": ("", "ks.commands.equilibria('orthoglide', force=load[:3], starts=1_000_000, fruitless=1_000_000)"),
     "command tolerance": (FILES, "ks.commands.tolerance('orthoglide', uncertain='spread.toml', machines=1_000_000)"),
     "command compensate": (FILES, "ks.commands.compensate(model='orthoglide', program='long.ngc', out='out.ngc', force=load[:3])"),
+    # 30 numbers of a million draws, the first arrays of this process.
+    "draws": ("", "ks.tolerance.draws([1.0] * 30, [ks.tolerance.normal(1)] * 30, 10**6)"),
+    "sobol": ("", "ks.tolerance.sobol(lambda x: x[:, 0], [0.0] * 20, [ks.tolerance.normal(1)] * 20, 2**18)"),
     "shapes": ("", "machine.posture().shapes(force=load[:3], starts=1_000_000, fruitless=1_000_000)"),
 }
 

@@ -46,6 +46,13 @@ mod _core {
     #[pymodule_export]
     use crate::work::forked;
 
+    /// Looks numpy's functions up at once: the first look for them must not meet a Ctrl-C that waits.
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        let _ = numpy::dtype::<f64>(module.py());
+        Ok(())
+    }
+
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 }

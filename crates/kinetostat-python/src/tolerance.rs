@@ -10,6 +10,7 @@ use kinetostat_tolerance::{
 use numpy::{PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use crate::arrays::{Numbers, array, poses, wrenches};
 use crate::errors::{Class, error, of_core, of_model};
@@ -83,9 +84,8 @@ pub fn tolerance_of_machine<'py>(
         .iter()
         .map(|u| u.name.clone())
         .collect();
-    let inputs: Vec<f64> = (0..draws.len())
-        .flat_map(|i| read.uncertainties.drawn(&draws, i))
-        .collect();
+    let numbers = read.uncertainties.clone();
+    let inputs = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     let out = PyDict::new(py);
     out.set_item("inputs", array(py, inputs, [draws.len(), names.len()])?)?;
     out.set_item(
@@ -143,6 +143,30 @@ fn uncertainties(
     Uncertainties::correlated(made?, pairs).map_err(|e| error(Class::Argument, e.to_string()))
 }
 
+/// Numbers of many rows, one behind the other, away from the interpreter; Ctrl-C stops it.
+fn rows(
+    py: Python<'_>,
+    count: usize,
+    row: impl Fn(usize) -> Vec<f64> + Send + Sync + 'static,
+) -> PyResult<Vec<f64>> {
+    /// Rows between two looks at whether they are still wanted.
+    const EACH: usize = 4096;
+    let manner = Manner {
+        threads: None,
+        progress: None,
+    };
+    away(py, &manner, move |course| {
+        let parts = (0..count.div_ceil(EACH)).into_par_iter().map(|part| {
+            let own = part * EACH..count.min((part + 1) * EACH);
+            match course.stopped() {
+                true => Vec::new(),
+                false => own.flat_map(&row).collect::<Vec<f64>>(),
+            }
+        });
+        parts.collect::<Vec<_>>().concat()
+    })
+}
+
 /// Draws of numbers (n, d).
 #[pyfunction]
 pub fn drawn_numbers<'py>(
@@ -154,9 +178,7 @@ pub fn drawn_numbers<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &pairs)?, Draws::new(draws, seed));
-    let all = (0..draws.len())
-        .flat_map(|i| numbers.drawn(&draws, i))
-        .collect();
+    let all = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     array(py, all, [draws.len(), width])
 }
 
@@ -170,9 +192,8 @@ pub fn sobol_design<'py>(
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
     let width = each.len();
     let (numbers, draws) = (uncertainties(each, &[])?, Draws::new(draws, seed));
-    let all = (0..design_rows(&numbers, &draws))
-        .flat_map(|row| design_row(&numbers, &draws, row))
-        .collect();
+    let count = design_rows(&numbers, &draws);
+    let all = rows(py, count, move |row| design_row(&numbers, &draws, row))?;
     array(py, all, [draws.len(), width + 2, width])
 }
 

@@ -218,9 +218,11 @@ fn quantities(args: &ToleranceArgs) -> Vec<Quantity> {
 }
 
 fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answer<Draws> {
-    if !(16..=MOST_DRAWS).contains(&count) {
+    // An index is told with its confidence, which takes a few draws of each of the sequences.
+    let least = if option == "--sobol" { 128 } else { 16 };
+    if !(least..=MOST_DRAWS).contains(&count) {
         return Err(Failure::input(format!(
-            "{option} {count}: 16 to {MOST_DRAWS} can be drawn"
+            "{option} {count}: {least} to {MOST_DRAWS} can be drawn"
         )));
     }
     if count.saturating_mul(width) > MOST_NUMBERS {

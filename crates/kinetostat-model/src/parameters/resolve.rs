@@ -265,9 +265,6 @@ fn unknown(file: &str, path: &str, listed: &[(Parameter, Vec<String>)]) -> Model
         .take(3)
         .map(|(_, _, n)| format!("'{n}'"))
         .collect();
-    let help = format!(
-        "nearest are {}; 'kinetostat model parameters' lists all",
-        names.join(", ")
-    );
+    let help = format!("nearest are {}", names.join(", "));
     refused(file, format!("there is no parameter '{path}'"), &help)
 }
