@@ -35,6 +35,55 @@ def test_postures_come_back_the_same(posture: ks.Posture) -> None:
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(kept)).tool, kept.tool)
 
 
+def come_back(machine: ks.Machine, ways: list[dict[str, object]]) -> int:
+    """Postures that came back from their pickle with every bit; how many there were."""
+    made = 0
+    for way in ways:
+        try:
+            posture = machine.posture(**way)
+        except ks.UnansweredError:
+            continue
+        once = pickle.loads(pickle.dumps(posture))
+        for again in (once, pickle.loads(pickle.dumps(once))):
+            assert again == posture
+            assert hash(again) == hash(posture)
+            assert again.target.tobytes() == posture.target.tobytes()
+            assert again._native.limbs == posture._native.limbs
+        size = np.abs(posture.stiffness().matrix).max()
+        np.testing.assert_allclose(once.stiffness().matrix, posture.stiffness().matrix, rtol=0, atol=1e-12 * size)
+        made += 1
+    return made
+
+
+def test_pickles_of_joints_and_poses_are_equal_to_themselves() -> None:
+    arm = ks.Machine.preset("heavy_6r")
+    turned = arm.with_tool(ks.pose([0.1, 0.02, 0.3], ks.rotation_from_vector([0.1, -0.4, 1.2])))
+    home = np.array([actuator.home for actuator in arm.actuators])
+    rng = np.random.default_rng(1)
+    joints = [{"joints": home + rng.uniform(-1, 1, 6)} for _ in range(100)]
+    assert come_back(arm, joints) == come_back(turned, joints) == 100
+    turns = [arm.home[:3, :3] @ ks.rotation_from_vector(rng.uniform(-0.3, 0.3, 3)) for _ in range(100)]
+    assert come_back(arm, [{"pose": ks.pose(arm.home[:3, 3] + rng.uniform(-0.1, 0.1, 3), turn)} for turn in turns]) > 90
+    for name in ("tricept_like", "prs3"):  # turn as they move
+        machine = ks.Machine.preset(name)
+        assert come_back(machine, [{"position": machine.home[:3, 3] + rng.uniform(-0.03, 0.03, 3)} for _ in range(30)]) > 10
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pickles_of_random_arms_are_equal_to_themselves(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    builder = ks.MachineBuilder("arm")
+    builder.platform("tool", [0, 0, 1])
+    limb = builder.limb("arm", to="tool")
+    count = int(rng.integers(1, 9))
+    for index in range(count):
+        axis = rng.normal(size=3)
+        kind = "prismatic" if rng.uniform() < 0.3 else "revolute"
+        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(rng.uniform(-0.3, 0.3, 3).tolist())
+    ways = [{"joints": rng.uniform(-1, 1, count)} for _ in range(10)]
+    assert come_back(builder.machine(), ways) == 10
+
+
 def test_elbow_of_the_other_side_is_kept() -> None:
     arm = ks.Machine.preset("heavy_6r")
     home = arm.posture()
