@@ -84,10 +84,10 @@ def place(posture: Posture) -> dict[str, Any]:
     )
 
 
-def _found(machine: Machine, **where: Floats) -> Posture | None:
+def _found(machine: Machine, *, pose: Floats | None = None, joints: Floats | None = None) -> Posture | None:
     """The posture that a command finds."""
     try:
-        return machine.posture(**where)
+        return machine.posture(pose=pose, joints=joints)
     except KinetostatError:
         return None
 
