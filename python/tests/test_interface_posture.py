@@ -193,6 +193,43 @@ def test_a_spring_on_the_tool_is_in_series() -> None:
     np.testing.assert_allclose(single.wrench, found.wrench[1], rtol=1e-7, atol=1e-6)
 
 
+def test_stability_is_that_of_machine_and_model_together() -> None:
+    machine = ks.Machine.preset("orthoglide")
+    place = np.array([0.01, 0.0, 0.0])
+    # A magnet at the commanded place: stable until it is as strong as the softest direction of the machine, the tool free to turn.
+    limit = machine.posture(place).stiffness().against_force
+    for share, stable in ((-3.0, True), (0.5, True), (0.99, True), (1.01, False), (10.0, False)):
+        found = ks.equilibrium_under(machine, lambda p, k=share * limit: ks.wrench(k * (p[:, :3, 3] - place)), poses=place[None])
+        assert found.converged[0]
+        assert found.equilibria.stable[0]
+        assert bool(found.stable[0]) is stable, share
+        eigenvalues = np.linalg.eigvalsh((found.tangent[0] + found.tangent[0].T) / 2)
+        assert bool(eigenvalues[0] > 0) is stable
+    # What is free alone is held by a spring; what a dead wrench bends is as stable as the machine.
+    free = ks.Machine.preset("stewart_gough_a").posture()
+    assert not free.under(lambda p: np.zeros(6)).stable
+    held = free.under(lambda p: np.concatenate([-1e5 * (p[:, :3, 3] - free.target[:3, 3]), -1e4 * turned(p, free.target)], axis=1))
+    assert held.converged
+    assert held.stable
+    # Directions in which a machine is rigid are not free.
+    builder = ks.MachineBuilder("one drive")
+    builder.platform("tool", [0, 0, 0.5])
+    builder.limb("arm", to="tool").actuator("drive", "revolute", "y", 1e5).rigid([0, 0, 0.5])
+    pendulum = builder.machine().posture()
+    for stiffness, stable in ((1e5, True), (1e6, False)):  # 1e5 N m/rad at 0.5 m: 4e5 N/m
+        found = pendulum.under(lambda p, k=stiffness: ks.wrench(k * p[:, :3, 3] * [1, 1, 0]))
+        assert found.converged
+        assert bool(found.stable) is stable
+    # No answer is not stable.
+    assert not ks.equilibrium_under(machine, lambda poses: np.zeros(6), poses=[[9, 0, 0]]).stable[0]
+
+
+def turned(poses: np.ndarray, home: np.ndarray) -> np.ndarray:
+    """Small rotation vectors from home."""
+    turn = poses[:, :3, :3] @ home[:3, :3].T
+    return np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=-1) / 2
+
+
 def test_force_models_say_what_is_wrong() -> None:
     machine = ks.Machine.preset("orthoglide")
     with pytest.raises(ks.ArgumentError, match=r"shape \(2,\), expected \(1, 6\)"):
