@@ -74,20 +74,21 @@ class ModelEquilibria:
     and neither says anything about flutter, a question of masses and damping."""
 
 
-def _stable(postures: Callable[[int], Posture], known: Equilibria, tangents: Floats, done: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _stable(
+    machine: Machine, postures: Callable[[int], Posture], known: Equilibria, tangents: Floats, done: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Whether machine and model together are stable, where there is an answer."""
     assert known.stiffness is not None
     assert known.share_to_buckling is not None
     out = done & ~(known.share_to_buckling >= 1)
+    # Rotations at the machine's natural length: there, rigid directions are at right angles to the others.
+    length = np.repeat([1.0, machine._native.natural_length()], 3)
     for at in np.flatnonzero(out):
-        posture = postures(int(at))
-        # Rotations at the machine's natural length: there, rigid directions are at right angles to the others.
-        length = np.repeat([1.0, posture.machine._native.natural_length()], 3)
         both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], known.stiffness[at]))
         zero = _ROUNDING * max(np.abs(both).max(), np.abs(alone).max())
         if (np.abs(np.linalg.eigvalsh(alone)) <= zero).any():
             # Free or rigid: a model moves nothing where the machine is rigid.
-            twists = [d.twist * length for d in posture.stiffness().directions if d.kind == DirectionKind.RIGID]
+            twists = [d.twist * length for d in postures(int(at)).stiffness().directions if d.kind == DirectionKind.RIGID]
             moves = np.linalg.svd(np.reshape(twists, (-1, 6)))[2][len(twists) :]
             both = moves @ both @ moves.T
         out[at] = bool((np.linalg.eigvalsh(both) > zero).all()) if both.size else True
@@ -225,6 +226,7 @@ def equilibrium_under(
         iterations=iterations,
         equilibria=Equilibria(**shaped),
         stable=_stable(
+            machine,
             lambda at: where if isinstance(where, Posture) else machine.posture(pose=flat[at]),
             answer,
             answer.stiffness - slope,
