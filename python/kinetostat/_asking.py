@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from kinetostat._arrays import Floats, one
 from kinetostat._tool import with_tool_in_model
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, KinetostatError
 from kinetostat.spatial import rotation_vector
 
 if TYPE_CHECKING:
@@ -53,27 +53,51 @@ def bare(machine: Machine) -> tuple[Machine, float | None]:
     return machine._of(machine._native.with_tool(np.eye(4)[None])), float(1e3 * tool[2, 3])
 
 
+def joint_words(machine: Machine, joints: Floats) -> list[str]:
+    """Commands of all actuators, m or rad, in the words of a command: mm and deg by name."""
+    scales = [1e3 if actuator.kind == "prismatic" else 180.0 / np.pi for actuator in machine.actuators]
+    each = zip(machine.actuators, joints, scales, strict=True)
+    return [f"{actuator.name}={float(value * scale)!r}" for actuator, value, scale in each]
+
+
 def place(posture: Posture) -> dict[str, Any]:
     """Model, place and tool as options of a command.
 
-    The command finds the posture by the place of its tool; where that gives other joints, it would answer for another posture.
+    The command finds the posture by the place of its tool; where that leads to another one, as with redundant arms and other elbows, by
+    its joints. Where these do not say where the machine is, the command would answer for another posture.
     """
     machine = posture.machine
     target = posture.target
-    again = machine.posture(pose=target)
-    if np.abs(again.commands - posture.commands).max(initial=0.0) > 1e-9:
-        raise ArgumentError(
-            "several postures reach the place of this one, and this question is about the one next to home: "
-            f"its commands are {again.commands.tolist()}, those of the posture {posture.commands.tolist()}"
-        )
     model, length = bare(machine)
-    turn = ",".join(repr(float(x)) for x in rotation_vector(target[:3, :3]))
-    return {
-        "model": model,
-        "at": (1e3 * target[:3, 3]).tolist(),
-        "rotation": f"rotation_vector_rad={turn}",
-        "tool_length_mm": length,
-    }
+    options: dict[str, Any] = {"model": model, "tool_length_mm": length}
+    again = _found(machine, pose=target)
+    if again is not None and _same(again, posture):
+        turn = ",".join(repr(float(x)) for x in rotation_vector(target[:3, :3]))
+        return {**options, "at": (1e3 * target[:3, 3]).tolist(), "rotation": f"rotation_vector_rad={turn}"}
+    by_joints = _found(machine, joints=posture.commands)
+    if by_joints is not None and _same(by_joints, posture):
+        return {**options, "joints": joint_words(machine, posture.commands)}
+    other = "none" if again is None else again.commands.tolist()
+    raise ArgumentError(
+        "several postures reach the place of this one, and this question is about the one next to home: "
+        f"its commands are {other}, those of the posture {posture.commands.tolist()}"
+    )
+
+
+def _found(machine: Machine, *, pose: Floats | None = None, joints: Floats | None = None) -> Posture | None:
+    """The posture that a command finds."""
+    try:
+        return machine.posture(pose=pose, joints=joints)
+    except KinetostatError:
+        return None
+
+
+def _same(one: Posture, other: Posture) -> bool:
+    """Whether two postures have the same commands and all their joints at the same places."""
+    if np.abs(one.commands - other.commands).max(initial=0.0) > 1e-9:
+        return False
+    pairs = [(one.target, other.target), *zip(one.limb_lines(), other.limb_lines(), strict=True)]
+    return all(np.allclose(a, b, rtol=0, atol=1e-7) for a, b in pairs)
 
 
 def coordinates_in_si(names: Sequence[dict[str, Any]], values: Floats) -> Floats:

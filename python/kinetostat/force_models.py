@@ -13,6 +13,7 @@ from kinetostat._arrays import Floats, numbers
 from kinetostat.errors import ArgumentError
 from kinetostat.results import Equilibria
 from kinetostat.spatial import rotation_from_vector
+from kinetostat.status import DirectionKind
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -26,6 +27,9 @@ ForceModel = Callable[[Floats], ArrayLike]
 _STEP = 1e-6
 """Step of differences, m and rad."""
 
+_ROUNDING = 1e-10
+"""Eigenvalues below this share of the largest stiffness are zero: what differences of a model leave."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ModelEquilibria:
@@ -37,8 +41,13 @@ class ModelEquilibria:
     >>> def cable(poses):  # 1 N/mm towards the origin
     ...     return ks.wrench(-1000 * poses[..., :3, 3])
     >>> found = ks.Machine.preset("orthoglide").posture([0.05, 0, 0]).under(cable)
-    >>> bool(np.abs(found.unbalanced).max() < 1e-6)
-    True
+    >>> bool(np.abs(found.unbalanced).max() < 1e-6), bool(found.stable)
+    (True, True)
+    >>> def magnet(poses):  # stronger than the machine
+    ...     return ks.wrench(1e7 * poses[..., :3, 3])
+    >>> found = ks.Machine.preset("orthoglide").posture([0, 0, 0]).under(magnet)
+    >>> bool(found.converged), bool(found.equilibria.stable), bool(found.stable)
+    (True, True, False)
     """
 
     converged: NDArray[np.bool_]
@@ -53,7 +62,37 @@ class ModelEquilibria:
     iterations: int
     """Iterations of the slowest."""
     equilibria: Equilibria
-    """The machine under these wrenches."""
+    """The machine under these wrenches; its ``stable`` is that of the machine under dead wrenches of this size, which do not change as
+    the tool moves. That of both together is ``stable``."""
+
+    stable: NDArray[np.bool_]
+    """(...,): machine and model together are stable: the limbs keep their shapes, and the symmetric part of ``tangent`` has no eigenvalue
+    that is zero (free to move) or below within rounding, where the machine is not rigid. False where not converged.
+
+    Of a model with a potential ``tangent`` is symmetric, and this is a minimum of the energy of both. Where it is not symmetric (follower
+    forces, friction, cutting), true says that every small motion of the tool is held back; false does not say that it runs away,
+    and neither says anything about flutter, a question of masses and damping."""
+
+
+def _stable(
+    machine: Machine, postures: Callable[[int], Posture], known: Equilibria, tangents: Floats, done: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Whether machine and model together are stable, where there is an answer."""
+    assert known.stiffness is not None
+    assert known.share_to_buckling is not None
+    out = done & ~(known.share_to_buckling >= 1)
+    # Rotations at the machine's natural length: there, rigid directions are at right angles to the others.
+    length = np.repeat([1.0, machine._native.natural_length()], 3)
+    for at in np.flatnonzero(out):
+        both, alone = ((k + k.T) / 2 / length[:, None] / length for k in (tangents[at], known.stiffness[at]))
+        zero = _ROUNDING * max(np.abs(both).max(), np.abs(alone).max())
+        if (np.abs(np.linalg.eigvalsh(alone)) <= zero).any():
+            # Free or rigid: a model moves nothing where the machine is rigid.
+            twists = [d.twist * length for d in postures(int(at)).stiffness().directions if d.kind == DirectionKind.RIGID]
+            moves = np.linalg.svd(np.reshape(twists, (-1, 6)))[2][len(twists) :]
+            both = moves @ both @ moves.T
+        out[at] = bool((np.linalg.eigvalsh(both) > zero).all()) if both.size else True
+    return out
 
 
 def _called(name: str, function: Callable[[Floats], ArrayLike], poses: Floats, shape: tuple[int, ...]) -> Floats:
@@ -122,7 +161,7 @@ def equilibrium_under(
     Returns
     -------
     ModelEquilibria
-        ``converged`` says where there is an answer.
+        ``converged`` says where there is an answer, ``stable`` whether machine and model together stay there.
 
     Raises
     ------
@@ -186,6 +225,13 @@ def equilibrium_under(
         tangent=(answer.stiffness - slope).reshape(*leading, 6, 6),
         iterations=iterations,
         equilibria=Equilibria(**shaped),
+        stable=_stable(
+            machine,
+            lambda at: where if isinstance(where, Posture) else machine.posture(pose=flat[at]),
+            answer,
+            answer.stiffness - slope,
+            done,
+        ).reshape(leading),
     )
 
 

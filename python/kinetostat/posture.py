@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from kinetostat import _core
 from kinetostat._arrays import Floats, one
 from kinetostat.display import equilibrium_html, stiffness_html
+from kinetostat.errors import KinetostatError
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if TYPE_CHECKING:
@@ -228,8 +229,8 @@ class Equilibrium:
 class Posture:
     """A machine whose actuators are commanded; made by :meth:`Machine.posture`, never changed.
 
-    Postures are equal where machine, target and all coordinates of all limbs are; they can be pickled, and come back the same to the
-    last bit.
+    Postures are equal where machine, target and all coordinates of all limbs are; they can be pickled, and come back with
+    these numbers to the last bit.
 
     Examples
     --------
@@ -242,12 +243,13 @@ class Posture:
     <Status.SOLVED: 0>
     """
 
-    __slots__ = ("__weakref__", "_native", "machine")
+    __slots__ = ("__weakref__", "_native", "_target", "machine")
 
-    def __init__(self, machine: Machine, native: _core.Posture) -> None:
+    def __init__(self, machine: Machine, native: _core.Posture, target: Floats | None = None) -> None:
         self.machine = machine
         """The machine."""
         self._native = native
+        self._target = None if target is None else target.copy()
 
     @property
     def commands(self) -> Floats:
@@ -257,7 +259,7 @@ class Posture:
     @property
     def target(self) -> Floats:
         """(4, 4): where the tool is commanded to, base from tool, m."""
-        return self._native.target
+        return self._native.target if self._target is None else self._target.copy()
 
     @property
     def limbs(self) -> tuple[tuple[Floats, Floats], ...]:
@@ -492,5 +494,18 @@ class Posture:
 
 
 def _restored(machine: Machine, target: Floats, limbs: list[tuple[list[float], list[float]]]) -> Posture:
-    """A posture that was pickled."""
-    return Posture(machine, machine._native.posture_of_limbs(target[None], limbs))
+    """A posture that was pickled: reached by its place, or by its joints, whichever gives its target to the last bit."""
+
+    def same(found: _core.Posture) -> bool:
+        return found.target.tobytes() == target.tobytes() and found.limbs == limbs
+
+    by_place = machine._native.posture_of_limbs(target[None], limbs)
+    if not same(by_place):
+        try:
+            by_joints = machine._native.posture_at_joints([command for commands, _ in limbs for command in commands])
+        except KinetostatError:  # of a machine whose joints do not say where it is
+            return Posture(machine, by_place, target)
+        if same(by_joints):
+            return Posture(machine, by_joints)
+    # A rotation matrix that is made orthonormal again may change in the last bit: the target is kept as it was.
+    return Posture(machine, by_place, target)

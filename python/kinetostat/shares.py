@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat._arrays import Floats, one
-from kinetostat._asking import bare, place
+from kinetostat._asking import bare, joint_words, place
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -176,8 +176,7 @@ def _at(machine: Machine, position: ArrayLike | None, joints: ArrayLike | None) 
         options["at"] = (one("position", position, (3,)) * 1e3).tolist()
     if joints is not None:
         given = one("joints", joints, (len(machine.actuators),))
-        scale = [1e3 if a.kind == "prismatic" else 180.0 / np.pi for a in machine.actuators]
-        options["joints"] = [f"{a.name}={float(x * s)!r}" for a, x, s in zip(machine.actuators, given, scale, strict=True)]
+        options["joints"] = joint_words(machine, given)
     return options
 
 

@@ -35,6 +35,55 @@ def test_postures_come_back_the_same(posture: ks.Posture) -> None:
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(kept)).tool, kept.tool)
 
 
+def come_back(machine: ks.Machine, ways: list[dict[str, object]]) -> int:
+    """Postures that came back from their pickle with every bit; how many there were."""
+    made = 0
+    for way in ways:
+        try:
+            posture = machine.posture(**way)
+        except ks.UnansweredError:
+            continue
+        once = pickle.loads(pickle.dumps(posture))
+        for again in (once, pickle.loads(pickle.dumps(once))):
+            assert again == posture
+            assert hash(again) == hash(posture)
+            assert again.target.tobytes() == posture.target.tobytes()
+            assert again._native.limbs == posture._native.limbs
+        size = np.abs(posture.stiffness().matrix).max()
+        np.testing.assert_allclose(once.stiffness().matrix, posture.stiffness().matrix, rtol=0, atol=1e-12 * size)
+        made += 1
+    return made
+
+
+def test_pickles_of_joints_and_poses_are_equal_to_themselves() -> None:
+    arm = ks.Machine.preset("heavy_6r")
+    turned = arm.with_tool(ks.pose([0.1, 0.02, 0.3], ks.rotation_from_vector([0.1, -0.4, 1.2])))
+    home = np.array([actuator.home for actuator in arm.actuators])
+    rng = np.random.default_rng(1)
+    joints = [{"joints": home + rng.uniform(-1, 1, 6)} for _ in range(100)]
+    assert come_back(arm, joints) == come_back(turned, joints) == 100
+    turns = [arm.home[:3, :3] @ ks.rotation_from_vector(rng.uniform(-0.3, 0.3, 3)) for _ in range(100)]
+    assert come_back(arm, [{"pose": ks.pose(arm.home[:3, 3] + rng.uniform(-0.1, 0.1, 3), turn)} for turn in turns]) > 90
+    for name in ("tricept_like", "prs3"):  # turn as they move
+        machine = ks.Machine.preset(name)
+        assert come_back(machine, [{"position": machine.home[:3, 3] + rng.uniform(-0.03, 0.03, 3)} for _ in range(30)]) > 10
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pickles_of_random_arms_are_equal_to_themselves(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    builder = ks.MachineBuilder("arm")
+    builder.platform("tool", [0, 0, 1])
+    limb = builder.limb("arm", to="tool")
+    count = int(rng.integers(1, 9))
+    for index in range(count):
+        axis = rng.normal(size=3)
+        kind = "prismatic" if rng.uniform() < 0.3 else "revolute"
+        limb.actuator(f"j{index}", kind, (axis / np.linalg.norm(axis)).tolist(), 1e5).rigid(rng.uniform(-0.3, 0.3, 3).tolist())
+    ways = [{"joints": rng.uniform(-1, 1, count)} for _ in range(10)]
+    assert come_back(builder.machine(), ways) == 10
+
+
 def test_elbow_of_the_other_side_is_kept() -> None:
     arm = ks.Machine.preset("heavy_6r")
     home = arm.posture()
@@ -142,6 +191,43 @@ def test_a_spring_on_the_tool_is_in_series() -> None:
     single = machine.posture(POSITION).under(spring)
     assert bool(single.converged)
     np.testing.assert_allclose(single.wrench, found.wrench[1], rtol=1e-7, atol=1e-6)
+
+
+def test_stability_is_that_of_machine_and_model_together() -> None:
+    machine = ks.Machine.preset("orthoglide")
+    place = np.array([0.01, 0.0, 0.0])
+    # A magnet at the commanded place: stable until it is as strong as the softest direction of the machine, the tool free to turn.
+    limit = machine.posture(place).stiffness().against_force
+    for share, stable in ((-3.0, True), (0.5, True), (0.99, True), (1.01, False), (10.0, False)):
+        found = ks.equilibrium_under(machine, lambda p, k=share * limit: ks.wrench(k * (p[:, :3, 3] - place)), poses=place[None])
+        assert found.converged[0]
+        assert found.equilibria.stable[0]
+        assert bool(found.stable[0]) is stable, share
+        eigenvalues = np.linalg.eigvalsh((found.tangent[0] + found.tangent[0].T) / 2)
+        assert bool(eigenvalues[0] > 0) is stable
+    # What is free alone is held by a spring; what a dead wrench bends is as stable as the machine.
+    free = ks.Machine.preset("stewart_gough_a").posture()
+    assert not free.under(lambda p: np.zeros(6)).stable
+    held = free.under(lambda p: np.concatenate([-1e5 * (p[:, :3, 3] - free.target[:3, 3]), -1e4 * turned(p, free.target)], axis=1))
+    assert held.converged
+    assert held.stable
+    # Directions in which a machine is rigid are not free.
+    builder = ks.MachineBuilder("one drive")
+    builder.platform("tool", [0, 0, 0.5])
+    builder.limb("arm", to="tool").actuator("drive", "revolute", "y", 1e5).rigid([0, 0, 0.5])
+    pendulum = builder.machine().posture()
+    for stiffness, stable in ((1e5, True), (1e6, False)):  # 1e5 N m/rad at 0.5 m: 4e5 N/m
+        found = pendulum.under(lambda p, k=stiffness: ks.wrench(k * p[:, :3, 3] * [1, 1, 0]))
+        assert found.converged
+        assert bool(found.stable) is stable
+    # No answer is not stable.
+    assert not ks.equilibrium_under(machine, lambda poses: np.zeros(6), poses=[[9, 0, 0]]).stable[0]
+
+
+def turned(poses: np.ndarray, home: np.ndarray) -> np.ndarray:
+    """Small rotation vectors from home."""
+    turn = poses[:, :3, :3] @ home[:3, :3].T
+    return np.stack([turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=-1) / 2
 
 
 def test_force_models_say_what_is_wrong() -> None:

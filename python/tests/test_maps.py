@@ -70,7 +70,35 @@ def test_loads_and_orientations_are_dimensions() -> None:
                 np.testing.assert_allclose(own.deflection, np.linalg.norm(one.displacement[:3]), rtol=1e-9)
                 np.testing.assert_allclose(own.joint_efforts, one.actuator_forces, rtol=1e-9, atol=1e-9)
                 np.testing.assert_allclose(own.wrench, wrench)
-                np.testing.assert_allclose(own.rotation, rotation)
+                np.testing.assert_allclose(own.orientation_matrix, rotation)
+
+
+@pytest.mark.parametrize("kept", [False, True], ids=["in memory", "in a folder"])
+def test_every_variable_with_orientations(tmp_path: Path, kept: bool) -> None:
+    place = np.array([1.4, 0.1, 0.9])
+    turned = {"straight": ARM.home[:3, :3], "leaning": ARM.home[:3, :3] @ TURNED[2]}
+    names = list(maps.variables())
+    folder = tmp_path / "map" if kept else None
+    found = ARM.map(x=[1.3, place[0]], y=place[1], z=place[2], orientations=turned, loads=LOADS, variables=names, folder=folder)
+    assert set(found.data_vars) == {*names, "status"}
+    assert not set(found.data_vars) & set(found.coords)
+    for load, wrench in LOADS.items():
+        for name, rotation in turned.items():
+            own = found.sel(load=load, orientation=name, x=place[0])
+            one = ARM.equilibrium(ks.pose(place, rotation), wrench)
+            np.testing.assert_allclose(own["rotation"], np.linalg.norm(one.displacement[3:]), rtol=1e-9)
+            np.testing.assert_allclose(own.orientation_matrix, rotation)
+    # One orientation, and the worst of several, have the matrices as a coordinate, too.
+    single = ARM.map(x=place[:1], y=place[1], z=place[2], orientations=turned["leaning"], loads=LOADS["mill"], variables=names)
+    np.testing.assert_allclose(single.orientation_matrix, turned["leaning"])
+    with_worst = [name for name, about in maps.variables().items() if about.worse != "neither"]
+    question = {"x": place[:1], "y": place[1], "z": place[2], "loads": LOADS["mill"], "variables": with_worst}
+    worst = ARM.map(orientations=turned, over_orientations="worst", **question)
+    assert worst["rotation"][0] == found["rotation"].sel(load="mill", x=place[0]).max("orientation")
+    # The file has all of them, too.
+    found.to_netcdf(tmp_path / "map.nc", engine="scipy")
+    with xarray.open_dataset(tmp_path / "map.nc", engine="scipy") as back:
+        np.testing.assert_array_equal(back["rotation"], found["rotation"])
 
 
 def test_worst_over_orientations() -> None:

@@ -20,6 +20,7 @@ import sweep_functions as functions
 
 import kinetostat as ks
 from kinetostat import sweep
+from kinetostat.sweep._example import squares
 
 # Processes that are forked: Python warns where this one has threads; ours are made anew in a child.
 pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
@@ -172,6 +173,78 @@ def test_another_sweep_in_the_folder_is_an_error_that_names_the_field(tmp_path: 
         sweep.to_folder(out, functions.stiff, 20, part, chunk=10)
     # Nothing of this touched what is there.
     assert sweep.verify(out).complete
+
+
+DAMAGES: dict[str, dict[str, object]] = {
+    "chunks is a list": {"chunks": []},
+    "chunks is null": {"chunks": None},
+    "chunk without a number": {"chunks": {"first": "0" * 64}},
+    "digest is none": {"chunks": {"0": 7}},
+    "digest is short": {"chunks": {"0": "ab"}},
+    "count is text": {"count": "x"},
+    "count is a fraction": {"count": 10.5},
+    "count below zero": {"count": -1},
+    "chunk of no rows": {"chunk": 0},
+    "schema is a dictionary": {"schema": {"a": 1}},
+    "schema is null": {"schema": None},
+    "schema without shape": {"schema": [{"name": "square", "dtype": "float64"}]},
+    "schema of no type": {"schema": [{"name": "square", "dtype": "spring", "shape": []}]},
+    "schema with a name twice": {"schema": 2 * [{"name": "square", "dtype": "float64", "shape": []}]},
+    "complete is text": {"complete": "yes"},
+    "settings is a list": {"settings": []},
+}
+
+
+def altered(folder: Path, change: dict[str, object]) -> None:
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (folder / "manifest.json").write_text(json.dumps({**manifest, **change}))
+
+
+@pytest.mark.parametrize("change", DAMAGES.values(), ids=DAMAGES)
+def test_a_damaged_manifest_is_said_to_be_one(tmp_path: Path, change: dict[str, object]) -> None:
+    pytest.importorskip("pyarrow")
+    sweep.to_folder(tmp_path, squares, 10, chunk=4)
+    altered(tmp_path, change)
+    for ask in (sweep.verify, sweep.read, lambda path: list(sweep.chunks(path)), lambda path: sweep.to_folder(path, squares, 10, chunk=4)):
+        with pytest.raises(ks.ArgumentError, match=r"manifest\.json is a damaged manifest"):
+            ask(tmp_path)
+
+
+@pytest.mark.parametrize("index", ["999", "3", "-1"])
+def test_a_chunk_of_no_place_is_damaged_and_goes_with_the_next_run(tmp_path: Path, index: str) -> None:
+    pytest.importorskip("pyarrow")
+    sweep.to_folder(tmp_path, squares, 10, chunk=4)
+    recorded = json.loads((tmp_path / "manifest.json").read_text())["chunks"]
+    altered(tmp_path, {"chunks": {**recorded, index: recorded["0"]}})
+    # Even with a file as it is said to be.
+    (tmp_path / "chunks" / f"{int(index):08}.parquet").write_bytes((tmp_path / "chunks" / "00000000.parquet").read_bytes())
+    found = sweep.verify(tmp_path)
+    assert (found.sound, found.damaged, found.missing, found.complete) == ((0, 1, 2), (int(index),), (), False)
+    with pytest.raises(ks.ArgumentError, match="1 damaged"):
+        sweep.read(tmp_path)
+    with pytest.raises(ks.ArgumentError, match=f"chunk {index} is none of the 3"):
+        list(sweep.chunks(tmp_path))
+    assert sweep.to_folder(tmp_path, squares, 10, chunk=4).computed == 0
+    assert sweep.verify(tmp_path).complete
+    assert sweep.read(tmp_path)["square"].tolist() == [float(k**2) for k in range(10)]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"schema": [{"name": "cube", "dtype": "float64", "shape": []}]},
+        {"schema": []},
+        {"schema": [{"name": "square", "dtype": "float32", "shape": []}]},
+        {"schema": [{"name": "square", "dtype": "float64", "shape": [2]}]},
+        {"count": 11},
+    ],
+)
+def test_a_manifest_of_other_columns_is_not_read(tmp_path: Path, change: dict[str, object]) -> None:
+    pytest.importorskip("pyarrow")
+    sweep.to_folder(tmp_path, squares, 10, chunk=4)
+    altered(tmp_path, change)
+    with pytest.raises(ks.ArgumentError, match="one of them is damaged"):
+        sweep.read(tmp_path)
 
 
 def test_what_is_no_sweep_is_said(tmp_path: Path) -> None:

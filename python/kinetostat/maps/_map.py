@@ -75,7 +75,8 @@ def evaluate(
     -------
     xarray.Dataset
         Variables with their units, and ``status`` (:class:`kinetostat.Status`): numbers are NaN where it is 2; where it is 1 an actuator
-        would be outside its limits.
+        would be outside its limits. The coordinate ``orientation_matrix`` holds the rotation matrices, ``wrench`` the loads; ``rotation``
+        is a variable: how far the tool turns under the load.
 
     Raises
     ------
@@ -160,11 +161,11 @@ def _coordinates(question: Question) -> dict[str, Any]:
         names = question.turn_names
         if names is not None:
             made["orientation"] = ("orientation", names)
-            made["rotation"] = (("orientation", "row", "column"), question.rotations, frame)
+            made["orientation_matrix"] = (("orientation", "row", "column"), question.rotations, frame)
         elif question.worst:
-            made["rotation"] = (("worst_of", "row", "column"), question.rotations, frame)
+            made["orientation_matrix"] = (("worst_of", "row", "column"), question.rotations, frame)
         else:
-            made["rotation"] = (("row", "column"), question.rotations[0], frame)
+            made["orientation_matrix"] = (("row", "column"), question.rotations[0], frame)
     if question.wrenches is not None:
         about = {"units": "N, N m", "long_name": "force and moment on the tool, base axes, about its reference point"}
         made["component"] = ("component", ["fx", "fy", "fz", "mx", "my", "mz"])

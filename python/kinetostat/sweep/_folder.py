@@ -19,6 +19,7 @@ from kinetostat.errors import ArgumentError
 from kinetostat.sweep import _parquet
 from kinetostat.sweep._identity import FORMAT, Columns, Plan, difference, schema
 from kinetostat.sweep._lock import lock, unlock
+from kinetostat.sweep._manifest import damaged, sound_structure
 from kinetostat.sweep._signals import unbroken
 
 __all__ = ["Verified", "chunks", "read", "verify"]
@@ -44,7 +45,7 @@ class Verified:
     sound: tuple[int, ...]
     """Chunks whose file has the SHA-256 of the manifest."""
     damaged: tuple[int, ...]
-    """Chunks of the manifest whose file is absent, cut short or altered."""
+    """Chunks of the manifest whose file is absent, cut short or altered, or whose number is not one of this sweep."""
 
     @property
     def missing(self) -> tuple[int, ...]:
@@ -54,7 +55,7 @@ class Verified:
     @property
     def complete(self) -> bool:
         """Whether every row is there, as it was computed."""
-        return len(self.sound) == self.chunks
+        return len(self.sound) == self.chunks and not self.damaged
 
 
 def verify(folder: str | os.PathLike[str]) -> Verified:
@@ -72,7 +73,7 @@ def verify(folder: str | os.PathLike[str]) -> Verified:
     Raises
     ------
     ArgumentError
-        The folder holds no sweep.
+        The folder holds no sweep, or its manifest is damaged.
 
     Examples
     --------
@@ -87,8 +88,8 @@ def verify(folder: str | os.PathLike[str]) -> Verified:
     path = Path(folder)
     manifest = _manifest(path)
     recorded = _recorded(path, manifest)
-    total = -(-manifest["count"] // manifest["chunk"])
-    sound = {index for index, digest in recorded.items() if _is_sound(path, index, digest)}
+    total = _chunks(manifest)
+    sound = {index for index, digest in recorded.items() if 0 <= index < total and _is_sound(path, index, digest)}
     return Verified(manifest["count"], total, tuple(sorted(sound)), tuple(sorted(set(recorded) - sound)))
 
 
@@ -101,6 +102,11 @@ def chunks(folder: str | os.PathLike[str], names: Collection[str] | None = None)
         Folder of :func:`to_folder`.
     names : collection of str, optional
         Columns to read; all without it.
+
+    Raises
+    ------
+    ArgumentError
+        The folder holds no sweep, its manifest is damaged, or a file is not what the manifest says.
 
     Examples
     --------
@@ -120,9 +126,23 @@ def chunks(folder: str | os.PathLike[str], names: Collection[str] | None = None)
     if absent and recorded:
         raise ArgumentError(f"{path} has no column {absent[0]!r}; it has {', '.join(field['name'] for field in fields)}")
     wanted = [field for field in fields if names is None or field["name"] in names]
+    alien = sorted(set(recorded) - set(range(_chunks(manifest))))
+    if alien:
+        raise damaged(path / "manifest.json", f"chunk {alien[0]} is none of the {_chunks(manifest)} of this sweep")
+    stored = [field["name"] for field in fields if 0 not in field["shape"]]
     for index in sorted(recorded):
         first = index * manifest["chunk"]
-        yield first, min(first + manifest["chunk"], manifest["count"]), _parquet.read(_file(path, index), wanted)
+        last = min(first + manifest["chunk"], manifest["count"])
+        file = _file(path, index)
+        try:
+            columns = _parquet.read(file, wanted, stored)
+        except FileNotFoundError:
+            raise ArgumentError(f"{file} is absent: run the sweep again") from None
+        except (KeyError, ValueError) as failed:
+            raise ArgumentError(f"{file} is not what the manifest says, one of them is damaged: {failed}") from None
+        if any(len(array) != last - first for array in columns.values()):
+            raise ArgumentError(f"{file} does not have the {last - first} rows that the manifest says: one of them is damaged")
+        yield first, last, columns
 
 
 def read(folder: str | os.PathLike[str], names: Collection[str] | None = None) -> Columns:
@@ -178,7 +198,8 @@ class Store:
         try:
             self.manifest = self._begun(plan.identity())
             recorded = _recorded(self.path, self.manifest)
-            self.done = {index: digest for index, digest in recorded.items() if _is_sound(self.path, index, digest)}
+            total = _chunks(self.manifest)
+            self.done = {i: digest for i, digest in recorded.items() if 0 <= i < total and _is_sound(self.path, i, digest)}
             self.damaged = len(recorded) - len(self.done)
             self.journal.write("\n")  # ends a line at which an earlier run was killed
             for left in self.path.glob("*.part"):
@@ -251,14 +272,19 @@ def _manifest(folder: Path) -> dict[str, Any]:
         found = json.loads(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise ArgumentError(f"{folder} holds no sweep: it has no manifest.json") from None
-    except (ValueError, OSError) as failed:
+    except (ValueError, OSError, RecursionError) as failed:
         raise ArgumentError(f"{file} is no manifest of a sweep: {failed}") from None
     absent = [key for key in (*_IDENTITY, "schema", "complete", "chunks") if not isinstance(found, dict) or key not in found]
     if absent:
         raise ArgumentError(f"{file} is no manifest of a sweep: it has no {absent[0]!r}")
     if found["format"] != FORMAT:
         raise ArgumentError(f"{file} has format {found['format']}, expected {FORMAT}: it is of another version ({found['version']})")
-    return dict(found)
+    return sound_structure(file, dict(found))
+
+
+def _chunks(manifest: dict[str, Any]) -> int:
+    """Chunks of the whole sweep."""
+    return -(-int(manifest["count"]) // int(manifest["chunk"]))
 
 
 def _recorded(folder: Path, manifest: dict[str, Any]) -> dict[int, str]:
@@ -269,7 +295,7 @@ def _recorded(folder: Path, manifest: dict[str, Any]) -> dict[int, str]:
         try:
             entry = json.loads(line)
             recorded[int(entry["chunk"])] = str(entry["sha256"])
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, OverflowError):
             continue  # the line at which a run was killed
     return recorded
 

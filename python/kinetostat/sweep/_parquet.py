@@ -46,10 +46,12 @@ def write(path: Path, columns: Columns, notes: Mapping[str, str] | None = None) 
     parquet.write_table(table(columns, notes), path, compression="zstd", use_dictionary=False, store_schema=True)
 
 
-def read(path: Path, fields: list[dict[str, Any]]) -> Columns:
-    """The columns of a file."""
+def read(path: Path, fields: list[dict[str, Any]], stored: list[str]) -> Columns:
+    """Columns of a file; KeyError or ValueError where it is not as ``stored`` and ``fields`` say."""
     _, parquet = library()
     with parquet.ParquetFile(path) as file:
+        if file.schema_arrow.names != stored:
+            raise ValueError(f"columns {file.schema_arrow.names}, expected {stored}")
         found = file.read(columns=[field["name"] for field in fields])
         rows = file.metadata.num_rows
     columns: Columns = {}
@@ -59,9 +61,13 @@ def read(path: Path, fields: list[dict[str, Any]]) -> Columns:
             continue
         column = found.column(field["name"]).combine_chunks()
         if field["shape"]:
+            if not hasattr(column.type, "list_size"):
+                raise ValueError(f"{field['name']!r} of single numbers, expected shape {field['shape']}")
             column = column.flatten()
         flat = column.to_numpy(zero_copy_only=False)
-        columns[field["name"]] = flat.astype(field["dtype"], copy=False).reshape(rows, *field["shape"])
+        if flat.dtype != field["dtype"]:
+            raise ValueError(f"{field['name']!r} of {flat.dtype}, expected {field['dtype']}")
+        columns[field["name"]] = flat.reshape(rows, *field["shape"])
     return columns
 
 
