@@ -3,6 +3,7 @@
 import doctest
 import importlib
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -287,3 +288,36 @@ def test_values_of_a_machine_may_be_more_than_a_formula_has():
 def test_names_that_would_change_nothing_are_refused(values, words):
     with pytest.raises(ks.ArgumentError, match=words):
         symbolic.substitute(symbolic.beam().matrix[0, 0], values)
+
+
+def test_presets_from_machine_are_covered_or_refused_with_a_reason():
+    covered, reasons = {}, {}
+    for name in ks.preset_names():
+        try:
+            covered[name] = symbolic.from_machine(ks.Machine.preset(name))
+        except ArgumentError as refused:
+            reasons[name] = str(refused)
+    real = r"it has ([02-9]|\d\d+) limbs|of limb '.*is not covered|element .*(is not covered by|formulas (need|cover))"
+    assert [words for words in reasons.values() if not re.search(real, words)] == []
+    assert sorted(covered) == ["three_link_s", "three_link_z", "two_link"]
+    found = covered["three_link_s"]
+    values = {s.name: v for s, v in found.values.items()}
+    springs = found.chain.jacobian(of="springs")
+    assert springs.subs({s.name: values[s.name] for s in springs.symbols}).matrix.evalf().shape[0] == 6
+
+
+def test_a_built_arm_against_the_core():
+    b = ks.MachineBuilder("arm")
+    b.platform("tool", [0.9, 0, 0.1])
+    arm = b.limb("arm", to="tool").actuator("q1", "revolute", "z", 1e5, limits=(-2, 2), rating=100).rigid([0.5, 0, 0])
+    arm.actuator("q2", "revolute", [0, 1, 0], 2e5).spring("give", "prismatic", "y", 3e6).rigid([0.4, 0, 0.1])
+    arm.spring6("flange", [1e8, 2e8, 3e8, 1e6, 2e6, 3e6])
+    machine = b.machine()
+    found = symbolic.from_machine(machine)
+    compliance = found.chain.compliance()
+    rng = np.random.default_rng(5)
+    for commands in rng.uniform(-1, 1, (4, 2)):
+        values = {s.name: v for s, v in found.values.items()} | {"q1": commands[0], "q2": commands[1]}
+        own = np.array(compliance.subs({s.name: values[s.name] for s in compliance.symbols}).matrix.evalf(), float)
+        core = machine.posture(joints=commands).stiffness().matrix
+        assert np.allclose(np.linalg.inv(own), core, rtol=1e-9, atol=1e-9 * abs(core).max())
