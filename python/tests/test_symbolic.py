@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import keyword
 import math
 import re
 import shutil
@@ -321,3 +322,52 @@ def test_a_built_arm_against_the_core():
         own = np.array(compliance.subs({s.name: values[s.name] for s in compliance.symbols}).matrix.evalf(), float)
         core = machine.posture(joints=commands).stiffness().matrix
         assert np.allclose(np.linalg.inv(own), core, rtol=1e-9, atol=1e-9 * abs(core).max())
+
+
+WORDS = [*keyword.kwlist, *keyword.softkwlist, "math", "abs", "out", "t0", "t1", "", "1a", "None_", "sin_"]
+WORDS += [
+    "auto",
+    "restrict",
+    "sin",
+    "cos",
+    "sqrt",
+    "pow",
+    "exp",
+    "inline",
+    "register",
+    "typedef",
+    "_Bool",
+    "_Generic",
+    "M_PI",
+    "NAN",
+    "asm",
+    "unix",
+    "double",
+]
+WORDS += ["fn", "let", "mut", "self", "Self", "dyn", "try", "yield", "box", "virtual", "Some", "Ok", "Err", "f64", "std"]
+
+
+def words_as_names():
+    names = [sp.Symbol(word, real=True) for word in dict.fromkeys(WORDS)]
+    total = sum((i + 1) * s for i, s in enumerate(names))
+    return symbolic.Formula(sp.Matrix([[sp.sin(total) * sp.sqrt(total**2 + 2), sp.cos(total) ** 3, sp.exp(-total) + total]]))
+
+
+def test_any_name_makes_python():
+    space = {}
+    found = words_as_names()
+    values = [0.001 * i for i in range(len(found.symbols))]
+    exec(found.python("f"), space)
+    expected = np.array(found.matrix.subs(dict(zip(found.symbols, values, strict=True))).evalf(), float)
+    assert np.allclose(space["f"](*values), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("language", "compiler", "standard"), [("c", "cc", "c99"), ("c", "cc", "gnu11"), ("rust", "rustc", "")])
+def test_any_name_compiles(tmp_path, language, compiler, standard):
+    if shutil.which(compiler) is None:
+        pytest.skip(f"no {compiler} at hand: the printed {language} is not compiled here")
+    found = words_as_names()
+    file = tmp_path / ("f.c" if language == "c" else "f.rs")
+    file.write_text(getattr(found, language)("f"), encoding="utf-8")
+    words = ["cc", f"-std={standard}", "-Wall", "-Werror", "-c"] if language == "c" else ["rustc", "--crate-type=lib"]
+    subprocess.run([*words, str(file), "-o", str(tmp_path / "f.o")], cwd=tmp_path, check=True)
