@@ -19,6 +19,8 @@ def _shape(shape: tuple[Any, ...]) -> str:
 
 def numbers(name: str, value: ArrayLike) -> Floats:
     """As C-contiguous, aligned float64; refuses complex numbers, text, objects and what is ragged."""
+    if np.ma.is_masked(value):
+        raise ArgumentError(f"{name} has masked entries: fill or leave them out")
     try:
         given = np.asarray(value)
     except ValueError as ragged:

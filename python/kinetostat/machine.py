@@ -17,7 +17,7 @@ from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows
 from kinetostat._urdf import text_of
 from kinetostat.display import machine_html
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, ModelError
 from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
@@ -794,14 +794,16 @@ def _without_none(value: Any) -> Any:
     return value
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Any, at: str = "") -> Any:
     """Arrays and numbers of numpy as plain ones, without None."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(inner) for key, inner in value.items() if inner is not None}
+        return {str(key): _plain(inner, f"{at}.{key}" if at else str(key)) for key, inner in value.items() if inner is not None}
     if isinstance(value, (list, tuple)):
-        return [_plain(inner) for inner in value]
+        return [_plain(inner, f"{at}[{index}]") for index, inner in enumerate(value)]
     if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
+        return _plain(value.tolist(), at)
     if isinstance(value, np.generic):
-        return value.item()
+        return _plain(value.item(), at)
+    if isinstance(value, float) and not np.isfinite(value):
+        raise ModelError(f"{at} is {value}: give a finite number")
     return copy.copy(value)
