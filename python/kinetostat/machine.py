@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
 from kinetostat._urdf import text_of
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
@@ -481,7 +481,7 @@ class Machine:
         (5, 6, 6)
         """
         places, commands, leading = self._places(poses, joints)
-        found = _core.stiffness_of_many(self._native, places, commands, threads, progress)
+        found = _core.stiffness_of_many(self._native, places, commands, thread_count(threads), progress)
         return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def shares(
@@ -563,7 +563,7 @@ class Machine:
         places, commands, leading = self._places(poses, joints)
         loads = self._wrenches(wrenches, leading)
         level = _DETAILS.index(details)
-        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, progress)
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, thread_count(threads), progress)
         stability = found.pop("stability", None)
         arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
         if stability is not None:
@@ -620,7 +620,7 @@ class Machine:
         places, leading = self._poses(poses)
         loads = self._wrenches(wrenches, leading)
         wanted = [name in names for name in _DIRECTIONS]
-        found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
+        found = _core.targets_of_many(self._native, places, loads, wanted, thread_count(threads), progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def map(
@@ -682,7 +682,7 @@ class Machine:
             folder=folder,
             executor=executor,
             chunk=chunk,
-            threads=threads,
+            threads=thread_count(threads),
             progress=progress,
         )
 

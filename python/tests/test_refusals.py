@@ -26,6 +26,8 @@ MASKED = np.ma.masked_array([[0.01, 0, 0.0]], [[True, False, False]])
         (lambda: commands.stiffness("--help"), "dash"),
         (lambda: ORTHOGLIDE.map(x=[0, 0.01], executor=3), "executor is 3"),  # type: ignore[arg-type]
         (lambda: ORTHOGLIDE.stiffness(MASKED), "masked"),
+        (lambda: ORTHOGLIDE.stiffness([[0, 0, 0]], threads=-1), "threads is -1, .* from 1 to 1024"),
+        (lambda: ORTHOGLIDE.map(x=[0, 0.01], threads=1025), "threads is 1025"),
         (lambda: ks.pose([0, 0, 0], np.eye(3) * 1.2), "no rotation"),
     ],
 )
