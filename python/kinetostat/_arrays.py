@@ -19,6 +19,8 @@ def _shape(shape: tuple[Any, ...]) -> str:
 
 def numbers(name: str, value: ArrayLike) -> Floats:
     """As C-contiguous, aligned float64; refuses complex numbers, text, objects and what is ragged."""
+    if np.ma.is_masked(value):
+        raise ArgumentError(f"{name} has masked entries: fill or leave them out")
     try:
         given = np.asarray(value)
     except ValueError as ragged:
@@ -55,3 +57,10 @@ def one(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
     if not np.all(np.isfinite(given)):
         raise ArgumentError(f"{name} is {given.tolist()}: give finite numbers")
     return given
+
+
+def thread_count(threads: int | None) -> int | None:
+    """Threads from 1 to 1024, or None for all cores."""
+    if threads is not None and not 1 <= threads <= 1024:
+        raise ArgumentError(f"threads is {threads}, expected a whole number from 1 to 1024")
+    return threads

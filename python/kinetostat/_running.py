@@ -72,6 +72,13 @@ def _option(name: str, value: Any) -> list[str]:
         return []
     if value is True:
         return [name]
+    if isinstance(value, (list, tuple, np.ndarray)):
+        if len(value) == 0:
+            raise ArgumentError(f"{name or 'argument'} is empty")
+        if len({np.shape(inner) for inner in value}) > 1:
+            raise ArgumentError(f"{name or 'argument'} is {value!r}: its rows are not alike")
+    if not name and isinstance(value, str) and value.startswith("-"):
+        raise ArgumentError(f"{value!r} is no argument: it begins with a dash")
     head = [name] if name else []
     if isinstance(value, (str, os.PathLike)) or np.ndim(value) == 0:
         return head + _words(value)

@@ -164,13 +164,13 @@ class LimbBuilder:
         """
         element: dict[str, Any] = {"passive": kind, "name": name}
         if kind == "universal":
-            element["axes"] = [_axis(a) for a in axis or ()]  # type: ignore[arg-type]
+            element["axes"] = [_axis(a) for a in (() if axis is None else axis)]  # type: ignore[arg-type]
         elif axis is not None:
             element["axis"] = _axis(axis)  # type: ignore[arg-type]
         if home is not None:
             element |= (
-                {"homes_rad": list(home)}
-                if isinstance(home, Sequence)
+                {"homes_rad": np.asarray(home, dtype=float).tolist()}
+                if np.ndim(home) > 0
                 else _in("prismatic" if kind == "prismatic" else "revolute", "home", home)
             )
         return self._add(element)

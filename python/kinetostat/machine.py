@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, fitting, numbers, one, rows
+from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
 from kinetostat._urdf import text_of
 from kinetostat.display import machine_html
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, ModelError
 from kinetostat.posture import Posture
 from kinetostat.results import Equilibria, Stiffnesses, Targets
 
@@ -481,7 +481,7 @@ class Machine:
         (5, 6, 6)
         """
         places, commands, leading = self._places(poses, joints)
-        found = _core.stiffness_of_many(self._native, places, commands, threads, progress)
+        found = _core.stiffness_of_many(self._native, places, commands, thread_count(threads), progress)
         return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def shares(
@@ -563,7 +563,7 @@ class Machine:
         places, commands, leading = self._places(poses, joints)
         loads = self._wrenches(wrenches, leading)
         level = _DETAILS.index(details)
-        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, threads, progress)
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, thread_count(threads), progress)
         stability = found.pop("stability", None)
         arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
         if stability is not None:
@@ -620,7 +620,7 @@ class Machine:
         places, leading = self._poses(poses)
         loads = self._wrenches(wrenches, leading)
         wanted = [name in names for name in _DIRECTIONS]
-        found = _core.targets_of_many(self._native, places, loads, wanted, threads, progress)
+        found = _core.targets_of_many(self._native, places, loads, wanted, thread_count(threads), progress)
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def map(
@@ -682,7 +682,7 @@ class Machine:
             folder=folder,
             executor=executor,
             chunk=chunk,
-            threads=threads,
+            threads=thread_count(threads),
             progress=progress,
         )
 
@@ -794,14 +794,16 @@ def _without_none(value: Any) -> Any:
     return value
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Any, at: str = "") -> Any:
     """Arrays and numbers of numpy as plain ones, without None."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(inner) for key, inner in value.items() if inner is not None}
+        return {str(key): _plain(inner, f"{at}.{key}" if at else str(key)) for key, inner in value.items() if inner is not None}
     if isinstance(value, (list, tuple)):
-        return [_plain(inner) for inner in value]
+        return [_plain(inner, f"{at}[{index}]") for index, inner in enumerate(value)]
     if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
+        return _plain(value.tolist(), at)
     if isinstance(value, np.generic):
-        return value.item()
+        return _plain(value.item(), at)
+    if isinstance(value, float) and not np.isfinite(value):
+        raise ModelError(f"{at} is {value}: give a finite number")
     return copy.copy(value)

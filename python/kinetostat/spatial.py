@@ -16,6 +16,12 @@ from kinetostat.errors import ArgumentError
 __all__ = ["pose", "rotation_from_vector", "rotation_vector", "wrench"]
 
 
+def _check_rotations(m: NDArray[np.float64]) -> None:
+    # NaN passes: rows of a stack without a value stay without an answer.
+    if np.any(np.abs(np.swapaxes(m, -1, -2) @ m - np.eye(3)) > 1e-6) or np.any(np.linalg.det(m) < 0):
+        raise ArgumentError("rotation holds a matrix that is no rotation: give orthonormal ones of determinant 1")
+
+
 def pose(position: ArrayLike = (0.0, 0.0, 0.0), rotation: ArrayLike | None = None) -> NDArray[np.float64]:
     """Poses from positions and rotations.
 
@@ -38,6 +44,7 @@ def pose(position: ArrayLike = (0.0, 0.0, 0.0), rotation: ArrayLike | None = Non
     """
     places = fitting("position", position, (3,))
     turns = fitting("rotation", np.eye(3) if rotation is None else rotation, (3, 3))
+    _check_rotations(turns)
     leading = np.broadcast_shapes(places.shape[:-1], turns.shape[:-2])
     out = np.zeros((*leading, 4, 4))
     out[..., :3, :3] = turns
@@ -121,8 +128,7 @@ def rotation_vector(rotation: ArrayLike) -> NDArray[np.float64]:
     array([0.        , 0.        , 1.57079633])
     """
     m = fitting("rotation", rotation, (3, 3))
-    if np.any(np.abs(np.swapaxes(m, -1, -2) @ m - np.eye(3)) > 1e-6) or np.any(np.linalg.det(m) < 0):
-        raise ArgumentError("rotation holds a matrix that is no rotation: give orthonormal ones of determinant 1")
+    _check_rotations(m)
     # The quaternion by the largest of its four squares, so that no root of a small number is divided by.
     trace = np.trace(m, axis1=-2, axis2=-1)
     diagonal = np.diagonal(m, axis1=-2, axis2=-1)

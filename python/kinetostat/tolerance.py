@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -15,12 +16,29 @@ from numpy.typing import ArrayLike
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, numbers, one
-from kinetostat.errors import ArgumentError
+from kinetostat.errors import ArgumentError, UnansweredError
 from kinetostat.machine import Machine
 
 __all__ = ["Distribution", "MachineSamples", "SobolIndices", "draws", "machines", "normal", "sobol", "triangular", "uniform"]
 
 _QUANTITIES = ("error", "deflection", "deviation", "compensated", "stiffness")
+_MOST_DRAWS = 2**20
+_LEAST_SOBOL = 128
+"""With 16 sequences, 8 draws in each: below, the scatter between the sequences is no honest interval."""
+
+
+def _count(name: str, value: int, least: int, most: int) -> int:
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise ArgumentError(f"{name} is {value!r}, expected a whole number from {least} to {most}") from None
+    if not least <= found <= most:
+        raise ArgumentError(f"{name} is {found}, expected a whole number from {least} to {most}")
+    return found
+
+
+def _seed(value: int) -> int:
+    return _count("seed", value, 0, 2**64 - 1)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -145,11 +163,18 @@ class MachineSamples:
         return found
 
 
+def _spread(name: str, own: Distribution) -> float:
+    spread = float(own.spread)
+    if not np.isfinite(spread):
+        raise ArgumentError(f"the spread of {name!r} is {spread}: give a finite number")
+    return spread
+
+
 def _toml(spread: Mapping[str, Distribution], correlations: Mapping[tuple[str, str], float]) -> str:
     lines = ["schema = 1"]
     for name, own in spread.items():
         key, word = ("load", name[5:]) if name.startswith("load ") else ("parameter", name)
-        lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {own.spread!r}"]
+        lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {_spread(name, own)!r}"]
     for (a, b), coefficient in correlations.items():
         lines += ["[[correlation]]", f"between = [{json.dumps(a)}, {json.dumps(b)}]", f"coefficient = {float(coefficient)!r}"]
     return "\n".join(lines) + "\n"
@@ -185,7 +210,7 @@ def machines(
     correlations : mapping of pairs of names to float, optional
         Of the numbers' normal scores.
     draws : int
-        Number of machines, rounded up to a multiple of 16.
+        Number of machines, 1 to 2**20, rounded up to a multiple of 16.
     seed : int
         The same seed draws the same machines.
     threads, progress
@@ -197,6 +222,8 @@ def machines(
 
     Raises
     ------
+    ArgumentError
+        For a number of draws, threads or a seed out of range.
     ModelError
         For an unknown number (with the nearest), a negative spread, contradicting correlations.
     UnansweredError
@@ -212,11 +239,14 @@ def machines(
     unknown = [name for name in quantities if name not in _QUANTITIES]
     if unknown or isinstance(quantities, str):
         raise ArgumentError(f"quantities is {quantities!r}, expected some of {', '.join(_QUANTITIES)}")
+    count = _count("draws", draws, 1, _MOST_DRAWS)
+    if threads is not None:
+        threads = _count("threads", threads, 1, 1024)
     text = spread if isinstance(spread, str) else _toml(spread, correlations or {})
     places, _ = machine._poses(poses)
     load = one("wrench", wrench, (6,))[None]
     found: dict[str, Any] = _core.tolerance_of_machine(
-        machine._native, text, "spread", places, load, list(quantities), draws, seed, threads, progress
+        machine._native, text, "spread", places, load, list(quantities), count, _seed(seed), threads, progress
     )
     found["names"], found["columns"] = tuple(found["names"]), tuple(found["columns"])
     found["values"] = np.asarray(found["values"])
@@ -225,6 +255,11 @@ def machines(
 
 def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlation: ArrayLike | None = None, seed: int = 0) -> Floats:
     """Quasi-random draws (scrambled Sobol sequences), shape (n, numbers), n rounded up to a multiple of 16.
+
+    Raises
+    ------
+    ArgumentError
+        For n below 1 or above 2**20, or a correlation matrix that is none.
 
     Examples
     --------
@@ -235,15 +270,19 @@ def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlat
     pairs = []
     if correlation is not None:
         matrix = one("correlation", correlation, (len(each), len(each)))
-        if not (np.array_equal(matrix, matrix.T) and np.all(np.diag(matrix) == 1)):
+        if not (np.allclose(matrix, matrix.T, rtol=0, atol=1e-12) and np.allclose(np.diag(matrix), 1, rtol=0, atol=1e-12)):
             raise ArgumentError("correlation is not symmetric with ones on its diagonal")
+        matrix = (matrix + matrix.T) / 2
         pairs = [(i, j, float(matrix[i, j])) for i in range(len(each)) for j in range(i)]
-    return _core.drawn_numbers(each, pairs, n, seed)
+    return _core.drawn_numbers(each, pairs, _count("n", n, 1, _MOST_DRAWS), _seed(seed))
 
 
 def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float, str, float]]:
     centre = one("values", values, (len(spread),))
-    return [(float(x), d.word, d.spread * abs(float(x)) / 100 if d.percent else d.spread) for x, d in zip(centre, spread, strict=True)]
+    return [
+        (float(x), d.word, _spread(f"values[{i}]", d) * (abs(float(x)) / 100 if d.percent else 1))
+        for i, (x, d) in enumerate(zip(centre, spread, strict=True))
+    ]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -283,9 +322,16 @@ def sobol(
     spread : sequence of Distribution
         How.
     n : int
-        Draws; the function is asked for ``n * (numbers + 2)`` rows.
+        Draws, 128 to 2**20; the function is asked for ``n * (numbers + 2)`` rows.
     seed : int
         Of the draws.
+
+    Raises
+    ------
+    ArgumentError
+        For n out of range: fewer draws give no honest interval.
+    UnansweredError
+        If an output has no variance or too few draws with an answer: it has no parts.
 
     Examples
     --------
@@ -294,7 +340,7 @@ def sobol(
     True
     """
     each = _each(values, spread)
-    design = _core.sobol_design(each, n, seed)
+    design = _core.sobol_design(each, _count("n", n, _LEAST_SOBOL, _MOST_DRAWS), _seed(seed))
     rows = design.reshape(-1, len(each))
     answers = numbers("the function's answer", function(rows))
     if answers.shape[:1] != rows.shape[:1] or answers.ndim > 2:
@@ -302,6 +348,9 @@ def sobol(
     outputs = answers.reshape(len(rows), -1).T
     found = [_core.sobol_of_answers(column.tolist(), len(each)) for column in outputs]
     table = np.stack([own for own, _ in found])
+    still = np.flatnonzero(np.isnan(table).any(axis=(1, 2)))
+    if still.size:
+        raise UnansweredError(f"output {still[0]} of the function does not vary, or too few of its answers are numbers: no Sobol indices")
     first, first_plus_minus, total, total_plus_minus = (table[:, :, k] for k in range(4))
     unanswered = len(design) - min(used for _, used in found)
     return SobolIndices(first, first_plus_minus, total, total_plus_minus, unanswered)

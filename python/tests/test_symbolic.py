@@ -2,7 +2,9 @@
 
 import doctest
 import importlib
+import keyword
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -287,3 +289,85 @@ def test_values_of_a_machine_may_be_more_than_a_formula_has():
 def test_names_that_would_change_nothing_are_refused(values, words):
     with pytest.raises(ks.ArgumentError, match=words):
         symbolic.substitute(symbolic.beam().matrix[0, 0], values)
+
+
+def test_presets_from_machine_are_covered_or_refused_with_a_reason():
+    covered, reasons = {}, {}
+    for name in ks.preset_names():
+        try:
+            covered[name] = symbolic.from_machine(ks.Machine.preset(name))
+        except ArgumentError as refused:
+            reasons[name] = str(refused)
+    real = r"it has ([02-9]|\d\d+) limbs|of limb '.*is not covered|element .*(is not covered by|formulas (need|cover))"
+    assert [words for words in reasons.values() if not re.search(real, words)] == []
+    assert sorted(covered) == ["three_link_s", "three_link_z", "two_link"]
+    found = covered["three_link_s"]
+    values = {s.name: v for s, v in found.values.items()}
+    springs = found.chain.jacobian(of="springs")
+    assert springs.subs({s.name: values[s.name] for s in springs.symbols}).matrix.evalf().shape[0] == 6
+
+
+def test_a_built_arm_against_the_core():
+    b = ks.MachineBuilder("arm")
+    b.platform("tool", [0.9, 0, 0.1])
+    arm = b.limb("arm", to="tool").actuator("q1", "revolute", "z", 1e5, limits=(-2, 2), rating=100).rigid([0.5, 0, 0])
+    arm.actuator("q2", "revolute", [0, 1, 0], 2e5).spring("give", "prismatic", "y", 3e6).rigid([0.4, 0, 0.1])
+    arm.spring6("flange", [1e8, 2e8, 3e8, 1e6, 2e6, 3e6])
+    machine = b.machine()
+    found = symbolic.from_machine(machine)
+    compliance = found.chain.compliance()
+    rng = np.random.default_rng(5)
+    for commands in rng.uniform(-1, 1, (4, 2)):
+        values = {s.name: v for s, v in found.values.items()} | {"q1": commands[0], "q2": commands[1]}
+        own = np.array(compliance.subs({s.name: values[s.name] for s in compliance.symbols}).matrix.evalf(), float)
+        core = machine.posture(joints=commands).stiffness().matrix
+        assert np.allclose(np.linalg.inv(own), core, rtol=1e-9, atol=1e-9 * abs(core).max())
+
+
+WORDS = [*keyword.kwlist, *keyword.softkwlist, "math", "abs", "out", "t0", "t1", "", "1a", "None_", "sin_"]
+WORDS += [
+    "auto",
+    "restrict",
+    "sin",
+    "cos",
+    "sqrt",
+    "pow",
+    "exp",
+    "inline",
+    "register",
+    "typedef",
+    "_Bool",
+    "_Generic",
+    "M_PI",
+    "NAN",
+    "asm",
+    "unix",
+    "double",
+]
+WORDS += ["fn", "let", "mut", "self", "Self", "dyn", "try", "yield", "box", "virtual", "Some", "Ok", "Err", "f64", "std"]
+
+
+def words_as_names():
+    names = [sp.Symbol(word, real=True) for word in dict.fromkeys(WORDS)]
+    total = sum((i + 1) * s for i, s in enumerate(names))
+    return symbolic.Formula(sp.Matrix([[sp.sin(total) * sp.sqrt(total**2 + 2), sp.cos(total) ** 3, sp.exp(-total) + total]]))
+
+
+def test_any_name_makes_python():
+    space = {}
+    found = words_as_names()
+    values = [0.001 * i for i in range(len(found.symbols))]
+    exec(found.python("f"), space)
+    expected = np.array(found.matrix.subs(dict(zip(found.symbols, values, strict=True))).evalf(), float)
+    assert np.allclose(space["f"](*values), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("language", "compiler", "standard"), [("c", "cc", "c99"), ("c", "cc", "gnu11"), ("rust", "rustc", "")])
+def test_any_name_compiles(tmp_path, language, compiler, standard):
+    if shutil.which(compiler) is None:
+        pytest.skip(f"no {compiler} at hand: the printed {language} is not compiled here")
+    found = words_as_names()
+    file = tmp_path / ("f.c" if language == "c" else "f.rs")
+    file.write_text(getattr(found, language)("f"), encoding="utf-8")
+    words = ["cc", f"-std={standard}", "-Wall", "-Werror", "-c"] if language == "c" else ["rustc", "--crate-type=lib"]
+    subprocess.run([*words, str(file), "-o", str(tmp_path / "f.o")], cwd=tmp_path, check=True)

@@ -85,4 +85,36 @@ def test_arguments_that_are_wrong() -> None:
     with pytest.raises(ks.ArgumentError, match="contradict"):
         tol.draws([0, 0, 0], [tol.normal(1)] * 3, 16, correlation=c)
     with pytest.raises(ks.ArgumentError, match="shape"):
-        tol.sobol(lambda x: x[:3], [0], [tol.normal(1)], 64)
+        tol.sobol(lambda x: x[:3], [0], [tol.normal(1)], 128)
+
+
+def test_numbers_of_draws_out_of_range_are_refused() -> None:
+    one = [tol.normal(1)]
+    machine = ks.Machine.preset("two_link")
+    for n in (-1, 0, 2**20 + 1, 1.5):
+        with pytest.raises(ks.ArgumentError, match="from 1 to 1048576"):
+            tol.draws([0], one, n)  # type: ignore[arg-type]
+        with pytest.raises(ks.ArgumentError, match=r"draws is .* from 1 to 1048576"):
+            tol.machines(machine, {}, [[0, 0, 0]], draws=n)  # type: ignore[arg-type]
+    for n in (0, 16, 127, 2**20 + 1):
+        with pytest.raises(ks.ArgumentError, match="from 128 to 1048576"):
+            tol.sobol(lambda x: x[:, 0], [0], one, n)
+    with pytest.raises(ks.ArgumentError, match="seed is -1"):
+        tol.draws([0], one, 16, seed=-1)
+    for threads in (-1, 0, 1025):
+        with pytest.raises(ks.ArgumentError, match=r"threads is .* from 1 to 1024"):
+            tol.machines(machine, {}, [[0, 0, 0]], threads=threads)
+
+
+def test_no_variance_has_no_parts() -> None:
+    with pytest.raises(ks.UnansweredError, match=r"output 1 .* does not vary"):
+        tol.sobol(lambda x: np.stack([x[:, 0], 0 * x[:, 0] + 1], axis=1), [0], [tol.normal(1)], 128)
+
+
+def test_spreads_and_correlations_of_numpy() -> None:
+    text = tol._toml({"a": tol.Distribution("normal", np.float64(0.01))}, {})
+    assert "normal = 0.01\n" in text
+    with pytest.raises(ks.ArgumentError, match="spread of 'a' is inf"):
+        tol._toml({"a": tol.normal(np.inf)}, {})
+    near = np.corrcoef(np.random.default_rng(0).normal(size=(3, 100)))
+    assert tol.draws([1, 2, 3], [tol.normal(0.1)] * 3, 64, correlation=near).shape == (64, 3)

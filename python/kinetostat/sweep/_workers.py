@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from typing import Any
 
-from kinetostat.errors import KinetostatError
+from kinetostat.errors import ArgumentError, KinetostatError
 from kinetostat.sweep._identity import Columns, Plan, checked
 
 __all__ = ["SweepError"]
@@ -40,6 +40,8 @@ def compute(plan: Plan, todo: Iterable[int], executor: Workers, under_way: int |
             first, last = plan.rows(index)
             keep(index, checked(plan, index, plan.function(first, last, threads=threads, **plan.settings)))
         return
+    if not isinstance(executor, Executor) and not callable(executor):
+        raise ArgumentError(f"executor is {executor!r}, expected an executor, or a function that makes one")
     if isinstance(executor, Executor):
         _Pool(plan, todo, executor, None, under_way, keep).work()
         return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import keyword
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
@@ -14,50 +15,17 @@ from kinetostat.symbolic._substitution import substitute
 
 __all__ = ["Formula", "Stiffness"]
 
-_KEYWORDS = frozenset(
-    [
-        "as",
-        "break",
-        "const",
-        "continue",
-        "crate",
-        "double",
-        "else",
-        "enum",
-        "extern",
-        "false",
-        "float",
-        "fn",
-        "for",
-        "if",
-        "impl",
-        "in",
-        "int",
-        "let",
-        "long",
-        "loop",
-        "match",
-        "mod",
-        "move",
-        "mut",
-        "pub",
-        "ref",
-        "return",
-        "self",
-        "short",
-        "static",
-        "struct",
-        "super",
-        "trait",
-        "true",
-        "type",
-        "unsafe",
-        "use",
-        "void",
-        "where",
-        "while",
-    ]
-)
+_C = """auto break case char const continue default do double else enum extern float for goto if inline int long register restrict return
+short signed sizeof static struct switch typedef union unsigned void volatile while _Alignas _Alignof _Atomic _Bool _Complex _Generic
+_Imaginary _Noreturn _Static_assert _Thread_local asm typeof linux unix i386 NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL"""
+_MATH_H = """acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim floor fma fmax fmin fmod
+frexp hypot ldexp lgamma log log10 log1p log2 modf pow remainder round signbit sin sinh sqrt tan tanh tgamma trunc
+M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2"""
+_RUST = """as async await break const continue crate dyn else enum extern false fn for gen if impl in let loop match mod move mut pub ref
+return self Self static struct super trait true type unsafe use where while abstract become box do final macro override priv try typeof
+unsized virtual yield Some Ok Err _"""
+_KEYWORDS = frozenset([*keyword.kwlist, "math", "abs", "max", "min", "out", *f"{_C} {_MATH_H} {_RUST}".split()])
+"""What no printed language takes as a name; one set for all, so that arguments are called the same in each."""
 
 
 _OfFormulas = TypeVar("_OfFormulas", bound="Formula")
@@ -132,9 +100,9 @@ class Formula:
         used: set[str] = set()
         for symbol in self.symbols:
             name = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in str(symbol.name))
-            if name[:1].isdigit() or name in _KEYWORDS or name == "out":
+            if name[:1].isdigit() or not name:
                 name = f"v_{name}"
-            while name in used:
+            while name in used or name in _KEYWORDS:
                 name += "_"
             used.add(name)
             plain[symbol] = sp.Symbol(name, real=True)
@@ -144,6 +112,8 @@ class Formula:
 
     def c(self, name: str = "stiffness") -> str:
         """A C99 function ``void name(double a, ..., double *out)``; ``out`` takes the entries row by row.
+
+        A symbol whose name is a word of C, Rust or Python, or a function of their mathematics, gets ``_`` behind it in all three.
 
         Examples
         --------

@@ -15,9 +15,15 @@ from kinetostat.symbolic._chain import Chain
 __all__ = ["NamedChain", "from_machine"]
 
 _LARGEST = 24
-_KNOWN = frozenset(["name", "source", "assumption", "rigid", "node", "passive", "actuator", "axis", "home_deg", "home_mm", "spring6"])
+_UNITS = {"m": sp.Integer(1), "mm": sp.Rational(1, 1000), "rad": sp.Integer(1), "deg": sp.pi / 180}
+_TRANSLATIONS = {f"{word}_{unit}": _UNITS[unit] for word in ("translation", "position") for unit in ("m", "mm")}
+_PLACES = {kind: [f"{kind}_{unit}" for unit in _UNITS] for kind in ("home", "rest", "limits")}
 _STIFFNESS = {"stiffness_n_m_per_rad": sp.Integer(1), "stiffness_n_per_mm": sp.Integer(1000), "stiffness_n_per_m": sp.Integer(1)}
-_SILENT = frozenset(["limits_mm", "limits_deg", "rating_n", "rating_n_m"])
+_STIFFNESS["stiffness_n_mm_per_rad"] = sp.Rational(1, 1000)
+_WORDS = ["name", "source", "assumption", "rigid", "node", "passive", "actuator", "spring", "axis", "rigid_drive", "spring6"]
+_KNOWN = frozenset([*_WORDS, *_PLACES["home"], *_PLACES["rest"], *_STIFFNESS])
+# What does not change the stiffness.
+_SILENT = frozenset([*_PLACES["limits"], "rated_force_n", "rated_torque_n_m"])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -60,7 +66,8 @@ def from_machine(machine: Machine, symbols: Sequence[str] = ("lengths", "angles"
     ----------
     machine : Machine
         One limb from its base to its tool, of rigid translations along the axes, joints that turn or slide, drives, nodes and
-        6-D springs with a matrix of their own. Without a tool at the flange.
+        springs of one direction or of six with a matrix of their own. Without a tool at the flange. Springs stand at home: the
+        force of one that is at rest elsewhere is not part of the chain.
     symbols : sequence of {"lengths", "angles", "stiffnesses"}
         What gets a name; the rest stays the machine's numbers. Coordinates of joints are ``angles`` (slides too). Matrices of 6-D
         springs stay numbers.
@@ -85,8 +92,11 @@ def from_machine(machine: Machine, symbols: Sequence[str] = ("lengths", "angles"
         raise ArgumentError(f"symbols is {symbols!r}, expected some of 'lengths', 'angles', 'stiffnesses'")
     document = machine.to_dict()
     limbs = document.get("limb", [])
-    if len(limbs) != 1 or set(limbs[0]) - {"name", "from", "to", "chain", "source", "assumption"}:
-        raise ArgumentError(f"{machine.name}: formulas need one limb without poses of its own; it has {len(limbs)} limbs")
+    if len(limbs) != 1:
+        raise ArgumentError(f"{machine.name}: formulas need one limb; it has {len(limbs)} limbs")
+    strange = set(limbs[0]) - {"name", "from", "to", "chain", "source", "assumption"}
+    if strange:
+        raise ArgumentError(f"{machine.name}: {', '.join(sorted(strange))} of limb {limbs[0]['name']!r} is not covered by formulas")
     if abs(machine.tool - sp.matrix2numpy(sp.eye(4), dtype=float)).max() > 0:
         raise ArgumentError(f"{machine.name} carries a tool: add it to the chain with move")
     names = _Names(symbols)
@@ -103,41 +113,56 @@ def _number(value: float) -> sp.Expr:
 
 
 def _add(chain: Chain, element: Mapping[str, Any], name: str, document: Mapping[str, Any], names: _Names) -> None:
-    strange = set(element) - _KNOWN - _SILENT - set(_STIFFNESS)
+    strange = set(element) - _KNOWN - _SILENT
     if strange:
         raise ArgumentError(f"element {name!r}: {', '.join(sorted(strange))} is not covered by formulas")
     if "node" in element:
         chain.node(element["node"])
     elif "rigid" in element:
-        if set(element["rigid"]) != {"translation_mm"}:
-            raise ArgumentError(f"element {name!r}: formulas cover rigid translations in mm only, not {', '.join(element['rigid'])}")
-        parts = [_number(v) / 1000 for v in element["rigid"]["translation_mm"]]
+        found = [(key, unit) for key, unit in _TRANSLATIONS.items() if key in element["rigid"]]
+        if len(found) != 1 or len(element["rigid"]) != 1:
+            raise ArgumentError(f"element {name!r}: formulas cover rigid translations only, not {', '.join(sorted(element['rigid']))}")
+        parts = [_number(v) * found[0][1] for v in element["rigid"][found[0][0]]]
         chain.move(*(v if v == 0 else names.of("lengths", f"L_{name}_{axis}", v) for v, axis in zip(parts, "xyz", strict=True)))
     elif "spring6" in element:
-        table = document.get("stiffness", {}).get(element["spring6"], {})
-        if "matrix_n_mm_rad" not in table:
-            raise ArgumentError(f"element {name!r}: formulas need the matrix of {element['spring6']!r} in N, mm, rad")
-        scale = [1000, 1000, 1000, 1, 1, 1]
-        entry = table["matrix_n_mm_rad"]
-        # N/mm, N, N mm to N/m, N, N m.
-        chain.spring6(name, sp.Matrix(6, 6, lambda i, j: _number(entry[i][j]) * scale[i] * scale[j] / 1000))
-    elif "passive" in element or "actuator" in element:
+        own = element["spring6"]
+        table = document.get("stiffness", {}).get(own, {}) if isinstance(own, str) else own
+        chain.spring6(name, _six(table, name))
+    elif any(word in element for word in ("passive", "actuator", "spring")):
         _joint(chain, element, name, names)
     else:
         raise ArgumentError(f"element {name!r} is not covered by formulas")
 
 
+def _six(table: Mapping[str, Any], name: str) -> sp.Matrix:
+    if "diagonal_n_m_rad" in table:
+        return sp.diag(*map(_number, table["diagonal_n_m_rad"]))
+    millimetres = "matrix_n_mm_rad" in table
+    entry = table.get("matrix_n_mm_rad", table.get("matrix_n_m_rad"))
+    if entry is None:
+        raise ArgumentError(f"element {name!r}: formulas need a matrix in N, mm, rad or in N, m, rad")
+    # N/mm, N, N mm to N/m, N, N m.
+    scale = [1000, 1000, 1000, 1, 1, 1] if millimetres else [1] * 6
+    return sp.Matrix(6, 6, lambda i, j: _number(entry[i][j]) * scale[i] * scale[j] / (1000 if millimetres else 1))
+
+
 def _joint(chain: Chain, element: Mapping[str, Any], name: str, names: _Names) -> None:
-    kind = element.get("passive", element.get("actuator"))
+    kind = next(element[word] for word in ("passive", "actuator", "spring") if word in element)
     if kind not in ("revolute", "prismatic"):
         raise ArgumentError(f"element {name!r}: formulas cover revolute and prismatic joints, not {kind!r}")
-    home = sp.pi * _number(element.get("home_deg", 0)) / 180 if kind == "revolute" else _number(element.get("home_mm", 0)) / 1000
-    at, axis = names.of("angles", name, home), element["axis"]
+    given = [_number(element[f"home_{unit}"]) * factor for unit, factor in _UNITS.items() if f"home_{unit}" in element]
+    at, axis = names.of("angles", name, given[0] if given else sp.Integer(0)), element["axis"]
     if not isinstance(axis, str):
-        raise ArgumentError(f"element {name!r}: formulas cover axes along x, y and z")
+        parts = sp.Matrix([_number(v) for v in axis])
+        axis = list(parts / sp.sqrt(parts.dot(parts)))
     if "passive" in element:
         chain.passive(name, kind, axis, at)
         return
-    stiffness = [(key, scale) for key, scale in _STIFFNESS.items() if key in element]
-    k = names.of("stiffnesses", f"k_{name}", _number(element[stiffness[0][0]]) * stiffness[0][1]) if stiffness else None
-    chain.actuator(name, kind, axis, stiffness=k, at=at)
+    stiffness = [_number(element[key]) * scale for key, scale in _STIFFNESS.items() if key in element]
+    k = names.of("stiffnesses", f"k_{name}", stiffness[0]) if stiffness else None
+    if "actuator" in element:
+        chain.actuator(name, kind, axis, stiffness=k, at=at)
+    elif k is None:
+        raise ArgumentError(f"element {name!r}: formulas need the stiffness of a spring")
+    else:
+        chain.spring(name, kind, axis, stiffness=k, at=at)
