@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from typing import Any
 
 import numpy as np
@@ -59,8 +60,17 @@ def one(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
     return given
 
 
+def whole_number(name: str, value: int, least: int, most: int) -> int:
+    """A whole number between two bounds, both possible."""
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise ArgumentError(f"{name} is {value!r}, expected a whole number from {least} to {most}") from None
+    if not least <= found <= most:
+        raise ArgumentError(f"{name} is {found}, expected a whole number from {least} to {most}")
+    return found
+
+
 def thread_count(threads: int | None) -> int | None:
     """Threads from 1 to 1024, or None for all cores."""
-    if threads is not None and not 1 <= threads <= 1024:
-        raise ArgumentError(f"threads is {threads}, expected a whole number from 1 to 1024")
-    return threads
+    return None if threads is None else whole_number("threads", threads, 1, 1024)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -15,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, numbers, one
+from kinetostat._arrays import Floats, numbers, one, thread_count, whole_number
 from kinetostat.errors import ArgumentError, UnansweredError
 from kinetostat.machine import Machine
 
@@ -27,18 +26,8 @@ _LEAST_SOBOL = 128
 """With 16 sequences, 8 draws in each: below, the scatter between the sequences is no honest interval."""
 
 
-def _count(name: str, value: int, least: int, most: int) -> int:
-    try:
-        found = operator.index(value)
-    except TypeError:
-        raise ArgumentError(f"{name} is {value!r}, expected a whole number from {least} to {most}") from None
-    if not least <= found <= most:
-        raise ArgumentError(f"{name} is {found}, expected a whole number from {least} to {most}")
-    return found
-
-
 def _seed(value: int) -> int:
-    return _count("seed", value, 0, 2**64 - 1)
+    return whole_number("seed", value, 0, 2**64 - 1)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -239,9 +228,8 @@ def machines(
     unknown = [name for name in quantities if name not in _QUANTITIES]
     if unknown or isinstance(quantities, str):
         raise ArgumentError(f"quantities is {quantities!r}, expected some of {', '.join(_QUANTITIES)}")
-    count = _count("draws", draws, 1, _MOST_DRAWS)
-    if threads is not None:
-        threads = _count("threads", threads, 1, 1024)
+    count = whole_number("draws", draws, 1, _MOST_DRAWS)
+    threads = thread_count(threads)
     text = spread if isinstance(spread, str) else _toml(spread, correlations or {})
     places, _ = machine._poses(poses)
     load = one("wrench", wrench, (6,))[None]
@@ -274,7 +262,7 @@ def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlat
             raise ArgumentError("correlation is not symmetric with ones on its diagonal")
         matrix = (matrix + matrix.T) / 2
         pairs = [(i, j, float(matrix[i, j])) for i in range(len(each)) for j in range(i)]
-    return _core.drawn_numbers(each, pairs, _count("n", n, 1, _MOST_DRAWS), _seed(seed))
+    return _core.drawn_numbers(each, pairs, whole_number("n", n, 1, _MOST_DRAWS), _seed(seed))
 
 
 def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float, str, float]]:
@@ -340,7 +328,7 @@ def sobol(
     True
     """
     each = _each(values, spread)
-    design = _core.sobol_design(each, _count("n", n, _LEAST_SOBOL, _MOST_DRAWS), _seed(seed))
+    design = _core.sobol_design(each, whole_number("n", n, _LEAST_SOBOL, _MOST_DRAWS), _seed(seed))
     rows = design.reshape(-1, len(each))
     answers = numbers("the function's answer", function(rows))
     if answers.shape[:1] != rows.shape[:1] or answers.ndim > 2:

@@ -66,8 +66,7 @@ def from_machine(machine: Machine, symbols: Sequence[str] = ("lengths", "angles"
     ----------
     machine : Machine
         One limb from its base to its tool, of rigid translations along the axes, joints that turn or slide, drives, nodes and
-        springs of one direction or of six with a matrix of their own. Without a tool at the flange. Springs stand at home: the
-        force of one that is at rest elsewhere is not part of the chain.
+        springs of one direction or of six with a matrix of their own, at rest at home. Without a tool at the flange.
     symbols : sequence of {"lengths", "angles", "stiffnesses"}
         What gets a name; the rest stays the machine's numbers. Coordinates of joints are ``angles`` (slides too). Matrices of 6-D
         springs stay numbers.
@@ -151,7 +150,12 @@ def _joint(chain: Chain, element: Mapping[str, Any], name: str, names: _Names) -
     if kind not in ("revolute", "prismatic"):
         raise ArgumentError(f"element {name!r}: formulas cover revolute and prismatic joints, not {kind!r}")
     given = [_number(element[f"home_{unit}"]) * factor for unit, factor in _UNITS.items() if f"home_{unit}" in element]
-    at, axis = names.of("angles", name, given[0] if given else sp.Integer(0)), element["axis"]
+    home = given[0] if given else sp.Integer(0)
+    at_rest = [_number(element[f"rest_{unit}"]) * factor for unit, factor in _UNITS.items() if f"rest_{unit}" in element]
+    # A spring of which nothing is said is at rest where its coordinate is zero.
+    if "spring" in element and (at_rest[0] if at_rest else 0) != home:
+        raise ArgumentError(f"element {name!r} is at rest elsewhere than at home: formulas do not cover springs that bear a force at home")
+    at, axis = names.of("angles", name, home), element["axis"]
     if not isinstance(axis, str):
         parts = sp.Matrix([_number(v) for v in axis])
         axis = list(parts / sp.sqrt(parts.dot(parts)))
