@@ -20,7 +20,7 @@ def _shape(shape: tuple[Any, ...]) -> str:
 
 def numbers(name: str, value: ArrayLike) -> Floats:
     """As C-contiguous, aligned float64; refuses complex numbers, text, objects and what is ragged."""
-    if np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.asarray(value.mask).any():
         raise ArgumentError(f"{name} has masked entries: fill or leave them out")
     try:
         given = np.asarray(value)
