@@ -13,12 +13,12 @@ impl FlatText {
     /// a comment or begin and end the program.
     ///
     /// ```
-    /// use kinetostat_formats::{Language, ReadOptions, SourceFile, expand_siemens};
+    /// use kinetostat_formats::{Language, SourceFile, expand_siemens};
     ///
-    /// let file = SourceFile::new("a.mpf", "R1=5\n;begins\nG1 X=R1 F200\nM30\n");
-    /// let flat = expand_siemens(vec![file], &ReadOptions::default()).unwrap();
+    /// let file = SourceFile::new("a.mpf", "G90\n;begins\nG1 X5 F200\nM30\n");
+    /// let flat = expand_siemens(&[file]).unwrap();
     /// let said = flat.with_origins(Language::Siemens, &["a.mpf".to_owned()]);
-    /// assert_eq!(said.file.bytes(), b";begins\nG1 X=5 F200 ;line 3\nM30 ;line 4\n");
+    /// assert_eq!(said.file.bytes(), b"G90 ;line 1\n;begins\nG1 X5 F200 ;line 3\nM30 ;line 4\n");
     /// ```
     #[must_use]
     pub fn with_origins(&self, language: Language, names: &[String]) -> Self {

@@ -110,7 +110,7 @@ positions need:
   # places_unknown = "left_out"    # G28, G53 between moves; else refused
   # tolerance_mm = 0.001, most_points = 5000
   # position_decimals = 6, angle_decimals = 8, quaternion_decimals = 10
-  # speed_decimals = 1
+  # speed_decimals = 1       # of mm/s
 
   [base]                           # where the part is
   number = 1                       # BASE_DATA[1], wobj1, UF : 1

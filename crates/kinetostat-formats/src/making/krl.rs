@@ -153,7 +153,8 @@ impl Writer<'_> {
             };
             return self.line(&format!("PTP {end}{zone}"));
         }
-        let decimals = self.template.speed_decimals.unwrap_or(12);
+        // Those of the template are of mm/s.
+        let decimals = self.template.speed_decimals.map_or(12, |own| own + 3);
         let speed = format!(
             "$VEL.CP={}",
             short(motion.speed_mm_per_s / 1000.0, decimals)

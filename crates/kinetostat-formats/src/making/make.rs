@@ -11,6 +11,7 @@ use crate::making::events::SourceEvent;
 use crate::making::fault::{MakeError, MakeFinding};
 use crate::making::limits::MakeLanguage;
 use crate::making::names::checked;
+use crate::making::numbers::short;
 use crate::making::plan::plan;
 use crate::making::stated::is_number_zero;
 use crate::making::step::{MadeMotion, Step, Way};
@@ -75,6 +76,28 @@ pub fn make(
     make_along(path, &Course::of_lines(path, events), template, language)
 }
 
+/// Speeds of which the decimals of the template leave nothing.
+fn speeds_lost(steps: &[Step], template: &Template, language: MakeLanguage) -> Vec<MakeError> {
+    let of_arms = matches!(language, MakeLanguage::Krl | MakeLanguage::Rapid);
+    let Some(decimals) = template.speed_decimals.filter(|_| of_arms) else {
+        return Vec::new();
+    };
+    let least = 0.5 * 10_f64.powi(-(decimals as i32));
+    let motions = steps.iter().filter_map(Step::motion);
+    let lost = motions.filter(|motion| motion.speed_mm_per_s <= least);
+    lost.map(|motion| {
+        MakeError::at(
+            motion.line,
+            format!(
+                "with {decimals} decimals its speed of {} mm/s would be 0",
+                short(motion.speed_mm_per_s, 9)
+            ),
+            "state more speed_decimals (of mm/s) in the template",
+        )
+    })
+    .collect()
+}
+
 /// The same with events, moves and changes of tools in the order of a course.
 pub(crate) fn make_along(
     path: &Path,
@@ -93,6 +116,9 @@ pub(crate) fn make_along(
     };
     if let (Some(planned), MakeLanguage::Gcode) = (&planned, language) {
         faults.extend(gcode::faults(&planned.steps));
+    }
+    if let Some(planned) = &planned {
+        faults.extend(speeds_lost(&planned.steps, template, language));
     }
     let (Ok(name), Some(planned), true) = (name, planned, faults.is_empty()) else {
         return Err(faults);

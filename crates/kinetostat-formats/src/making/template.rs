@@ -146,7 +146,7 @@ pub struct Template {
     pub angle_decimals: usize,
     /// Decimals of parts of quaternions and directions.
     pub quaternion_decimals: usize,
-    /// Most decimals of speeds; that of the language where nothing is stated.
+    /// Most decimals of speeds, of mm/s (or mm/min, where the language has that); that of the language where nothing is stated.
     pub speed_decimals: Option<usize>,
     /// Most places in a file; that of the language where nothing is stated.
     pub most_points: Option<usize>,

@@ -7,6 +7,7 @@ use crate::krl::state::{Slot, State, Thing};
 use crate::krl::table::MotionRow;
 use crate::krl::walking::walker::Walker;
 use crate::model::motion::Zone;
+use crate::text::name::Name;
 
 impl Walker<'_, '_> {
     /// `SPLINE WITH $VEL.CP=0.2` and `ENDSPLINE C_SPL`: what the first puts in force, the second takes back.
@@ -49,6 +50,25 @@ impl Walker<'_, '_> {
         }
     }
 
+    /// `TRIGGER WHEN DISTANCE=1` and `WHEN PATH=-20`, and `STOP WHEN PATH`, act along the next motion or at its end: before several that
+    /// take its place they would act at the end of the first.
+    pub(super) fn notes_what_acts_along(&mut self, name: &Name, tokens: &Range<usize>) {
+        let file = self.file();
+        let word = |at: usize, word: &str| file.name(at).is_some_and(|found| found.is(word));
+        let from_start = tokens.clone().any(|at| {
+            let zero = word(at, "DISTANCE") && file.is(at + 1, b'=') && file.word(at + 2) == b"0";
+            zero || word(at, "ONSTART")
+        });
+        if from_start {
+            return;
+        }
+        if name.is("TRIGGER") {
+            self.now.along_next = Some("the TRIGGER before it acts along the whole of it");
+        } else if name.is("STOP") && word(tokens.start + 1, "WHEN") {
+            self.now.along_next = Some("the STOP WHEN before it acts along the whole of it");
+        }
+    }
+
     /// Notes a motion with what is in force as it runs.
     pub(super) fn moves(
         &mut self,
@@ -84,6 +104,8 @@ impl Walker<'_, '_> {
         match followed {
             Ok(mut followed) => {
                 followed.motion.runs = self.now.runs;
+                let site = &mut followed.motion.site;
+                site.indivisible = site.indivisible.or(self.now.along_next.take());
                 if in_spline {
                     // Segments pass their ends, and only their own WITH states a speed.
                     followed.own_speed = true;

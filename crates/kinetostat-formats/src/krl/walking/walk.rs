@@ -30,6 +30,7 @@ impl<'p> Walker<'_, 'p> {
             is_certain: depth == 0 || self.is_certain(),
             left: None,
             spline: None,
+            along_next: None,
             depth,
         };
         let outer = std::mem::replace(&mut self.now, now);
@@ -137,6 +138,7 @@ impl<'p> Walker<'_, 'p> {
         if name.letters().starts_with(b"EXT") && row(&name).is_some() {
             return state;
         }
+        self.notes_what_acts_along(&name, &tokens);
         if name.is("INTERRUPT") || name.is("TRIGGER") || name.is("GLOBAL") {
             let runs = std::mem::replace(&mut self.now.runs, Runs::Repeatedly);
             for called in self.interrupting(&tokens) {

@@ -29,6 +29,8 @@ pub(super) struct Now {
     pub left: Option<State>,
     /// What was in force before the spline block that is open.
     pub spline: Option<State>,
+    /// Why the next motion keeps being one: a statement before it acts somewhere along it.
+    pub along_next: Option<&'static str>,
     pub depth: usize,
 }
 
@@ -72,6 +74,7 @@ impl<'w, 'p> Walker<'w, 'p> {
                 is_certain: true,
                 left: None,
                 spline: None,
+                along_next: None,
                 depth: 0,
             },
         }

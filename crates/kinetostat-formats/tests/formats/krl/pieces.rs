@@ -66,6 +66,46 @@ fn joint_motions_are_not_divided() {
     );
 }
 
+/// What acts at the end of the next motion, or so far along it, would act at the end of its first piece.
+#[test]
+fn motions_behind_a_trigger_are_not_divided() {
+    let two = [at(0, [1.0; 3]), at(0, [100.0, 0.0, 5.0])];
+    for (before, refused) in [
+        (
+            "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[3]=TRUE",
+            Some("the TRIGGER"),
+        ),
+        (
+            "TRIGGER WHEN PATH=-20 DELAY=0 DO $OUT[3]=TRUE",
+            Some("the TRIGGER"),
+        ),
+        ("STOP WHEN PATH=-10 IF $IN[1]==FALSE", Some("the STOP WHEN")),
+        ("TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[3]=TRUE", None),
+        ("TRIGGER WHEN PATH=20 ONSTART DELAY=0 DO $OUT[3]=TRUE", None),
+        ("$OUT[3]=TRUE", None),
+    ] {
+        let program = main_with(DATA, &format!("{before}\nLIN XP1\nLIN XP2"));
+        let written = write(&program, &two, &WriteOptions::default());
+        match refused {
+            Some(why) => {
+                let said = written.unwrap_err().to_string();
+                assert!(said.contains(why), "{before}: {said}");
+            }
+            None => assert!(written.is_ok(), "{before}: {written:?}"),
+        }
+        // The motion behind it is free, and an end that is moved alone keeps the motion one.
+        let next = [at(1, [2.0; 3]), at(1, [3.0; 3])];
+        assert!(
+            write(&program, &next, &WriteOptions::default()).is_ok(),
+            "{before}"
+        );
+        assert!(
+            write(&program, &two[1..], &WriteOptions::default()).is_ok(),
+            "{before}"
+        );
+    }
+}
+
 #[test]
 fn a_changed_speed_is_stated_and_the_one_before_restored() {
     let program = main_with(DATA, "$VEL.CP=0.02\n  LIN XP1 C_DIS ; groove\n  LIN XP2");

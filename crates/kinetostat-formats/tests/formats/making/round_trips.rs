@@ -258,3 +258,27 @@ fn feeds_of_a_pendant_are_rounded_and_it_is_said() {
             < 1e-8
     );
 }
+
+/// Decimals of speeds are of mm/s in every language, KRL's metres too; a speed of which they leave nothing is refused by line.
+#[test]
+fn slow_feeds_keep_a_speed() {
+    let mut cell = cell();
+    cell.speed_decimals = Some(1);
+    let text = POCKET.replace("F1260", "F127");
+    let made = super::made(&text, &cell, MakeLanguage::Krl);
+    let said = text_of(&made, 0);
+    assert!(said.contains("$VEL.CP=0.0021\n"), "{said}");
+    cell.speed_decimals = Some(0);
+    let slow = POCKET.replace("F1260", "F20");
+    for language in [MakeLanguage::Krl, MakeLanguage::Rapid] {
+        let (program, path) = gcode(&slow);
+        let events = events_of_gcode(&program, &path);
+        let faults = make(&path, &events, &cell, language).unwrap_err();
+        assert!(
+            faults.iter().any(|f| f.line.is_some()
+                && f.reason
+                    .contains("with 0 decimals its speed of 0.333333333 mm/s would be 0")),
+            "{faults:?}"
+        );
+    }
+}
