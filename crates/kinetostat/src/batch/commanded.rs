@@ -24,7 +24,7 @@ pub struct Commanded {
     /// Of whose plans the joints are; none where no kernel knows the machine.
     pub(crate) of: Option<Arc<[Plan]>>,
     /// Where the machine as it is stands under a load, and with which wrenches on its limbs' tips.
-    pub(crate) standing: Option<Box<(BatchEquilibrium, Table)>>,
+    pub(crate) standing: Option<Box<Standing>>,
 }
 
 impl Commanded {
@@ -39,12 +39,9 @@ impl Commanded {
         match (&self.of, &batch.nominal) {
             (Some(ours), Ok(theirs)) if Arc::ptr_eq(ours, theirs) => Places::Known {
                 poses: &self.poses,
-                joints: self.joints.columns(),
-                standing: self.standing.as_deref().map(|(found, wrenches)| Standing {
-                    tool: found.tool.columns(),
-                    coordinates: found.coordinates.columns(),
-                    wrenches: wrenches.columns(),
-                }),
+                joints: &self.joints,
+                standing: self.standing.as_deref(),
+                first: 0,
             },
             _ => Places::Poses(&self.poses),
         }
@@ -88,7 +85,11 @@ impl Batch {
         let mut commanded = self.commanded(poses);
         let mut found = BatchEquilibrium::default();
         let on_tips = self.standing(&commanded.places(self), wrenches, &mut found)?;
-        commanded.standing = Some(Box::new((found, on_tips)));
+        commanded.standing = Some(Box::new(Standing {
+            tool: found.tool,
+            coordinates: found.coordinates,
+            wrenches: on_tips,
+        }));
         Ok(commanded)
     }
 

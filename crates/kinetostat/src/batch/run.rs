@@ -151,9 +151,11 @@ impl WithSimd for Job<'_> {
                                 poses,
                                 joints,
                                 standing,
+                                first,
                             } => {
                                 let target = group.target(simd, poses);
-                                machine.start_with(simd, &group, target, joints, standing)
+                                let known = (joints, standing, first);
+                                machine.start_with(simd, &group, target, known)
                             }
                             Places::Poses(poses) if first > from => {
                                 machine.go_on(simd, group.target(simd, poses), directions)

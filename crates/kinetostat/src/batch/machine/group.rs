@@ -5,7 +5,7 @@ use pulp::Simd;
 use crate::batch::limb::reach::Target;
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::status::Status;
-use crate::batch::table::{BLOCK, Columns};
+use crate::batch::table::{BLOCK, Columns, Table};
 use crate::spatial::{Pose, Wrench};
 
 /// Below this relative pivot a posture is left to the general engine: its rank has to be decided.
@@ -22,18 +22,20 @@ pub(crate) enum Places<'a> {
     /// With the joints that lead to the poses, and where a machine like this one stands there under a load.
     Known {
         poses: &'a [Pose],
-        joints: Columns<'a>,
-        standing: Option<Standing<'a>>,
+        joints: &'a Table,
+        standing: Option<&'a Standing>,
+        /// Row of the first pose in both.
+        first: usize,
     },
 }
 
 /// A loaded machine: 12 numbers of its tool as in [`crate::batch::BatchEquilibrium`], coordinates of all limbs, six numbers of
 /// the wrench on the tip of each; not numbers where it is not known.
-#[derive(Clone, Copy)]
-pub(crate) struct Standing<'a> {
-    pub tool: Columns<'a>,
-    pub coordinates: Columns<'a>,
-    pub wrenches: Columns<'a>,
+#[derive(Clone, Debug)]
+pub(crate) struct Standing {
+    pub tool: Table,
+    pub coordinates: Table,
+    pub wrenches: Table,
 }
 
 impl<'a> Places<'a> {
@@ -61,14 +63,12 @@ impl<'a> Places<'a> {
                 poses,
                 joints,
                 standing,
+                first: before,
             } => Self::Known {
                 poses: &poses[first..],
-                joints: joints.from(first),
-                standing: standing.map(|s| Standing {
-                    tool: s.tool.from(first),
-                    coordinates: s.coordinates.from(first),
-                    wrenches: s.wrenches.from(first),
-                }),
+                joints,
+                standing,
+                first: before + first,
             },
         }
     }

@@ -9,7 +9,7 @@ use crate::batch::machine::loaded::{Machine, bounded};
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{minus, product, product_transposed, select};
-use crate::batch::table::Columns;
+use crate::batch::table::Table;
 use crate::spatial::Directions;
 
 /// The unloaded machine's own compliance, which corrects the passes of an equilibrium, is found anew where the machine
@@ -65,9 +65,9 @@ impl<S: Simd> Machine<S> {
         simd: S,
         group: &Group,
         place: Target<S>,
-        joints: Columns<'_>,
-        standing: Option<Standing<'_>>,
+        (joints, standing, first): (&Table, Option<&Standing>, usize),
     ) -> Lanes<S> {
+        let joints = joints.columns().from(first);
         let mut all = Lanes::new(simd, 0.0);
         (self.place, self.target) = (place, place);
         (self.rotation, self.point) = (place.rotation, place.point);
@@ -88,17 +88,20 @@ impl<S: Simd> Machine<S> {
         }
         self.start_limbs();
         if let Some(standing) = standing {
-            self.stand(simd, group, standing);
+            self.stand(simd, group, standing, first);
         }
         good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
     }
 
     /// Started limbs and platform as those of another machine stand, in the lanes where that is known.
     #[inline(always)]
-    fn stand(&mut self, simd: S, group: &Group, standing: Standing<'_>) {
+    fn stand(&mut self, simd: S, group: &Group, standing: &Standing, first: usize) {
+        let [at, coordinates, wrenches] =
+            [&standing.tool, &standing.coordinates, &standing.wrenches]
+                .map(|table| table.columns().from(first));
         let zero = Lanes::new(simd, 0.0);
         let mut tool = [zero; 12];
-        group.numbers(simd, standing.tool, 0, &mut tool);
+        group.numbers(simd, at, 0, &mut tool);
         let mut all = zero;
         for x in &tool {
             all = x.times_plus(zero, all);
@@ -115,12 +118,12 @@ impl<S: Simd> Machine<S> {
             limb.bent = true;
             let mut own = [zero];
             for x in &mut limb.coordinates {
-                group.numbers(simd, standing.coordinates, from, &mut own);
+                group.numbers(simd, coordinates, from, &mut own);
                 *x = select(known, own[0], *x);
                 from += 1;
             }
             let mut wrench = [zero; 6];
-            group.numbers(simd, standing.wrenches, 6 * i, &mut wrench);
+            group.numbers(simd, wrenches, 6 * i, &mut wrench);
             for k in 0..6 {
                 limb.wrench[k] = select(known, wrench[k], limb.wrench[k]);
             }
