@@ -116,7 +116,7 @@ impl FlatProgram {
         })
     }
 
-    /// The same message with the lines of the files alone: of a flat program that nobody sees.
+    /// The same message with the lines of the files alone: of a flat program that is not written to a file.
     ///
     /// ```
     /// use kinetostat_machining::FlatProgram;

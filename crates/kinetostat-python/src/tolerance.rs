@@ -25,7 +25,8 @@ fn of_task(found: &TaskError) -> PyErr {
     }
 }
 
-type Studied = Result<(Samples, Vec<Linear>), Result<RunError, TaskError>>;
+/// Answers of all machines, their linear functions, and the numbers that were drawn.
+type Studied = Result<(Samples, Vec<Linear>, Vec<f64>), Result<RunError, TaskError>>;
 
 /// Machines drawn from a file of uncertainties (TOML): `inputs` (n, d), `samples` (n, places, columns), their names, and the linear
 /// function of each column: `nominal` and `deviation` (places, columns), `derivatives` (places, columns, d).
@@ -72,9 +73,10 @@ pub fn tolerance_of_machine<'py>(
     let found: Studied = away(py, &manner, move |course| {
         let samples = monte_carlo(&own, &numbers, &draws, course.as_ref()).map_err(Ok)?;
         let lines = linearised(&own, &numbers).map_err(Err)?;
-        Ok((samples, lines))
+        let inputs = (0..draws.len()).flat_map(|i| numbers.drawn(&draws, i));
+        Ok((samples, lines, inputs.collect()))
     })?;
-    let (samples, lines) = found.map_err(|e| match e {
+    let (samples, lines, inputs) = found.map_err(|e| match e {
         Ok(stopped) => error(Class::Unanswered, stopped.to_string()),
         Err(task) => of_task(&task),
     })?;
@@ -84,8 +86,6 @@ pub fn tolerance_of_machine<'py>(
         .iter()
         .map(|u| u.name.clone())
         .collect();
-    let numbers = read.uncertainties.clone();
-    let inputs = rows(py, draws.len(), move |i| numbers.drawn(&draws, i))?;
     let out = PyDict::new(py);
     out.set_item("inputs", array(py, inputs, [draws.len(), names.len()])?)?;
     out.set_item(

@@ -218,7 +218,7 @@ fn quantities(args: &ToleranceArgs) -> Vec<Quantity> {
 }
 
 fn drawn(option: &str, count: usize, args: &ToleranceArgs, width: usize) -> Answer<Draws> {
-    // An index is told with its confidence, which takes a few draws of each of the sequences.
+    // The confidence interval of an index needs a few draws of each of the sequences.
     let least = if option == "--sobol" { 128 } else { 16 };
     if !(least..=MOST_DRAWS).contains(&count) {
         return Err(Failure::input(format!(

@@ -89,32 +89,30 @@ pub(crate) fn moving_axis(
         let external = &motion.site.external;
         known.resize(known.len().max(external.len()), None);
         for (axis, value) in external.iter().enumerate() {
-            match (known[axis], value) {
-                (None, Some(value)) if may_be_open && has_pose && *value != 0.0 => {
-                    return Some(ProgramError::at(
-                        &files[motion.file],
-                        motion.span.clone(),
-                        format!(
-                            "{} goes to {value}, and the poses before do not state it: the arm stands elsewhere then",
-                            name_of_axis(language, axis)
-                        ),
-                        "state it in all poses, or read with external axes carried if they do not move the arm or the part",
-                    ));
+            let (what, remedy) = match (known[axis], value) {
+                (None, Some(value)) if may_be_open && has_pose && *value != 0.0 => (
+                    format!("goes to {value}, and the poses before do not state it"),
+                    "state it in all poses, or read with external axes carried if they do not move the arm or the part",
+                ),
+                (None, Some(_)) => {
+                    known[axis] = *value;
+                    continue;
                 }
-                (None, Some(_)) => known[axis] = *value,
-                (Some(before), Some(value)) if before != *value => {
-                    return Some(ProgramError::at(
-                        &files[motion.file],
-                        motion.span.clone(),
-                        format!(
-                            "{} moves from {before} to {value}: the arm stands elsewhere then",
-                            name_of_axis(language, axis)
-                        ),
-                        "read with external axes carried if they do not move the arm or the part",
-                    ));
-                }
-                _ => {}
-            }
+                (Some(before), Some(value)) if before != *value => (
+                    format!("moves from {before} to {value}"),
+                    "read with external axes carried if they do not move the arm or the part",
+                ),
+                _ => continue,
+            };
+            return Some(ProgramError::at(
+                &files[motion.file],
+                motion.span.clone(),
+                format!(
+                    "{} {what}: the arm stands elsewhere then",
+                    name_of_axis(language, axis)
+                ),
+                remedy,
+            ));
         }
         has_pose |= motion.target.pose().is_some();
     }

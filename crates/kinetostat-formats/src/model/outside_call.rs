@@ -1,4 +1,4 @@
-//! Calls of what is in none of the files: it may move the tool, and nobody sees it.
+//! Calls of what is in none of the files: they may move the tool, and how is not known here.
 
 use std::collections::BTreeMap;
 

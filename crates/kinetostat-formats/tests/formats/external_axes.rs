@@ -269,7 +269,7 @@ fn pieces_of_a_caller() {
     }
 }
 
-/// Where the axis stands at the poses before, nobody says.
+/// The poses before do not state where the axis stands.
 #[test]
 fn an_axis_that_is_first_stated_in_the_middle_is_refused_as_one_that_moves() {
     for (case, moves) in [

@@ -163,7 +163,7 @@ impl<'a> Steps<'a> {
         };
         match DirectedMove::of(motion).is_none_or(says) {
             true => Ok(anew),
-            // Short blocks are told; ends elsewhere would say other angles of the axes.
+            // Short blocks are warned of; other ends would lead to other angles of the axes.
             false => Ok(steps),
         }
     }
