@@ -110,11 +110,15 @@ fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
         }
         _ => refuse(&format!("cannot be read: {error}")),
     })?;
+    // The size that the system tells is checked first: nothing of a huge file is read.
+    let told = file.metadata().map_or(0, |about| about.len());
     let mut bytes = Vec::new();
-    file.take(most + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| refuse(&format!("cannot be read: {error}")))?;
-    if bytes.len() as u64 > most {
+    if told <= most {
+        file.take(most + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| refuse(&format!("cannot be read: {error}")))?;
+    }
+    if told.max(bytes.len() as u64) > most {
         return Err(refuse(&format!(
             "is larger than {} MB, which no {what} is",
             most >> 20

@@ -34,12 +34,12 @@ pub(crate) fn read_text(path: &Path, file: &str) -> Result<String, ModelError> {
         };
         refuse(message, help)
     })?;
-    if bytes.len() > MOST_BYTES {
+    let Some(bytes) = bytes else {
         return Err(refuse(
             "the file is larger than 16 MB, which no model file is".into(),
             "name a model file in TOML",
         ));
-    }
+    };
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(refuse(
             "the file is written in UTF-16".into(),
@@ -73,10 +73,14 @@ pub(crate) fn read_text(path: &Path, file: &str) -> Result<String, ModelError> {
     Ok(text)
 }
 
-fn read(path: &Path) -> std::io::Result<Vec<u8>> {
+/// The bytes of a file, or nothing where there are more than a model has. The size that the system
+/// tells is checked first: nothing of a huge file is read.
+fn read(path: &Path) -> std::io::Result<Option<Vec<u8>>> {
+    let file = File::open(path)?;
+    if file.metadata()?.len() > MOST_BYTES as u64 {
+        return Ok(None);
+    }
     let mut bytes = Vec::new();
-    File::open(path)?
-        .take(MOST_BYTES as u64 + 1)
-        .read_to_end(&mut bytes)?;
-    Ok(bytes)
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() <= MOST_BYTES).then_some(bytes))
 }
