@@ -29,6 +29,8 @@ import subprocess
 import sys
 import tempfile
 
+from linuxcnc_tools import environment_with_tools, load_tools
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MM = 25.4
 PLACE_MM = 1e-6
@@ -105,6 +107,7 @@ class Canon:
 
 def worker(parameter_file):
     """Reads names of programs from the standard input, writes one line of JSON for each."""
+    load_tools()
     import gcode  # LinuxCNC's; only ever loaded in this process
 
     for name in sys.stdin.read().splitlines():
@@ -145,9 +148,10 @@ def linuxcnc_python():
 def ask_linuxcnc(python, names, parameters):
     answers = {}
     left = list(names)
+    environment = environment_with_tools(parameters.resolve().parent, dict.fromkeys(range(1, 100), 0.0))
     while left:
         done = subprocess.run(
-            [python, __file__, "--worker", str(parameters)], input="\n".join(left), capture_output=True, text=True
+            [python, __file__, "--worker", str(parameters)], input="\n".join(left), capture_output=True, text=True, env=environment
         )
         lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{"file"')]
         for answer in lines:

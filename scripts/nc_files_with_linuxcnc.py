@@ -16,8 +16,6 @@ difference, a row that is no longer true, or a file that is refused without a re
 import argparse
 import collections
 import csv
-import ctypes
-import glob
 import json
 import os
 import pathlib
@@ -26,6 +24,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+from linuxcnc_tools import environment_with_tools, load_tools
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "docs" / "linuxcnc-nc_files.csv"
@@ -126,11 +126,6 @@ class Canon:
         return 0
 
 
-def libraries(pattern):
-    folders = os.environ.get("LD_LIBRARY_PATH", "").split(":") + ["/usr/lib"]
-    return [name for folder in folders if folder for name in sorted(glob.glob(f"{folder}/{pattern}"))]
-
-
 def worker(folder, diameters):
     """One program for each line of the standard input: name, tab, folders of subprograms."""
     name, subprograms = sys.stdin.read().rstrip("\n").split("\t")
@@ -145,10 +140,7 @@ def worker(folder, diameters):
         f"[EMCIO]\nTOOL_TABLE = {folder}/tool.tbl\n[TRAJ]\nCOORDINATES = X Y Z A B C U V W\nLINEAR_UNITS = mm\n"
     )
     os.environ["INI_FILE_NAME"] = str(ini)
-    for library in libraries("libtooldata.so.0"):
-        # Without the tools in memory every M6 and G43 ends the process.
-        ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)._Z14tool_mmap_userv()
-        break
+    load_tools()
     import gcode  # LinuxCNC's; only ever loaded in this process
 
     canon = Canon(str(parameters), diameters)
@@ -172,21 +164,7 @@ def linuxcnc_python():
 class LinuxCnc:
     def __init__(self, python, folder, diameters):
         self.python, self.folder, self.diameters = python, folder, diameters
-        home = folder / "home"
-        home.mkdir(parents=True, exist_ok=True)
-        table = folder / "tool.tbl"
-        table.write_text("".join(f"T{n} P{n} D{d} Z0\n" for n, d in sorted(diameters.items())))
-        (folder / "empty.ngc").write_text("M2\n")
-        self.environment = dict(os.environ, HOME=str(home))
-        if rs274 := self.standalone():
-            # It leaves the memory of the tools behind (`.tool.mmap`).
-            command = [rs274, "-g", "-t", str(table), str(folder / "empty.ngc")]
-            subprocess.run(command, env=self.environment, cwd=folder, capture_output=True, timeout=60)
-
-    @staticmethod
-    def standalone():
-        nearby = [str(pathlib.Path(name).parent.parent / "bin") for name in libraries("librs274.so.0")]
-        return shutil.which("rs274", path=os.pathsep.join([os.environ.get("PATH", ""), *nearby]))
+        self.environment = environment_with_tools(folder, diameters)
 
     def ask(self, name, subprograms):
         command = [self.python, __file__, "--worker", str(self.folder), json.dumps(self.diameters)]

@@ -18,9 +18,16 @@ def _shape(shape: tuple[Any, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
 
 
+def masked(value: Any) -> bool:
+    """Whether entries are masked, in lists of arrays too: numpy would take what is behind the mask."""
+    if isinstance(value, np.ma.MaskedArray):
+        return bool(np.asarray(value.mask).any())
+    return isinstance(value, (list, tuple)) and any(map(masked, value))
+
+
 def numbers(name: str, value: ArrayLike) -> Floats:
     """As C-contiguous, aligned float64; refuses complex numbers, text, objects and what is ragged."""
-    if isinstance(value, np.ma.MaskedArray) and np.asarray(value.mask).any():
+    if masked(value):
         raise ArgumentError(f"{name} has masked entries: fill or leave them out")
     try:
         given = np.asarray(value)

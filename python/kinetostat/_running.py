@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import re
 import tempfile
 import warnings
 from collections.abc import Callable, Sequence
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from kinetostat import _core
+from kinetostat._arrays import masked, thread_count
 from kinetostat.errors import ArgumentError, ToleranceMissedWarning, UnansweredError
 from kinetostat.machine import Machine
 
@@ -64,6 +66,8 @@ def _words(value: Any) -> list[str]:
         raise ArgumentError(f"{value} is no value of an option")
     if isinstance(value, (int, float, np.integer, np.floating)):
         return [repr(value.item() if isinstance(value, np.generic) else value)]
+    if not isinstance(value, (str, os.PathLike)):
+        raise ArgumentError(f"{value!r} ({type(value).__name__}) is no value of an option: give numbers, text or paths")
     return [os.fspath(value)]
 
 
@@ -72,6 +76,8 @@ def _option(name: str, value: Any) -> list[str]:
         return []
     if value is True:
         return [name]
+    if masked(value):
+        raise ArgumentError(f"{name or 'argument'} has masked entries: fill or leave them out")
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 0:
             raise ArgumentError(f"{name or 'argument'} is empty")
@@ -87,8 +93,9 @@ def _option(name: str, value: Any) -> list[str]:
     return [word for inner in value for word in _option(name, inner)]
 
 
-def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder: str) -> list[str]:
-    words = list(command)
+def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder: str) -> tuple[list[str], dict[str, str]]:
+    """Words of the command line, and which files of the folder stand for which machines."""
+    words, names = list(command), {}
     for index, (name, value) in enumerate(options):
         if isinstance(value, Machine):
             if not np.array_equal(value.tool, np.eye(4)):
@@ -96,9 +103,10 @@ def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder
             path = os.path.join(folder, f"model-{index}.toml")
             with open(path, "w", encoding="utf-8", newline="\n") as file:
                 file.write(value.text)
+            names[path] = value.name
             value = path
-        words += _option(name, value)
-    return words
+        words += _option(name, thread_count(value) if name == "--threads" else value)
+    return words, names
 
 
 def _done(
@@ -108,12 +116,19 @@ def _done(
     extra: Sequence[str],
 ) -> Completed:
     with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
-        done = run([*_in_words(command, options, folder), *extra], progress)
+        words, names = _in_words(command, options, folder)
+        done = run([*words, *extra], progress)
+    # A file that is gone is no name of a machine.
+    for path, name in names.items():
+        in_json = json.dumps(name)[1:-1] if extra else name
+        out = done.out.replace(path.encode(), in_json.encode())
+        done = dataclasses.replace(done, out=out, err=done.err.replace(path, name))
     message = done.err.strip()
     at = message.rfind("error: ")
     reason = message[at + 7 :] if at >= 0 else message
     if done.code == _WRONG_INPUT:
-        raise ArgumentError(reason)
+        # Options have the names of arguments here, with _ for -.
+        raise ArgumentError(re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), reason))
     if done.code == _TOLERANCE_MISSED:
         warnings.warn(reason, ToleranceMissedWarning, stacklevel=4)
     elif done.code != 0 and not (done.code == _UNANSWERED and done.out.startswith(b"{")):

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from kinetostat._arrays import Floats
+from kinetostat._arrays import Floats, numbers
 from kinetostat.errors import ArgumentError
 
-__all__ = ["text_of"]
+__all__ = ["in_words_of_python", "stiffness_table", "text_of"]
 
 _WRITERS = ("write_xml_string", "to_xml_string")
 _UNIT = 1e-12
+_STIFFNESS_UNITS = ("N m/rad", "N mm/rad", "N m/deg", "N/m", "N/mm", "N/um")
 _ENDLESS = 1e300
 """Pinocchio writes the largest number where a joint has no limit."""
 
@@ -138,3 +141,20 @@ def _roll_pitch_yaw(matrix: Floats) -> Floats:
     if flat < 1e-9:
         return np.array([0.0, pitch, math.atan2(-matrix[0, 1], matrix[1, 1])])
     return np.array([math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])])
+
+
+def stiffness_table(stiffness: Mapping[str, tuple[float, str]]) -> str:
+    """Stiffness of joints by name as a table of text with units."""
+    lines = ["name,value,unit"]
+    for name, given in stiffness.items():
+        pair = given if isinstance(given, (tuple, list)) else ()
+        if len(pair) != 2 or pair[1] not in _STIFFNESS_UNITS:
+            told = f"stiffness[{name!r}] is {given!r}, expected a value and its unit as (2e5, 'N m/rad')"
+            raise ArgumentError(f"{told}; units: {', '.join(_STIFFNESS_UNITS)}")
+        lines.append(f"{name},{float(numbers(f'stiffness[{name!r}]', pair[0]))!r},{pair[1]}")
+    return "\n".join([*lines, ""])
+
+
+def in_words_of_python(text: str) -> str:
+    """Options of the command line as arguments of :meth:`Machine.from_urdf`."""
+    return re.sub(r"--(base|tip|home|passive|joint-stiffness)\b ?(?=(LINK)?)", lambda m: m[1].removeprefix("joint-") + "=", text)

@@ -369,6 +369,8 @@ def curve(
     """
     if (displacement is not None and direction is None) or (turn is not None and about is None):
         raise ArgumentError("displacement goes with direction, turn with about")
+    if all(given is None for given in (direction, about, force, moment)):
+        raise ArgumentError("say what shall grow: direction and displacement, about and turn, or force (moment) and factor")
     answer = commands.curve(
         **place(posture),
         direction=triple("direction", direction),

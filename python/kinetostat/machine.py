@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 import json
 import math
@@ -15,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
-from kinetostat._urdf import text_of
+from kinetostat._document import plain, without_none
+from kinetostat._urdf import in_words_of_python, stiffness_table, text_of
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
 from kinetostat.posture import Posture
@@ -34,6 +34,7 @@ __all__ = ["Actuator", "Machine", "preset_names"]
 Progress = Callable[[int, int, str], object]
 """Called with what is done, how much there is (0: nobody knows) and the name of the stage."""
 
+_BLOCK = 1 << 17
 _DETAILS = ("rest", "stiffness", "stability")
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -162,7 +163,7 @@ class Machine:
         >>> Machine.from_dict(document).name
         'mine'
         """
-        return cls._of(_core.Machine.from_json(json.dumps(_plain(document), allow_nan=True), file))
+        return cls._of(_core.Machine.from_json(json.dumps(plain(document), allow_nan=True), file))
 
     @classmethod
     def from_urdf(
@@ -192,13 +193,19 @@ class Machine:
         home : mapping, optional
             Where joints stand at home: ``{"joint": ("revolute", 0.5)}``, rad or m.
         stiffness : float or mapping, optional
-            One stiffness for all drives that turn, N m/rad, or by joint with its unit: ``{"joint": (2e5, "N m/rad")}``. Drives
-            without one are rigid.
+            One stiffness for all drives that turn, N m/rad, or by joint with its unit: ``{"joint": (2e5, "N m/rad")}``; units are
+            N m/rad, N mm/rad, N m/deg, N/m, N/mm, N/um. Drives without one are rigid.
 
         Returns
         -------
         Machine
             What was skipped or looks wrong is in :attr:`warnings`.
+
+        Notes
+        -----
+        The ``effort`` of a ``<limit>`` is not taken as the rating of a drive: it is the largest effort that a controller may ask for,
+        often 0 or a placeholder, and programs that need more than a rating are refused. Where it is the true one, add
+        ``rated_torque_n_m`` or ``rated_force_n`` to the actuator in :meth:`to_dict`, and read that with :meth:`from_dict`.
 
         Examples
         --------
@@ -213,13 +220,13 @@ class Machine:
         -0.0005
         """
         text, file, gravity = text_of(robot)
-        table = None
-        if isinstance(stiffness, Mapping):
-            lines = [f"{name},{value!r},{unit}" for name, (value, unit) in stiffness.items()]
-            table = "\n".join(["name,value,unit", *lines, ""])
+        table = stiffness_table(stiffness) if isinstance(stiffness, Mapping) else None
         stands = {name: (kind == "revolute", at) for name, (kind, at) in (home or {}).items()}
         single = None if isinstance(stiffness, Mapping) else stiffness
-        toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
+        try:
+            toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
+        except ModelError as wrong:
+            raise ModelError(in_words_of_python(str(wrong))) from None
         made = cls._of(_core.Machine.from_toml(toml, file))
         if gravity is None:
             return made
@@ -306,7 +313,7 @@ class Machine:
         >>> Machine.preset("two_link").to_dict()["mechanism"]["name"]
         'two_link'
         """
-        found: dict[str, Any] = _without_none(json.loads(self._native.to_json()))
+        found: dict[str, Any] = without_none(json.loads(self._native.to_json()))
         return found
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -443,8 +450,12 @@ class Machine:
             raise ArgumentError(f"poses has shape {given.shape}, expected (..., 4, 4), or positions (..., 3)")
         places, leading = rows("poses", given, (3,))
         out = np.empty((len(places), 4, 4))
-        out[:] = self._native.home_pose()
-        out[:, :3, 3] = places
+        home = self._native.home_pose()
+        # In blocks: Ctrl-C waits for numpy, and to fill a gigabyte takes seconds.
+        for first in range(0, len(out), _BLOCK):
+            block = slice(first, first + _BLOCK)
+            out[block] = home
+            out[block, :3, 3] = places[block]
         return out, leading
 
     def stiffness(
@@ -772,8 +783,9 @@ class Machine:
         return self
 
     def __repr__(self) -> str:
-        count = len(self._native.actuators())
-        return f"<Machine '{self.name}' ({self.file}): {len(self.limbs)} limbs, {count} actuators>"
+        limbs, actuators = len(self.limbs), len(self._native.actuators())
+        counts = f"{limbs} limb{'s' * (limbs != 1)}, {actuators} actuator{'s' * (actuators != 1)}"
+        return f"<Machine '{self.name}' ({self.file}): {counts}>"
 
 
 def _restored(text: str, file: str, tool: Floats) -> Machine:
@@ -784,26 +796,3 @@ def _restored(text: str, file: str, tool: Floats) -> Machine:
 
 def _shaped(array: NDArray[Any], leading: tuple[int, ...]) -> NDArray[Any]:
     return array.reshape(leading + array.shape[1:])
-
-
-def _without_none(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _without_none(inner) for key, inner in value.items() if inner is not None}
-    if isinstance(value, list):
-        return [_without_none(inner) for inner in value]
-    return value
-
-
-def _plain(value: Any, at: str = "") -> Any:
-    """Arrays and numbers of numpy as plain ones, without None."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(inner, f"{at}.{key}" if at else str(key)) for key, inner in value.items() if inner is not None}
-    if isinstance(value, (list, tuple)):
-        return [_plain(inner, f"{at}[{index}]") for index, inner in enumerate(value)]
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist(), at)
-    if isinstance(value, np.generic):
-        return _plain(value.item(), at)
-    if isinstance(value, float) and not np.isfinite(value):
-        raise ModelError(f"{at} is {value}: give a finite number")
-    return copy.copy(value)

@@ -176,7 +176,7 @@ class Equilibrium:
 
     @property
     def compliance(self) -> Floats:
-        """(6, 6): its inverse within the directions that are neither free nor rigid."""
+        """(6, 6): inverse of :attr:`stiffness` within the directions that are neither free nor rigid; m/N, m/(N m); rad/N, rad/(N m)."""
         return self._native.compliance
 
     @property
@@ -388,7 +388,7 @@ class Posture:
         return EquilibriumProblem(self, wrench)
 
     def curve(self, **question: Any) -> ForceCurve:
-        """Force against displacement; see :func:`kinetostat.curves.curve`.
+        """Force against displacement, or displacement by a load that grows; see :func:`kinetostat.curves.curve` for what can be asked.
 
         Examples
         --------
@@ -402,7 +402,7 @@ class Posture:
         return curve(self, **question)
 
     def shapes(self, **question: Any) -> Shapes:
-        """All equilibria; see :func:`kinetostat.shapes.shapes`.
+        """All equilibria with the tool at a place or under a load; see :func:`kinetostat.shapes.shapes` for what can be asked.
 
         Examples
         --------

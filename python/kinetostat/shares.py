@@ -138,6 +138,8 @@ class Sensitivity:
     compliance: float
     stiffness: float
     share_to_buckling: float | None
+    """Of the limb that is nearest to buckling; None without a load that buckles, and where limbs (or shapes of one) are equally near and
+    the number changes them differently: the share has no derivative there, only one to each side."""
     stiffness_by_percent: float
     """Relative change of the stiffness by 1 % more of the number."""
 
@@ -346,7 +348,7 @@ def sensitivities(
     Returns
     -------
     list of Sensitivity
-        Numbers without an effect are left out.
+        Numbers that change none of displacement, stiffness and share of the way to buckling are left out.
 
     Raises
     ------

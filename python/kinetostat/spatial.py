@@ -43,6 +43,8 @@ def pose(position: ArrayLike = (0.0, 0.0, 0.0), rotation: ArrayLike | None = Non
     array([0.1, 0. , 0.5])
     """
     places = fitting("position", position, (3,))
+    if rotation is not None and np.shape(rotation) == (3,):
+        raise ArgumentError("rotation has shape (3,), expected (..., 3, 3): of a rotation vector, rad, rotation_from_vector makes one")
     turns = fitting("rotation", np.eye(3) if rotation is None else rotation, (3, 3))
     _check_rotations(turns)
     leading = np.broadcast_shapes(places.shape[:-1], turns.shape[:-2])

@@ -128,4 +128,5 @@ plt.show()
 #
 # - `stiffness.matrix[1, 1]`: across the line it is zero without a load, as the report says, but not under one.
 # - `small.latex()`, `.rust()`, `.python()`.
-# - `symbolic.from_machine(machine)` names the parts of a machine of one limb; `symbolic.beam()` and `with_passive_joint` give Tables 3.1 to 3.3.
+# - `chain.stiffness(steps=True)` for arms of more joints: named intermediate results instead of one formula that no computer simplifies.
+# - `symbolic.from_machine(machine)` names the parts of a machine of one limb, `limb=` those of one of several; `symbolic.beam()` and `with_passive_joint` give Tables 3.1 to 3.3.

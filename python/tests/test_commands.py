@@ -55,3 +55,15 @@ def test_wrong_input_and_no_answer_are_errors():
     with pytest.raises(ks.KinetostatError):
         ks.commands.stiffness("orthoglide", at=[1e9, 0, 0])
     assert ks.commands.run(["stiffness", "no_such_machine"]).code == 1
+
+
+def test_machines_are_named_as_themselves_not_as_files_that_are_gone():
+    machine = ks.Machine.preset("orthoglide")
+    found = ks.commands.compare(machine, "puu3")
+    assert (found["a"], found["b"]) == ("orthoglide", "puu3")
+    document = machine.to_dict()
+    document["mechanism"]["name"] = 'my "own" machine'
+    assert ks.commands.compare("puu3", ks.Machine.from_dict(document))["b"] == 'my "own" machine'
+    with pytest.raises(ks.KinetostatError) as refused:
+        ks.commands.stiffness(machine, at=[9000, 0, 0])
+    assert "kinetostat-" not in str(refused.value)

@@ -59,15 +59,15 @@ CALLS = {
 }
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_ctrl_c(name, tmp_path):
+def interrupted_after(name, folder):
+    """Seconds from Ctrl-C to ``KeyboardInterrupt`` of a call that runs in a process and a folder of its own, which it leaves empty."""
     before, call = CALLS[name]
     child = subprocess.Popen(
         [sys.executable, "-c", CHILD.format(before=before, call=call)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        cwd=tmp_path,
+        cwd=folder,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(os.path.abspath(path) for path in sys.path if path)},
     )
     try:
@@ -84,9 +84,14 @@ def test_ctrl_c(name, tmp_path):
     word, at = first.split()
     assert word == "interrupted", (out, err)
     assert second == "answers"
-    left = {path.name for path in tmp_path.iterdir()} - {"spread.toml", "long.ngc"}
+    left = {path.name for path in folder.iterdir()} - {"spread.toml", "long.ngc"}
     assert not left, f"half written: {left}"
-    seconds = float(at) - sent
+    return float(at) - sent
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_ctrl_c(name, tmp_path):
+    seconds = interrupted_after(name, tmp_path)
     print(f"{name}: KeyboardInterrupt after {seconds:.3f} s, 0.5 s are asked for")
     # Other programs of this machine take their time too.
     assert seconds < 3.0

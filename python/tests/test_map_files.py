@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import kinetostat as ks
 from kinetostat import _core
 
 PLACES = ["--x", "-60", "60", "9", "--y", "-60", "60", "7", "--z", "-20", "20", "5"]
@@ -107,3 +108,11 @@ def test_variables_against_numpy() -> None:
         rates[:, :, k] = (up - down) / (2 * step)
     values = np.linalg.svd(rates, compute_uv=False)
     np.testing.assert_allclose(own["singularity_distance"], values[:, 2] / values[:, 0], rtol=1e-6)
+
+
+def test_other_endings_of_vtk_files_are_refused_in_words(tmp_path):
+    pytest.importorskip("meshio")
+    found = ks.Machine.preset("orthoglide").map(x=[0.0, 0.01])
+    with pytest.raises(ks.ArgumentError, match=r"map\.vtr', expected an ending of \.vtu, \.vtk"):
+        ks.maps.to_vtk(found, tmp_path / "map.vtr")
+    assert list(tmp_path.iterdir()) == []

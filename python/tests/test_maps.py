@@ -364,3 +364,19 @@ def test_which_value_is_worse_is_told_by_the_core():
         "principal_directions": "neither",
     }
     assert {name: worse[name] for name in known} == known
+
+
+def test_two_maps_in_one_figure_have_legends_of_their_own():
+    pyplot = pytest.importorskip("matplotlib.pyplot", reason="matplotlib (extra plot) is not installed")
+    x = np.linspace(-0.05, 0.05, 5)
+    found = ks.Machine.preset("orthoglide").map(x=x, y=x)
+    figure, (left, right) = pyplot.subplots(1, 2, layout="constrained", figsize=(10, 5))
+    for ax, variable in ((left, "stiffness_softest"), (right, "stiffness_x")):
+        ks.maps.plot(found, variable, ax=ax)
+    texts = [[text.get_text() for text in ax.get_legend().get_texts()] for ax in (left, right)]
+    assert figure.legends == []
+    assert [len(own) for own in texts] == [2, 2]
+    assert texts[0] != texts[1]
+    alone = ks.maps.plot(found, "stiffness_softest")
+    assert len(alone.figure.legends) == 1
+    pyplot.close("all")

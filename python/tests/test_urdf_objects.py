@@ -107,3 +107,54 @@ def test_what_no_urdf_says_is_refused(pin):
 def test_other_objects_are_refused_in_words():
     with pytest.raises(ks.ArgumentError, match="robot is a dict, expected a path"):
         ks.Machine.from_urdf({})
+
+
+def test_efforts_are_no_ratings_and_ratings_can_be_added():
+    machine = ks.Machine.from_urdf(URDF, stiffness=STIFFNESS)
+    assert [a.rating for a in machine.actuators] == [None] * 3
+    document = machine.to_dict()
+    (chain,) = document["chain"].values()
+    next(e for e in chain["elements"] if e.get("name") == "j1")["rated_torque_n_m"] = 500.0
+    assert [a.rating for a in ks.Machine.from_dict(document).actuators] == [500.0, None, None]
+
+
+CRANE = """<robot name="crane"><link name="post"/>
+<joint name="shoulder" type="revolute"><parent link="post"/><child link="boom"/><origin xyz="0 0 1.5"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="0" velocity="1"/></joint>
+<link name="boom"><inertial><origin xyz="0.5 0.2 0.1"/><mass value="3"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="elbow" type="revolute"><parent link="boom"/><child link="jib"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="0" velocity="1"/></joint>
+<link name="jib"><inertial><origin xyz="0.1 -0.3 0"/><mass value="2"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="end" type="fixed"><origin xyz="0.7 0 0"/><parent link="jib"/><child link="hook"/></joint><link name="hook"/></robot>"""
+
+
+def test_lines_of_limbs_run_from_joint_to_joint():
+    (line,) = ks.Machine.from_urdf(CRANE, tip="hook").posture(joints=[0.0, 0.0]).limb_lines()
+    np.testing.assert_allclose(line, [[0, 0, 0], [0, 0, 1.5], [1, 0, 1.5], [1.7, 0, 1.5]], rtol=0, atol=1e-12)
+    # A preset: shoulder, elbow and wrist once each, and no centre of mass between them.
+    (arm,) = ks.Machine.preset("heavy_6r").posture().limb_lines()
+    assert len(arm) == len(np.unique(arm.round(9), axis=0)) == 7
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "words"),
+    [
+        ({"shoulder": 2e5}, r"stiffness\['shoulder'\] is 200000.0, expected a value and its unit as \(2e5, 'N m/rad'\)"),
+        ({"shoulder": (2e5, "Nm")}, "units: N m/rad, N mm/rad"),
+        ({"shoulder": ("stiff", "N m/rad")}, r"stiffness\['shoulder'\] has dtype"),
+    ],
+)
+def test_stiffnesses_without_units_are_refused_in_words(stiffness, words):
+    with pytest.raises(ks.ArgumentError, match=words):
+        ks.Machine.from_urdf(CRANE, tip="hook", stiffness=stiffness)
+
+
+def test_what_is_to_do_is_said_in_the_arguments_of_python():
+    forked = CRANE.replace(
+        "</robot>", '<link name="sign"/><joint name="nail" type="fixed"><parent link="jib"/><child link="sign"/></joint></robot>'
+    )
+    with pytest.raises(ks.ModelError, match="name it: tip=LINK; links at the ends of the tree are: 'hook', 'sign'"):
+        ks.Machine.from_urdf(forked)
+    assert repr(ks.Machine.from_urdf(forked, tip="hook")).endswith("1 limb, 2 actuators>")

@@ -184,6 +184,17 @@ True
 >>> found["places"]["regular"], found["figures"][0]["unit"]
 (3, 'N/mm')
 """,
+    "mirror": _with_file(
+        "groove.ngc",
+        "G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n",
+        """
+        ...     measured = Path(folder, "trial1.csv")
+        ...     _ = measured.write_text("x_mm,y_mm,z_mm\\n" + "".join(f"{x},0.05,0\\n" for x in range(41)))
+        ...     found = ks.commands.mirror(file, measured=measured, no_register=True, out=Path(folder, "trial2.ngc"))
+        >>> found["outcome"], round(found["left_mm"], 3), round(found["largest_correction_mm"], 3)
+        ('go_on', 0.05, 0.05)
+        """,
+    ),
     "model_compare": """
 >>> import kinetostat as ks
 >>> found = ks.commands.model_compare("heavy_6r", "heavy_6r")

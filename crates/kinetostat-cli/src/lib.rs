@@ -28,6 +28,7 @@ mod import;
 mod job;
 mod machine;
 mod map;
+mod mirror;
 mod model;
 mod options;
 mod place;
@@ -157,6 +158,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Shares(args) => shares::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
+        Command::Mirror(args) => mirror::run(&args),
         Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),

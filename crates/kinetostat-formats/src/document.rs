@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::apt::reader::read_apt;
 use crate::apt::write::write_apt;
 use crate::error::{ProgramError, WriteError};
-use crate::heidenhain::expand::flat::expand_heidenhain;
+use crate::heidenhain::expand::flat::run_or_refused as run_heidenhain;
 use crate::heidenhain::expand::program::called as called_by_heidenhain;
 use crate::heidenhain::reading::reader::read_heidenhain;
 use crate::heidenhain::writing::write::write_heidenhain;
@@ -19,7 +19,7 @@ use crate::poses::reader::read_poses;
 use crate::poses::write::write_poses;
 use crate::rapid::reader::read_rapid;
 use crate::rapid::write::RapidSyntax;
-use crate::siemens::flat::expand_siemens;
+use crate::siemens::flat::run_or_refused as run_siemens;
 use crate::siemens::flat::unresolved::called as called_by_siemens;
 use crate::siemens::reader::read_siemens;
 use crate::siemens::writing::write::write_siemens;
@@ -71,17 +71,24 @@ pub fn read(
 /// ```
 ///
 /// # Errors
-/// What is refused, by line of its file.
+/// All that is refused by the run, and by the reader of what it wrote behind refused lines, in the order of files and lines.
 pub fn expand(
     language: Language,
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<Option<FlatText>, Vec<ProgramError>> {
-    match language {
-        Language::Heidenhain => expand_heidenhain(files, options).map(Some),
-        Language::Siemens => expand_siemens(&files).map(Some),
-        _ => Ok(None),
-    }
+    let done = match language {
+        Language::Heidenhain => run_heidenhain(&files, options),
+        Language::Siemens => run_siemens(&files),
+        _ => return Ok(None),
+    };
+    done.map(Some).map_err(|refused| {
+        refused.with_reading(&files, |flat| {
+            read(language, vec![flat], options)
+                .err()
+                .unwrap_or_default()
+        })
+    })
 }
 
 /// Files of other programs that a program may call, by the names under which controls keep them, each once; of languages whose

@@ -61,6 +61,59 @@ impl ProgramError {
     }
 }
 
+impl ProgramError {
+    /// Shows, of a fault of a program that was written flat, the line of the file that its block came from, where the words that are meant
+    /// do not stand there as they are; `origins` are those of the flat program.
+    ///
+    /// ```
+    /// use kinetostat_formats::{ReadOptions, SourceFile, expand_heidenhain, read_heidenhain};
+    ///
+    /// let files = vec![SourceFile::new("a.h", "BEGIN PGM A MM\nFN 0: Q1 = +5\nL X+Q1 RL F200\nEND PGM A MM\n")];
+    /// let flat = expand_heidenhain(files.clone(), &ReadOptions::default()).unwrap();
+    /// let faults = read_heidenhain(vec![flat.file.clone()], &ReadOptions::default()).unwrap_err();
+    /// let mut fault = faults[0].clone();
+    /// assert_eq!(fault.found, "L X+5 RL F200");
+    /// fault.show_source(&flat.origins, &files);
+    /// assert_eq!(fault.found, "L X+Q1 RL F200");
+    /// ```
+    pub fn show_source(&mut self, origins: &[(usize, usize)], files: &[SourceFile]) {
+        let origin = self.line.checked_sub(1).and_then(|line| origins.get(line));
+        let Some((source, line)) =
+            origin.and_then(|(file, line)| files.get(*file).map(|source| (source, *line)))
+        else {
+            return;
+        };
+        let own = excerpt(source.line(line).unwrap_or_default());
+        let words = self.found.trim_end_matches("...");
+        if !own.is_empty() && !own.contains(words) {
+            self.found = own;
+        }
+    }
+}
+
+impl ProgramError {
+    /// Of a fault of a flat program: the same at the line of the file that it is from.
+    pub(crate) fn at_source(mut self, origins: &[(usize, usize)], files: &[SourceFile]) -> Self {
+        self.show_source(origins, files);
+        let origin = self.line.checked_sub(1).and_then(|line| origins.get(line));
+        if let Some((source, line)) =
+            origin.and_then(|(file, line)| files.get(*file).map(|source| (source, *line)))
+        {
+            let range = source.range_of(line);
+            let found = self.found.as_bytes();
+            let at = source.part(&range).windows(found.len().max(1));
+            let at = at.into_iter().position(|part| part == found);
+            self.span = match at {
+                Some(at) => range.start + at..range.start + at + found.len(),
+                None => range,
+            };
+            self.file = source.name().to_owned();
+            self.line = line;
+        }
+        self
+    }
+}
+
 /// Most errors that are noted of a program: a file of nothing else must not fill the memory.
 const MOST_ERRORS: usize = 100_000;
 

@@ -57,6 +57,7 @@ mod options;
 mod path;
 mod poses;
 mod rapid;
+mod refused_run;
 mod rounding;
 mod siemens;
 mod standing;

@@ -1,4 +1,8 @@
 //! What a language's reader does with each of its statements, as data.
+//!
+//! One rule for what stops a robot: what may make it leave the programmed path, or skip a motion or a part of one, is refused by line
+//! (`RESUME` of KRL and `ClearPath` of RAPID leave motions before their ends); what holds it on the path, after which it goes on there,
+//! is carried (`BRAKE` and `HALT`, `StopMove` with `StartMove`, `Stop`, `PAUSE` of TP programs): the tool cuts where it would have cut.
 
 /// What is done with a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

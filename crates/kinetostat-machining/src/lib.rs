@@ -90,11 +90,11 @@ pub use result::tolerance::{
     MissedTolerance, ToleranceResult, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use result::uncertainty_band::{BandPlace, ScatteredError, UncertainNumber, UncertaintyBand};
-pub use run::compensate::{analyse, compensate_program};
+pub use run::compensate::{analyse, compensate_program, with_model_field};
 pub use run::conclude::{Run, load_description, of_program};
 pub use run::cutting::{cut_places, cutting_result};
 pub use run::places::wrenches_at;
-pub use table::{TableCorrection, correct_by_table, wide_table};
+pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{NoMotion, RunError, Task};
 pub use warning::{Warning, WarningCode};
 pub use watch::{Unwatched, Watch};

@@ -1,8 +1,8 @@
-//! A program corrected from a table of corrections instead of a model.
+//! A program corrected by a field that was not solved along it: a table of corrections, or what was measured.
 
 use kinetostat_program::{
-    Corrected, CorrectionMap, FieldCheck, MachineProgram, Monitor, NoCorrection, Path, WriteError,
-    WriteOptions, verify_against_field,
+    Corrected, CorrectionField, CorrectionMap, FieldCheck, MachineProgram, Monitor, NoCorrection,
+    Path, WriteError, WriteOptions, verify_against_field,
 };
 
 use crate::number::mean_length;
@@ -12,31 +12,31 @@ use kinetostat::number::{larger, smaller};
 
 /// The program as it will be written, and how far it is from the table.
 #[derive(Clone, Debug)]
-pub struct TableCorrection {
+pub struct FieldCorrection {
     /// The program with its corrections, or without any where it keeps the tolerance as it is.
     pub written: Corrected,
-    /// Its distance from the table, and that of the program as it is.
+    /// Its distance from the field, and that of the program as it is.
     pub against: FieldCheck,
     /// As it is, it keeps the tolerance.
     pub keeps_as_it_is: bool,
-    /// The largest correction that the table asks for, mm, and its line; written or not.
+    /// The largest correction that the field asks for, mm, and its line; written or not.
     pub largest_correction: (f64, Option<usize>),
 }
 
-/// Corrects a program by a table, or leaves it as it is where that keeps the tolerance: what is written could be farther off.
+/// Corrects a program by a field, or leaves it as it is where that keeps the tolerance: what is written could be farther off.
 ///
 /// # Errors
 /// As [`MachineProgram::write`].
-pub fn correct_by_table(
+pub fn correct_by_field(
     program: &dyn MachineProgram,
-    field: &CorrectionMap,
+    field: &dyn CorrectionField,
     writing: &WriteOptions,
     monitor: &dyn Monitor,
-) -> Result<TableCorrection, WriteError> {
+) -> Result<FieldCorrection, WriteError> {
     let written = program.write(field, writing, monitor)?;
     let against = verify_against_field(program.path(), &written, field, writing, monitor)?;
     let a = &written.accounting;
-    let mut made = TableCorrection {
+    let mut made = FieldCorrection {
         keeps_as_it_is: written.bytes != program.bytes()
             && tolerance::keeps_as_it_is(
                 against.before.distance_mm.max(against.before_at_ends_mm),

@@ -68,7 +68,7 @@ fn named(names: &[String], loaded: bool) -> PyResult<Vec<Variable>> {
         if variable.needs_load() && !loaded {
             return Err(error(
                 Class::Argument,
-                format!("variables: '{name}' needs a load; give wrenches (zeros are one, too)"),
+                format!("variables: '{name}' needs a load: give loads (zeros are one, too)"),
             ));
         }
         if chosen.contains(&variable) {

@@ -83,7 +83,7 @@ def plot(
     levels : int
         Number of isolines.
     ax : matplotlib Axes, optional
-        Where to draw; a new figure without it.
+        Where to draw, with a legend of its own below; a new figure without it.
 
     Returns
     -------
@@ -113,7 +113,8 @@ def plot(
         import matplotlib.pyplot as pyplot
     except ImportError as absent:
         raise ImportError("pictures need matplotlib: pip install 'kinetostat[plot]'") from absent
-    ax = ax if ax is not None else pyplot.subplots(layout="constrained")[1]
+    own = ax is None
+    ax = pyplot.subplots(layout="constrained")[1] if own else ax
     unit = str(found[variable].attrs.get("units", about.unit))
     scale, shown = _SCALES.get(unit, (1.0, unit))
     label = f"{variable}" + ("" if shown == "1" else f", {shown}")
@@ -130,6 +131,7 @@ def plot(
             _outline(ax, machine, dims)
     _ends(ax, found, variable, dims, scale, shown)
     fixed = ", ".join(f"{name} = {float(found[name]) * 1e3:g} mm" for name in "xyz" if name not in dims and name in found.coords)
+    _legend(ax, own)
     ax.set_title(f"{found.attrs.get('machine', '')}" + (f" ({fixed})" if fixed else ""))
     return ax
 
@@ -181,7 +183,16 @@ def _ends(ax: Any, found: xarray.Dataset, variable: str, dims: list[str], scale:
             zorder=5,
             clip_on=False,
         )
-    ax.figure.legend(loc="outside lower center", ncols=3, fontsize="small", frameon=False)
+
+
+def _legend(ax: Any, own: bool) -> None:
+    """Below the picture: of the figure where that is all ours, else of the axes alone, for another map may be drawn beside it."""
+    handles, labels = ax.get_legend_handles_labels()
+    how: dict[str, Any] = {"fontsize": "small", "frameon": False, "handles": handles, "labels": labels}
+    if own:
+        ax.figure.legend(loc="outside lower center", ncols=3, **how)
+    elif handles:
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2, **how)
 
 
 def _outline(ax: Any, machine: Machine, dims: list[str]) -> None:

@@ -96,8 +96,10 @@ def asked(
 
 def _axis(name: str, value: ArrayLike) -> Floats:
     given = numbers(name, value)
-    if given.ndim > 1 or given.size == 0 or not np.all(np.isfinite(given)):
-        raise ArgumentError(f"{name} has shape {given.shape}, expected one finite number or some (n,), m")
+    if not np.all(np.isfinite(given)):
+        raise ArgumentError(f"{name} holds {float(given[~np.isfinite(given)][0])}: give finite numbers, m")
+    if given.ndim > 1 or given.size == 0:
+        raise ArgumentError(f"{name} has shape {given.shape}, expected one number or some (n,), m")
     if given.ndim == 1 and given.size > 1 and not (np.all(np.diff(given) > 0) or np.all(np.diff(given) < 0)):
         raise ArgumentError(f"{name} must grow or fall from place to place")
     return given

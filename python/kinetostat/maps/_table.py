@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["to_parquet", "to_vtk"]
 
 _ROWS = 65536
+_VTK = (".vtu", ".vtk", ".xdmf", ".xmf")
 
 
 def to_parquet(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
@@ -68,6 +69,11 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     path : path
         File to write.
 
+    Raises
+    ------
+    ArgumentError
+        The path has another ending.
+
     Examples
     --------
     >>> import tempfile, os
@@ -80,6 +86,8 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         import meshio
     except ImportError as absent:
         raise ImportError("VTK files are written by meshio: pip install 'kinetostat[io]'") from absent
+    if os.path.splitext(path)[1].lower() not in _VTK:
+        raise ArgumentError(f"path is {os.fspath(path)!r}, expected an ending of {', '.join(_VTK)}")
     axes = grid_axes(found)
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     kind, cells = _cells([len(axis) for axis in axes])

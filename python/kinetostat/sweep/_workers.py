@@ -45,7 +45,7 @@ def compute(plan: Plan, todo: Iterable[int], executor: Workers, under_way: int |
     if isinstance(executor, Executor):
         _Pool(plan, todo, executor, None, under_way, keep).work()
         return
-    made = executor()
+    made = _made(executor)
     pool = _Pool(plan, todo, made, executor, under_way, keep)
     try:
         pool.work()
@@ -53,6 +53,15 @@ def compute(plan: Plan, todo: Iterable[int], executor: Workers, under_way: int |
         _give_up(pool.executor)
         raise
     pool.executor.shutdown()
+
+
+def _made(make: Callable[[], Executor]) -> Executor:
+    """What a function makes; refused where it is no executor."""
+    made = make()
+    if not isinstance(made, Executor):
+        told = f"executor() made {made!r} ({type(made).__name__}), expected an executor of concurrent.futures"
+        raise ArgumentError(f"{told}, as lambda: ProcessPoolExecutor(4) makes one")
+    return made
 
 
 def _give_up(executor: Executor) -> None:
@@ -144,7 +153,7 @@ class _Pool:
                 f"under way: {indices}"
             ) from lost
         _give_up(self.executor)
-        self.executor = self.make()
+        self.executor = _made(self.make)
 
     def _keep_finished(self) -> None:
         """Keeps what came back and waits in the queue; the rest is not waited for."""

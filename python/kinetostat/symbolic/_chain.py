@@ -9,9 +9,10 @@ from typing import Any, Literal, TypeAlias
 import sympy as sp
 
 from kinetostat.errors import ArgumentError
+from kinetostat.symbolic._condensed import Bordered, condensed
 from kinetostat.symbolic._expression import Formula, Stiffness
 from kinetostat.symbolic._linear import UnsolvableError, solved
-from kinetostat.symbolic._links import hat
+from kinetostat.symbolic._placement import rotation
 
 __all__ = ["Chain"]
 
@@ -53,12 +54,6 @@ def neat(entry: sp.Expr) -> sp.Expr:
     """Short formulas simplified; long ones as they are, for that takes minutes."""
     short = sp.count_ops(entry) <= 16 and len(entry.free_symbols) <= 3
     return sp.trigsimp(entry) if short else entry
-
-
-def rotation(axis: sp.Matrix, angle: sp.Expr) -> sp.Matrix:
-    """Rotation about a unit axis (Rodrigues)."""
-    cross = hat(axis)
-    return sp.eye(3) + sp.sin(angle) * cross + (1 - sp.cos(angle)) * cross * cross
 
 
 class Chain:
@@ -142,8 +137,23 @@ class Chain:
         >>> Chain().turn("z", sp.pi / 2).move("L").end.T
         Matrix([[0, L, 0]])
         """
-        self._turn = (self._turn * rotation(_axis(axis), _formula(angle))).applyfunc(neat)
+        return self._turned(rotation(_axis(axis), _formula(angle)))
+
+    def _turned(self, by: sp.Matrix) -> Chain:
+        self._turn = (self._turn * by).applyfunc(neat)
         return self
+
+    def place(self, position: Sequence[Expression], rotation: sp.Matrix) -> Chain:
+        """A rigid offset (m) and, behind it, a rotation matrix: a pose in the axes at this place of the chain.
+
+        Examples
+        --------
+        >>> Chain().place([0, 0, "h"], sp.Matrix([[0, -1, 0], [1, 0, 0], [0, 0, 1]])).move("L").end.T
+        Matrix([[0, L, h]])
+        """
+        if rotation.shape != (3, 3):
+            raise ArgumentError(f"rotation has shape {rotation.shape}, expected (3, 3)")
+        return self.move(*position)._turned(rotation)
 
     def node(self, name: str) -> Chain:
         """A place that a load may act on.
@@ -232,6 +242,8 @@ class Chain:
         >>> Chain().move("L").spring6("link", "K").coordinates[:2]
         ('link.x', 'link.y')
         """
+        if isinstance(stiffness, Stiffness) and stiffness.definitions:
+            raise ArgumentError(f"stiffness of {name!r} has steps: put numbers in with subs, or use expanded()")
         if isinstance(stiffness, str):
             k = sp.Matrix(6, 6, lambda i, j: sp.Symbol(f"{stiffness}{min(i, j) + 1}{max(i, j) + 1}", real=True))
         else:
@@ -356,6 +368,7 @@ class Chain:
         directions: Sequence[str] = DIRECTIONS,
         wrench: Sequence[Expression] | None = None,
         loads: Mapping[str, Sequence[Expression]] | None = None,
+        steps: bool = False,
     ) -> Stiffness:
         """Cartesian stiffness at the end, unloaded [R 3.8] or in an equilibrium under loads [R 4.26, 4.28].
 
@@ -367,6 +380,10 @@ class Chain:
             On the end in this equilibrium, N and N m, base axes. That it is one is for the caller to see to.
         loads : mapping, optional
             Wrenches on nodes, dead (fixed in base axes).
+        steps : bool
+            Give intermediate results names (``definitions`` of what comes back) instead of one formula in lowest terms. For more than
+            about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second. They hold for general
+            values; at special ones (all links in line) a step may divide by zero: build the chain with these numbers then.
 
         Returns
         -------
@@ -385,41 +402,32 @@ class Chain:
         >>> chain = Chain().move("L").spring6("link", beam()).passive("q", "revolute", "z", at=0)
         >>> chain.stiffness().matrix[1, 1], chain.stiffness().rank
         (3*E*I_z/L**3, 5)
+
+        An arm of three joints, step by step.
+
+        >>> arm = Chain("arm")
+        >>> for i in "123":
+        ...     arm = arm.actuator(f"q{i}", "revolute", "z", stiffness=f"k{i}").move(f"L{i}")
+        >>> found = arm.stiffness(directions=("x", "y", "rz"), steps=True)
+        >>> found.definitions[0]
+        (s0, q1 + q2)
+        >>> [str(s) for s in found.symbols]
+        ['L1', 'L2', 'L3', 'k1', 'k2', 'k3', 'q1', 'q2', 'q3']
         """
         rows = _rows(directions)
         loaded = wrench is not None or bool(loads)
         linear, angular = self._columns(self._place, len(self._motions))
         j = linear.col_join(angular).extract(rows, list(range(len(self._motions))))
-        if loaded:
-            h = self.hessian(wrench if wrench is not None else [0] * 6, loads).matrix
+        if loaded or steps:
+            h = self.hessian(wrench if wrench is not None else [0] * 6, loads).matrix if loaded else sp.zeros(len(self._motions))
             inner, moving = self._spring_matrix() - h, list(range(len(self._motions)))
             corner = sp.zeros(len(rows))
         else:
             moving = [i for i, m in enumerate(self._motions) if m.passive]
             inner, corner = sp.zeros(len(moving)), self.compliance(directions=directions).matrix
             j = j.extract(list(range(len(rows))), moving)
-        return self._condensed(corner, j, inner, moving, tuple(directions))
-
-    def _condensed(self, corner: sp.Matrix, j: sp.Matrix, inner: sp.Matrix, moving: list[int], directions: tuple[str, ...]) -> Stiffness:
-        """First block of the inverse of ``[corner J; J^T -inner]``, redundant coordinates left out."""
-        n, redundant = len(directions), []
-        while True:
-            system = corner.row_join(j).col_join(j.T.row_join(-inner))
-            try:
-                found = solved(system, sp.eye(n).col_join(sp.zeros(len(moving), n)))
-            except UnsolvableError as singular:
-                force = [d for d, f in zip(directions, singular.null[:n], strict=True) if sp.simplify(f) != 0]
-                if force:
-                    told = f"{self.name}: held rigidly along a combination of {', '.join(force)}: the stiffness there is infinite"
-                    raise ArgumentError(f"{told}; leave such directions out, or give the chain the spring that is missing") from None
-                loose = [i for i, x in enumerate(singular.null[n:]) if sp.simplify(x) != 0]
-                drop = loose[-1]
-                redundant.append(self._motions[moving[drop]].name)
-                keep = [i for i in range(len(moving)) if i != drop]
-                moving, j = [moving[i] for i in keep], j.extract(list(range(n)), keep)
-                inner = inner.extract(keep, keep)
-                continue
-            return Stiffness(found[:n, :].applyfunc(sp.simplify), directions, tuple(reversed(redundant)))
+        names = [self._motions[i].name for i in moving]
+        return condensed(self.name, Bordered(corner, j, inner, names), tuple(directions), steps=steps, symmetric=not loaded)
 
     def __repr__(self) -> str:
         return f"<Chain {self.name!r}: {len(self._motions)} coordinates>"

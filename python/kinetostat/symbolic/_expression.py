@@ -7,11 +7,13 @@ import keyword
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
+import mpmath
 import sympy as sp
 from sympy.printing.rust import RustCodePrinter
 
 from kinetostat.errors import ArgumentError
-from kinetostat.symbolic._substitution import substitute
+from kinetostat.symbolic._linear import Definitions, numbers
+from kinetostat.symbolic._steps import expanded, put_in, symbols_of
 
 __all__ = ["Formula", "Stiffness"]
 
@@ -46,11 +48,13 @@ class Formula:
 
     matrix: sp.Matrix
     """The formulas, SI units. Its own ``subs`` does not find symbols by their names: use :meth:`subs`."""
+    definitions: Definitions = dataclasses.field(default=(), kw_only=True)
+    """Steps on the way: symbols that stand in :attr:`matrix` and what they are, each in terms of those before it. Empty for most."""
 
     @property
     def symbols(self) -> tuple[sp.Symbol, ...]:
-        """Its symbols in alphabetic order: the order of the arguments of printed functions."""
-        return tuple(sorted(self.matrix.free_symbols, key=lambda s: str(s.name)))
+        """Its symbols in alphabetic order, without those of steps: the order of the arguments of printed functions."""
+        return tuple(sorted(symbols_of(self.matrix, self.definitions), key=lambda s: str(s.name)))
 
     def subs(self: _OfFormulas, values: Mapping[str | sp.Symbol, Any]) -> _OfFormulas:
         """The same with values for symbols, by their names or as symbols; see :func:`kinetostat.symbolic.substitute`.
@@ -69,10 +73,23 @@ class Formula:
         [3, 0],
         [0, 6]])
         """
-        return dataclasses.replace(self, matrix=substitute(self.matrix, values))
+        matrix, definitions = put_in(self.matrix, self.definitions, values)
+        return dataclasses.replace(self, matrix=matrix, definitions=definitions)
 
-    def simplified(self) -> Formula:
-        """The same with every entry simplified by SymPy.
+    def expanded(self: _OfFormulas) -> _OfFormulas:
+        """The same without steps: each definition is put in where it is used, unsimplified. Long for large chains.
+
+        Examples
+        --------
+        >>> import sympy as sp
+        >>> s, k = sp.symbols("s k")
+        >>> Formula(sp.Matrix([s + s**2]), definitions=((s, 1 / k),)).expanded().matrix
+        Matrix([[1/k + k**(-2)]])
+        """
+        return dataclasses.replace(self, matrix=expanded(self.matrix, self.definitions), definitions=())
+
+    def simplified(self: _OfFormulas) -> _OfFormulas:
+        """The same with every entry simplified by SymPy, steps put in: for short formulas, long ones take minutes.
 
         Examples
         --------
@@ -81,10 +98,11 @@ class Formula:
         >>> Formula(sp.Matrix([sp.sin(x) ** 2 + sp.cos(x) ** 2])).simplified().matrix
         Matrix([[1]])
         """
-        return dataclasses.replace(self, matrix=self.matrix.applyfunc(sp.simplify))
+        plain = self.expanded()
+        return dataclasses.replace(plain, matrix=plain.matrix.applyfunc(sp.simplify))
 
     def latex(self) -> str:
-        r"""The matrix in LaTeX.
+        r"""The matrix in LaTeX; where it has steps, an ``aligned`` of the definitions in order, then the matrix.
 
         Examples
         --------
@@ -92,7 +110,11 @@ class Formula:
         >>> "frac" in Formula(sp.Matrix([sp.Symbol("k") / 2])).latex()
         True
         """
-        return str(sp.latex(self.matrix))
+        matrix = str(sp.latex(self.matrix))
+        if not self.definitions:
+            return matrix
+        lines = [f"{sp.latex(s)} &= {sp.latex(e)}" for s, e in self.definitions]
+        return "\n".join([r"\begin{aligned}", " \\\\\n".join([*lines, f"&{matrix}"]), r"\end{aligned}"])
 
     def _steps(self) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr], dict[sp.Symbol, sp.Symbol]]:
         taken = {str(s.name) for s in self.symbols}
@@ -107,8 +129,14 @@ class Formula:
             used.add(name)
             plain[symbol] = sp.Symbol(name, real=True)
         names = (sp.Symbol(f"t{i}", real=True) for i in range(10**6) if f"t{i}" not in used | taken)
-        steps, entries = sp.cse(list(self.matrix.xreplace(plain)), symbols=names)
-        return steps, list(entries), plain
+        # Steps are short and in order already; what the entries share comes behind them.
+        steps: list[tuple[sp.Symbol, sp.Expr]] = []
+        known = dict(plain)
+        for symbol, e in self.definitions:
+            steps.append((next(names), e.xreplace(known)))
+            known[symbol] = steps[-1][0]
+        more, entries = sp.cse(list(self.matrix.xreplace(known)), symbols=names)
+        return [*steps, *more], list(entries), plain
 
     def c(self, name: str = "stiffness") -> str:
         """A C99 function ``void name(double a, ..., double *out)``; ``out`` takes the entries row by row.
@@ -179,17 +207,24 @@ class Formula:
         >>> Formula(sp.Matrix([sp.Symbol("k") * sp.Symbol("a")])).lambdify(["k", "a"])(2.0, 3.0)
         array([[6.]])
         """
-        by_name = {str(s.name): s for s in self.symbols}
-        order = list(self.symbols) if arguments is None else [by_name.get(str(a), sp.Symbol(str(a))) for a in arguments]
-        missing = [name for name, s in by_name.items() if s not in order]
+        steps, entries, plain = self._steps()
+        by_name = {str(s.name): p for s, p in plain.items()}
+        order = list(by_name) if arguments is None else [str(a) for a in arguments]
+        missing = [name for name in by_name if name not in order]
         if missing:
             raise ArgumentError(f"arguments leaves out {', '.join(missing)}")
-        function: Callable[..., Any] = sp.lambdify(order, self.matrix, modules="numpy", cse=True)
+        rows, columns = self.matrix.shape
+        matrix = sp.Matrix(rows, columns, entries)
+        names = [by_name.get(name, sp.Dummy(name)) for name in order]
+        function: Callable[..., Any] = sp.lambdify(names, matrix, modules="numpy", cse=lambda whole: (steps, whole))
         return function
 
 
 class _RustPrinter(RustCodePrinter):  # type: ignore[misc]
-    """SymPy's printer drops the parentheses of a sum within a product (seen in 1.14): sums and products always have them here."""
+    """Sums and products always have parentheses here, for SymPy drops those of a sum within a product (seen in 1.14).
+
+    Whole numbers are floats everywhere but in exponents: Rust has no arithmetic between integers and f64.
+    """
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:  # noqa: N802
         return f"({super()._print_Add(expr, order)})"
@@ -197,12 +232,20 @@ class _RustPrinter(RustCodePrinter):  # type: ignore[misc]
     def _print_Mul(self, expr: sp.Expr) -> str:  # noqa: N802
         return f"({super()._print_Mul(expr)})"
 
+    def _print_Integer(self, expr: sp.Integer, type_cast: bool = False) -> str:  # noqa: N802
+        return f"{int(expr)}.0"
+
+    # Before 1.13 SymPy prints these on their own.
+    _print_Zero = _print_One = _print_NegativeOne = _print_Integer  # noqa: N815
+
+    def _print_Pow(self, expr: sp.Expr) -> str:  # noqa: N802
+        if expr.exp.is_Integer and expr.exp != -1:
+            return f"({self._print(expr.base)}).powi({int(expr.exp)})"
+        return str(super()._print_Pow(expr))
+
 
 def _rust(expression: sp.Expr) -> str:
-    # Floats everywhere but in exponents: Rust has no arithmetic between integers and f64.
-    decimal = sp.sympify(expression).evalf(17)
-    text = _RustPrinter().doprint(decimal)
-    return f"{text}.0" if text.lstrip("-").isdigit() else str(text)
+    return str(_RustPrinter().doprint(sp.sympify(expression).evalf(17)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -228,6 +271,11 @@ class Stiffness(Formula):
 
         Empty for a regular matrix.
 
+        Raises
+        ------
+        ArgumentError
+            For a matrix with steps, whose entries are no formulas in the parameters.
+
         Examples
         --------
         >>> from kinetostat.symbolic import planar_beam, with_passive_joint
@@ -237,6 +285,8 @@ class Stiffness(Formula):
         [0],
         [0]])]
         """
+        if self.definitions:
+            raise ArgumentError("the null space of a stiffness with steps is not formed: use expanded(), or put numbers in with subs first")
         return list(self.matrix.applyfunc(sp.simplify).nullspace(simplify=True))
 
     @property
@@ -249,4 +299,13 @@ class Stiffness(Formula):
         >>> beam().rank
         6
         """
+        if self.definitions:
+            return _rank(numbers(self.matrix, self.definitions))
         return int(self.matrix.shape[0]) - len(self.null_space)
+
+
+def _rank(matrix: Any) -> int:
+    """Of numbers with 80 digits: what is smaller than the largest by 25 digits is zero."""
+    with mpmath.workdps(80):
+        sizes = mpmath.svd_r(matrix, compute_uv=False)
+        return sum(1 for s in sizes if s > sizes[0] * mpmath.mpf(10) ** -25)

@@ -8,6 +8,7 @@ import sympy as sp
 
 from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._expression import Stiffness
+from kinetostat.symbolic._steps import joined
 
 __all__ = ["beam", "hat", "in_parallel", "leg", "planar_beam", "with_passive_joint"]
 
@@ -69,7 +70,7 @@ def with_passive_joint(link: Stiffness, joint: str | Sequence[sp.Expr]) -> Stiff
     Raises
     ------
     ArgumentError
-        For an unknown direction or a column of another length.
+        For an unknown direction, a column of another length, or a link with steps.
 
     Examples
     --------
@@ -79,6 +80,8 @@ def with_passive_joint(link: Stiffness, joint: str | Sequence[sp.Expr]) -> Stiff
     [    0, 3*E*I_z/L**3, 0],
     [    0,            0, 0]])
     """
+    if link.definitions:
+        raise ArgumentError("the link's stiffness has steps: add the passive joint to the chain instead, or use expanded()")
     if isinstance(joint, str):
         if joint not in link.directions:
             raise ArgumentError(f"joint is {joint!r}, expected one of {', '.join(link.directions)}")
@@ -125,7 +128,8 @@ def in_parallel(limbs: Sequence[Stiffness], arms: Sequence[Sequence[sp.Expr]]) -
     Parameters
     ----------
     limbs : sequence of Stiffness
-        At their ends, base axes, six directions. Forces in the limbs would add terms: they are unloaded here.
+        At their ends, base axes, six directions. Forces in the limbs would add terms: they are unloaded here. Where a limb has steps
+        the sum has the steps of all.
     arms : sequence of 3-vectors
         From the reference point to the end of each limb, m, base axes (the report's 3.33 prints the opposite).
 
@@ -142,11 +146,13 @@ def in_parallel(limbs: Sequence[Stiffness], arms: Sequence[Sequence[sp.Expr]]) -
     """
     if len(limbs) != len(arms) or not limbs:
         raise ArgumentError(f"{len(limbs)} limbs and {len(arms)} arms: give one arm for each limb")
-    total = sp.zeros(6)
     for limb, arm in zip(limbs, arms, strict=True):
         if limb.matrix.shape != (6, 6) or len(list(arm)) != 3:
             raise ArgumentError("limbs need six directions and arms three entries")
+    parts, definitions = joined([(limb.matrix, limb.definitions) for limb in limbs])
+    total = sp.zeros(6)
+    for part, arm in zip(parts, arms, strict=True):
         t = sp.eye(6)
         t[:3, 3:] = -hat(sp.Matrix(list(arm)))
-        total += t.T * limb.matrix * t
-    return Stiffness(total.applyfunc(sp.simplify))
+        total += t.T * part * t
+    return Stiffness(total if definitions else total.applyfunc(sp.simplify), definitions=definitions)

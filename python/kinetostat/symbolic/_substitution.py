@@ -9,7 +9,7 @@ import sympy as sp
 
 from kinetostat.errors import ArgumentError
 
-__all__ = ["substitute"]
+__all__ = ["by_name", "substitute"]
 
 
 def substitute(expression: Any, values: Mapping[str | sp.Symbol, Any]) -> Any:
@@ -41,8 +41,13 @@ def substitute(expression: Any, values: Mapping[str | sp.Symbol, Any]) -> Any:
     >>> substitute(beam().matrix[0, 0], {"E": 210e9, "A": "a", "L": 1})
     210000000000.0*a
     """
+    return expression.subs(by_name(expression.free_symbols, values), simultaneous=True)
+
+
+def by_name(symbols: set[sp.Symbol], values: Mapping[str | sp.Symbol, Any]) -> dict[sp.Symbol, sp.Expr]:
+    """The values by the symbols that have the names; refuses as :func:`substitute` does."""
     there: dict[str, list[sp.Symbol]] = {}
-    for symbol in expression.free_symbols:
+    for symbol in symbols:
         there.setdefault(str(symbol.name), []).append(symbol)
     found: dict[sp.Symbol, sp.Expr] = {}
     for key, value in values.items():
@@ -57,4 +62,4 @@ def substitute(expression: Any, values: Mapping[str | sp.Symbol, Any]) -> Any:
             if found.get(symbol, formula) != formula:
                 raise ArgumentError(f"{name!r} is given twice: {found[symbol]} and {formula}")
             found[symbol] = formula
-    return expression.subs(found, simultaneous=True)
+    return found

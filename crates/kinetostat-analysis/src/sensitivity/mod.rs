@@ -4,17 +4,21 @@
 //! own tangent `A`, factorised once for all parameters; nothing is solved anew, and no iteration is differentiated. What is explicit - the
 //! residual at a fixed state, stiffness and margin at the state that goes along - is differentiated by central differences of three
 //! steps, extrapolated (sixth order), whose disagreement is given as the error. Commands follow the parameter: the tool
-//! is commanded for the same place, as a controller that knows the machine does.
+//! is commanded for the same place, as a controller that knows the machine does. The margin is that of the limb that is nearest to
+//! buckling, also where another one overtakes it within a step; figures that are the largest of equal ones are told ([`Sharp`]).
 
 mod place;
+mod sharp;
 mod values;
 
 use kinetostat::machine::{LinearisedMachine, MachineResidual, MechanismState};
-use kinetostat::{Error, Mechanism, Pose, Posture, Wrench};
+use kinetostat::{Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench};
 use kinetostat_model::{Model, ModelError, Parameter, ParameterKind, ParametricModel};
 use rayon::prelude::*;
 
 pub use self::place::CommandedPlace;
+pub use self::sharp::Sharp;
+use self::sharp::Sides;
 pub use self::values::Values;
 
 /// What is differentiated.
@@ -41,6 +45,8 @@ pub struct Sensitivity {
     pub derivatives: Result<Values, String>,
     /// How far the extrapolated differences of what is explicit disagree, of the same quantities.
     pub errors: Option<Values>,
+    /// Figures that have no derivative by this number: theirs above is the mean of those to both sides.
+    pub sharp: Sharp,
 }
 
 impl Sensitivity {
@@ -89,12 +95,15 @@ pub fn sensitivities(
     let posture = task.place.posture(&mechanism, None)?;
     let found = posture.deflected_by(&task.wrench)?;
     let values = Values::of(&found, &task.direction);
+    let nearest = nearest_to_buckling(&found);
     // Every thread has the tangent of its own, for all of its parameters.
     let tangent = || {
         Ok(Tangent {
             task,
             posture: &posture,
             state: &found.state,
+            now: values,
+            nearest,
             tangent: posture.linearised(&found)?,
         })
     };
@@ -106,6 +115,18 @@ pub fn sensitivities(
         })
         .collect::<Result<Vec<_>, SensitivityError>>()?;
     Ok(Sensitivities { values, list })
+}
+
+/// Shares of the way to buckling that differ by less, relatively, are equal.
+const EQUAL: f64 = 1e-9;
+
+/// The limb that is nearest to buckling; none where there is none, or several are equally near.
+fn nearest_to_buckling(found: &MechanismEquilibrium) -> Option<usize> {
+    let largest = found.share_to_buckling()?;
+    let shares = found.limbs.iter().map(|l| l.stability.share_to_buckling);
+    let near = |share: Option<f64>| share.is_some_and(|s| largest - s <= EQUAL * largest.abs());
+    let mut nearest = (shares.enumerate()).filter_map(|(limb, share)| near(share).then_some(limb));
+    nearest.next().filter(|_| nearest.next().is_none())
 }
 
 /// Why there are no derivatives at all.
@@ -124,6 +145,9 @@ struct Tangent<'a> {
     task: &'a SensitivityTask<'a>,
     posture: &'a Posture,
     state: &'a MechanismState,
+    now: Values,
+    /// The limb that is nearest to buckling, where it is one alone.
+    nearest: Option<usize>,
     tangent: LinearisedMachine<'a>,
 }
 
@@ -131,14 +155,15 @@ impl Tangent<'_> {
     fn by(&mut self, path: &str) -> Result<Sensitivity, SensitivityError> {
         let parametric = self.task.model.parametric(&[path])?;
         let parameter = parametric.parameters()[0].clone();
-        let (derivatives, errors) = match self.derivatives(&parametric, &parameter) {
-            Ok((values, errors)) => (Ok(values), Some(errors)),
-            Err(reason) => (Err(reason), None),
+        let (derivatives, errors, sharp) = match self.derivatives(&parametric, &parameter) {
+            Ok((values, errors, sharp)) => (Ok(values), Some(errors), sharp),
+            Err(reason) => (Err(reason), None, Sharp::default()),
         };
         Ok(Sensitivity {
             parameter,
             derivatives,
             errors,
+            sharp,
         })
     }
 
@@ -146,7 +171,7 @@ impl Tangent<'_> {
         &mut self,
         parametric: &ParametricModel,
         parameter: &Parameter,
-    ) -> Result<(Values, Values), String> {
+    ) -> Result<(Values, Values, Sharp), String> {
         let step = step_of(parameter);
         // The machine with the number changed, commanded for the same place.
         let at = |h: f64| -> Result<Posture, String> {
@@ -180,19 +205,28 @@ impl Tangent<'_> {
         let motion = self.tangent.removing(&residual);
         let motion = motion.ok_or("the tangent of the machine is singular here")?;
         // Along the tangent of the path of equilibria.
-        let mut sides = Vec::new();
-        for ((plus, minus), h) in postures.iter().zip(steps) {
+        let at_step = |k: usize| -> Result<Sides, String> {
             let one = |posture: &Posture, h: f64| {
                 let state = self.state.moved_by(&motion, h);
                 let found = posture.as_if_in_equilibrium(&state, &self.task.wrench);
                 found
-                    .map(|e| Values::of(&e, &self.task.direction))
+                    .map(|e| Values::of_limb(&e, &self.task.direction, self.nearest))
                     .map_err(|e| e.to_string())
             };
-            let (a, b) = (one(plus, h)?, one(minus, -h)?);
-            sides.push(a.combined(&b, |x, y| 0.5 * (x - y) / h));
-        }
-        Ok(extrapolated(&sides))
+            let (plus, minus) = &postures[k];
+            Ok(Sides {
+                step: steps[k],
+                plus: one(plus, steps[k])?,
+                minus: one(minus, -steps[k])?,
+            })
+        };
+        let sides = [at_step(0)?, at_step(1)?, at_step(2)?];
+        let central = sides
+            .each_ref()
+            .map(|s| s.plus.combined(&s.minus, |x, y| 0.5 * (x - y) / s.step));
+        let (best, errors) = extrapolated(&central);
+        let sharp = Sharp::of(&self.now, &sides, &best);
+        Ok((best, errors, sharp))
     }
 }
 

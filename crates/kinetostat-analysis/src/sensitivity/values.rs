@@ -1,6 +1,10 @@
 //! What is differentiated.
 
+use kinetostat::number::larger;
 use kinetostat::{MechanismEquilibrium, Wrench};
+
+/// What is differentiated is known to so much of itself.
+const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// Figures of an equilibrium, or their derivatives by a number, or their errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +37,38 @@ impl Values {
             stiffness_against_force: found.stiffness_against_force(),
             share_to_buckling: found.share_to_buckling(),
         }
+    }
+
+    /// The same with the share of the way to buckling of one limb alone, if one is named.
+    pub(crate) fn of_limb(
+        found: &MechanismEquilibrium,
+        direction: &Wrench,
+        limb: Option<usize>,
+    ) -> Self {
+        let mut values = Self::of(found, direction);
+        if let Some(limb) = limb.and_then(|limb| found.limbs.get(limb)) {
+            values.share_to_buckling = limb.stability.share_to_buckling;
+        }
+        values
+    }
+
+    /// Whether these derivatives by a number of this size are below rounding of all figures.
+    #[must_use]
+    pub fn is_nothing(&self, size: f64, figures: &Self) -> bool {
+        let below = |derivative: f64, figure: f64| {
+            derivative.abs() * size <= RELATIVE_ROUNDING * figure.abs()
+        };
+        // One scale for all six, with 1 m to the rad: what a tool that keeps its orientation turns by is rounding.
+        let displacement = figures.displacement.iter();
+        let largest = displacement.map(|d| d.abs()).fold(0.0, larger);
+        let margin = self.share_to_buckling.zip(figures.share_to_buckling);
+        self.displacement.iter().all(|d| below(*d, largest))
+            && below(self.stiffness, figures.stiffness)
+            && below(
+                self.stiffness_against_force,
+                figures.stiffness_against_force,
+            )
+            && margin.is_none_or(|(derivative, share)| below(derivative, share))
     }
 
     /// Both, figure by figure.

@@ -172,3 +172,97 @@ fn derivatives_of_a_chain_of_three_links_are_those_of_differences() {
     );
     assert!(count >= 10, "{count}");
 }
+
+fn of_hexapod(model: &Model, moved: Vector3<f64>, wrench: Wrench) -> SensitivityTask<'_> {
+    let home = model.mechanism.platforms()[model.mechanism.tool()].home;
+    SensitivityTask {
+        model,
+        tool: Pose::identity(),
+        place: CommandedPlace::Pose(Pose::from_parts(
+            (home.translation.vector + moved).into(),
+            home.rotation,
+        )),
+        wrench,
+        direction: Wrench::new(Vector3::x(), Vector3::zeros()),
+    }
+}
+
+/// The share of the way to buckling of the machine with one number elsewhere, solved anew.
+fn share_at(task: &SensitivityTask<'_>, path: &str, value: f64) -> f64 {
+    let parametric = task.model.parametric(&[path]).expect(path);
+    let machine = parametric.mechanism(&[value]).expect(path);
+    let posture = task.place.posture(&machine, None).expect(path);
+    let found = posture.deflected_by(&task.wrench).expect(path);
+    found.share_to_buckling().expect("a load that buckles")
+}
+
+#[test]
+fn the_margin_follows_the_limb_that_is_nearest_although_another_overtakes_it_within_the_step() {
+    let model = Model::preset("hexapod").expect("a preset");
+    let wrench = Wrench::new(
+        Vector3::new(150.0, -90.0, -180.0),
+        Vector3::new(12.0, 7.0, -9.0),
+    );
+    let task = of_hexapod(&model, Vector3::new(0.01, 0.02, -0.01), wrench);
+    let path = "mechanism.gravity_m_per_s2.x";
+    let found = sensitivities(&task, &[path]).expect("derivatives");
+    let own = found.list[0].derivatives.as_ref().expect(path);
+    let own = own.share_to_buckling.expect("a load that buckles");
+    // At -0.005 m/s^2 another leg is the nearest one: the step of the differences inside is 0.01.
+    let h = 2e-3;
+    let difference = |h: f64| (share_at(&task, path, h) - share_at(&task, path, -h)) / (2.0 * h);
+    let by_differences = (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
+    assert!(
+        (own - by_differences).abs() < 1e-6 * by_differences.abs(),
+        "{own:e}, by differences {by_differences:e}"
+    );
+    assert!(!found.list[0].sharp.share_to_buckling);
+}
+
+#[test]
+fn a_margin_that_turns_sharply_is_told() {
+    let model = Model::preset("hexapod").expect("a preset");
+    let wrench = Wrench::new(Vector3::new(0.0, 0.0, -1000.0), Vector3::zeros());
+    let task = of_hexapod(&model, Vector3::zeros(), wrench);
+    // All legs are equally near: one that starts elsewhere, and all that become stiffer.
+    let (one, all) = (
+        "limb.leg 1.start.position_mm.z",
+        "mechanism.gravity_m_per_s2.z",
+    );
+    let found = sensitivities(&task, &[one, all]).expect("derivatives");
+    let now = found.values.share_to_buckling.expect("a load that buckles");
+    let (h, at) = (1e-2, found.list[0].parameter.value);
+    let right = (share_at(&task, one, at + h) - now) / h;
+    let left = (now - share_at(&task, one, at - h)) / h;
+    assert!(
+        (right - left).abs() > 0.5 * right.abs().max(left.abs()),
+        "{left:e} {right:e}"
+    );
+    assert!(found.list[0].sharp.share_to_buckling, "{:?}", found.list[0]);
+    assert!(
+        !found.list[1].sharp.share_to_buckling,
+        "{:?}",
+        found.list[1]
+    );
+}
+
+#[test]
+fn a_number_that_changes_the_margin_alone_has_an_effect() {
+    let model = Model::preset("delta").expect("a preset");
+    let home = model.mechanism.platforms()[model.mechanism.tool()].home;
+    let task = SensitivityTask {
+        model: &model,
+        tool: Pose::identity(),
+        place: CommandedPlace::Pose(home),
+        wrench: Wrench::new(Vector3::new(0.0, 0.0, -100.0), Vector3::zeros()),
+        direction: Wrench::new(Vector3::z(), Vector3::zeros()),
+    };
+    let path = "section.rod.poissons_ratio";
+    let found = sensitivities(&task, &[path]).expect("derivatives");
+    let own = found.list[0].derivatives.as_ref().expect(path);
+    let by_differences = (share_at(&task, path, 0.31) - share_at(&task, path, 0.29)) / 0.02;
+    let share = own.share_to_buckling.expect("a load that buckles");
+    assert!((share - by_differences).abs() < 1e-3 * by_differences.abs());
+    let number = &found.list[0].parameter;
+    assert!(!own.is_nothing(number.value, &found.values), "{own:?}");
+}

@@ -21,6 +21,7 @@ use crate::expand::arguments::ExpandArgs;
 use crate::force::arguments::ForceArgs;
 use crate::import::arguments::ImportArgs;
 use crate::map::arguments::MapArgs;
+use crate::mirror::arguments::MirrorArgs;
 use crate::model::arguments::ModelArgs;
 use crate::options::EXIT_CODES;
 use crate::reproduce::arguments::ReproduceArgs;
@@ -77,6 +78,7 @@ pub(crate) enum Command {
     Shares(Box<SharesArgs>),
     Compare(Box<CompareArgs>),
     Map(Box<MapArgs>),
+    Mirror(Box<MirrorArgs>),
     Tolerance(Box<ToleranceArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),

@@ -6,8 +6,8 @@ use kinetostat_machining::number::{
     MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    FlatProgram, NoMotion, RESULT_SCHEMA, RunError, TableCorrection, ToleranceResult, Warning,
-    WarningCode, correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program,
+    FieldCorrection, FlatProgram, NoMotion, RESULT_SCHEMA, RunError, ToleranceResult, Warning,
+    WarningCode, correct_by_field, odd_correction, odd_tolerances, of_accounting, of_program,
     of_table, unchanged_text, wide_table,
 };
 use kinetostat_program::{Accounting, CorrectionMap, Path as ToolPath, WriteOptions};
@@ -107,7 +107,7 @@ pub(crate) fn from_map(
     let refuse = |error| setting.within(Failure::from(RunError::Write(error)));
     let progress = Progress::new();
     let made = read
-        .with(|program| correct_by_table(program, &field, &writing, &progress))
+        .with(|program| correct_by_field(program, &field, &writing, &progress))
         .map_err(refuse)?;
     let (written, against) = (&made.written, &made.against);
     let a = &written.accounting;
@@ -187,7 +187,7 @@ fn warnings_of(
     setting: &Setting,
     path: &ToolPath,
     field: &CorrectionMap,
-    made: &TableCorrection,
+    made: &FieldCorrection,
     tolerance: &ToleranceResult,
     writing: &WriteOptions,
 ) -> Vec<Warning> {

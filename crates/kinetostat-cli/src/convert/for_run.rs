@@ -123,6 +123,7 @@ pub(crate) fn for_run(
         settings: found,
         parquet: None,
         divided,
+        before: None,
         reading: Reading::new(),
     });
     let target = setting.targets.flat.take();

@@ -83,6 +83,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         paths: Vec::new(),
         parquet: None,
         divided: None,
+        before: None,
         reading: Reading::new(),
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };

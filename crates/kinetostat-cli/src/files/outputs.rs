@@ -47,6 +47,8 @@ struct Claimed {
     identical: bool,
     /// Which of the journals lies in its directory.
     journal: usize,
+    /// What to do about one that is there.
+    existing: Existing,
 }
 
 impl Claimed {
@@ -158,6 +160,15 @@ impl Outputs {
 
     /// Checks a target before the long work begins: it may be written, and it is no input.
     pub(crate) fn claim(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
+        self.claim_as(what, target, self.existing)
+    }
+
+    /// The same of a file that goes on from run to run: it is replaced.
+    pub(crate) fn claim_to_go_on(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
+        self.claim_as(what, target, Existing::Replace)
+    }
+
+    fn claim_as(&mut self, what: &'static str, target: &Path, existing: Existing) -> Answer<usize> {
         let others: Vec<(&'static str, &Path)> = self
             .claimed
             .iter()
@@ -166,7 +177,7 @@ impl Outputs {
         may_be_written(what, target, &self.inputs, &others)?;
         let refuse = |reason: &str| refused(what, target, reason);
         let journal = self.journal(&parent_of(target));
-        if self.existing == Existing::Refuse && fs::symlink_metadata(target).is_ok() {
+        if existing == Existing::Refuse && fs::symlink_metadata(target).is_ok() {
             return Err(refuse(
                 "it exists already; choose another name, or allow it with --force-overwrite",
             ));
@@ -181,6 +192,7 @@ impl Outputs {
             contents: Contents::default(),
             identical: false,
             journal,
+            existing,
         });
         Ok(self.claimed.len() - 1)
     }
@@ -219,8 +231,8 @@ impl Outputs {
 
     /// All bytes of a claimed output are there.
     pub(crate) fn complete(&mut self, index: usize) -> Answer<()> {
-        let existing = self.existing;
         let claimed = &mut self.claimed[index];
+        let existing = claimed.existing;
         let kept = claimed.file.as_file_mut().sync_all();
         kept.map_err(|error| claimed.refused(&error))?;
         if existing == Existing::KeepSame
@@ -240,7 +252,6 @@ impl Outputs {
     /// Renames all outputs into place. If one cannot be, those before it are taken back.
     pub(crate) fn commit(self) -> Answer<Vec<PathBuf>> {
         still_wanted()?;
-        let replace = self.existing == Existing::Replace;
         let mut journals = self.journals;
         let entries: Vec<Entry> = self
             .claimed
@@ -267,6 +278,7 @@ impl Outputs {
                 continue;
             }
             let (target, what) = (claimed.target.clone(), claimed.what);
+            let replace = claimed.existing == Existing::Replace;
             match put_in_place(claimed, replace, &mut journals) {
                 Ok(kept) => done.push((target, kept)),
                 Err(error) => {

@@ -24,7 +24,7 @@ use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::parts::join_parts;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
-use crate::job::robot::source::{RobotSource, robot_source};
+use crate::job::robot::source::{BeforeFlat, RobotSource, robot_source};
 use crate::job::robot_arguments::CorrectWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::uncertain::{Uncertainty, uncertainty};
@@ -240,7 +240,10 @@ pub(crate) fn setting(
             }
             let (text, flat) = flat_text(&source, expand.comments_asked)?;
             robot_flat = Some((text.file.bytes().to_vec(), flat));
-            source.files = vec![text.file];
+            source.before = Some(BeforeFlat {
+                files: std::mem::replace(&mut source.files, vec![text.file]),
+                origins: text.origins,
+            });
             source.paths.clear();
         }
         let mut further = source.paths.clone();

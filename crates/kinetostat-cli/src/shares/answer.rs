@@ -115,7 +115,7 @@ pub(crate) struct SensitivitiesAnswer {
     pub(crate) deflection_m_or_rad: f64,
     pub(crate) stiffness_n_or_n_m_per_m_or_rad: f64,
     pub(crate) share_to_buckling: Option<f64>,
-    /// The strongest first; numbers without an effect are left out.
+    /// The strongest first; numbers that change none of the figures are left out.
     pub(crate) numbers: Vec<SensitivityAnswer>,
     /// Numbers that could not be differentiated, with the reason.
     pub(crate) not_differentiated: Vec<(String, String)>,
@@ -132,7 +132,9 @@ pub(crate) struct SensitivityAnswer {
     pub(crate) displacement: [f64; 6],
     pub(crate) compliance: f64,
     pub(crate) stiffness: f64,
-    pub(crate) stiffness_against_force: f64,
+    /// None where two directions are equally soft and the number changes them differently.
+    pub(crate) stiffness_against_force: Option<f64>,
+    /// None without a load that buckles, and where two limbs or shapes are equally near and the number changes them differently.
     pub(crate) share_to_buckling: Option<f64>,
     /// Change by 1 % more of the number; of a number that is zero there is none.
     pub(crate) deflection_by_percent_m_or_rad: f64,
@@ -149,8 +151,9 @@ impl SensitivityAnswer {
             displacement: d.displacement,
             compliance: d.compliance,
             stiffness: d.stiffness,
-            stiffness_against_force: d.stiffness_against_force,
-            share_to_buckling: d.share_to_buckling,
+            stiffness_against_force: (!s.sharp.stiffness_against_force)
+                .then_some(d.stiffness_against_force),
+            share_to_buckling: d.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
             deflection_by_percent_m_or_rad: s.deflection_by_percent(),
             stiffness_by_percent_relative: s.stiffness_by_percent(now),
         }
@@ -160,7 +163,6 @@ impl SensitivityAnswer {
 impl SensitivitiesAnswer {
     pub(crate) fn of(found: &Sensitivities) -> Self {
         let now = found.values.stiffness;
-        let deflection = found.values.deflection.abs();
         let mut answer = Self {
             method: "implicit function theorem at the equilibrium; what is explicit (residual, stiffness, margin) by central differences extrapolated to sixth order",
             deflection_m_or_rad: found.values.deflection,
@@ -180,10 +182,7 @@ impl SensitivitiesAnswer {
                         .value
                         .abs()
                         .max(1.0 / s.parameter.in_si.max(1.0));
-                    // Below rounding of what is differentiated.
-                    let nothing = d.deflection.abs() * size <= 1e-9 * deflection
-                        && d.stiffness.abs() * size <= 1e-9 * now.abs();
-                    match nothing {
+                    match !s.sharp.any() && d.is_nothing(size, &found.values) {
                         true => answer.without_effect.push(path),
                         false => answer.numbers.push(SensitivityAnswer::of(s, d, now)),
                     }

@@ -22,11 +22,12 @@ pub(crate) fn fault_list_text<'f, F: Display>(
     if all.len() < 2 {
         return first.to_string();
     }
-    let mut text = format!("{} {places} are refused:", all.len());
+    let mut lines = vec![format!("{} {places} are refused:", all.len())];
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut shown = 0;
-    // Reasons in the order in which they come, each with the places that are not shown in full.
-    let mut further: Vec<(&str, Vec<String>)> = Vec::new();
+    // Reasons in the order in which they come, each with the line where the places stand that are not shown in full: that of the first
+    // of them.
+    let mut further: Vec<(&str, usize, Vec<String>)> = Vec::new();
     let mut of_reason: BTreeMap<&str, usize> = BTreeMap::new();
     for fault in all {
         let reason = reason(fault);
@@ -34,25 +35,26 @@ pub(crate) fn fault_list_text<'f, F: Display>(
         *count += 1;
         if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {
             shown += 1;
-            text.push_str(&format!("\n  {fault}"));
+            lines.push(format!("  {fault}"));
             continue;
         }
         let index = *of_reason.entry(reason).or_insert_with(|| {
-            further.push((reason, Vec::new()));
+            further.push((reason, lines.len(), Vec::new()));
+            lines.push(String::new());
             further.len() - 1
         });
-        further[index].1.push(place_of(&fault.to_string(), reason));
+        further[index].2.push(place_of(&fault.to_string(), reason));
     }
-    for (reason, mut places) in further {
+    for (reason, line, mut places) in further {
         let more = places.len().saturating_sub(PLACES_NAMED);
         places.truncate(PLACES_NAMED);
         let more = match more {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        text.push_str(&format!("\n  {}{more}: {reason}", places.join(", ")));
+        lines[line] = format!("  {}{more}: {reason}", places.join(", "));
     }
-    text
+    lines.join("\n")
 }
 
 /// Where a fault is: what stands before its reason.

@@ -115,7 +115,7 @@ fn the_table_of_a_job_says_the_same() {
     }
     let report = read(here, "two.html");
     assert!(report.contains("run once and written flat, 20 blocks"));
-    assert!(report.contains(" of slot.ngc)"));
+    assert!(report.contains(" of slot.ngc</small>"));
     // Options go over the table.
     let line = "compensate job.toml --parameter 100=2 --no-comments --force-overwrite";
     run(here, &words(line)).answered();

@@ -246,3 +246,25 @@ fn programs_of_controls_are_converted_with_expand() {
         }
     }
 }
+
+/// What is quoted of a faulty line is what stands in the file, not the numbers of the flat block.
+#[test]
+fn excerpts_are_those_of_the_files() {
+    let source = SOURCES.iter().find(|own| own.main == "a.h").unwrap();
+    for (at, line) in [
+        (["L X+Q1 RL\n", ""], "6 of a.h"),
+        (["", "L X+Q1 RL\n"], "3 of SLOT.H"),
+    ] {
+        let here = tempfile::tempdir().unwrap();
+        let here = here.path();
+        source.put(here, at, "");
+        let said = run(here, &words("compensate job.toml"));
+        assert_eq!(said.code, 1, "{said:?}");
+        let err = one_line(&said.err);
+        assert!(err.contains(&format!("line {line} (line ")), "{err}");
+        assert!(
+            err.contains(": `L X+Q1 RL`: ") && !err.contains("`L X+0"),
+            "{err}"
+        );
+    }
+}

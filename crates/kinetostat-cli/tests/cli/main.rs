@@ -47,6 +47,7 @@ mod loads_that_swing;
 mod machine_checks;
 mod map;
 mod measured;
+mod mirror;
 mod named_at_once;
 mod other_language;
 mod places_by_position;

@@ -12,6 +12,8 @@ pub(crate) enum Dialect {
     Nx,
     /// CATIA V5: arcs as `TLON`.
     Catia,
+    /// PTC Creo, Pro/ENGINEER.
+    Creo,
     /// Any other.
     Other,
 }
@@ -34,6 +36,7 @@ impl Dialect {
             () if has(&[b"TOOL PATH", b"MSYS", b"TLDATA", b"PAINT"]) => Self::Nx,
             () if has(&[b"TRNTYP", b"CSYS", b"CSI_SET_FLUTE_LENGTH"]) => Self::SolidworksCam,
             () if head.windows(5).any(|part| part == b"CATIA") => Self::Catia,
+            () if head.windows(10).any(|part| part == b"Pro/CLfile") => Self::Creo,
             () => Self::Other,
         }
     }
@@ -44,6 +47,7 @@ impl Dialect {
             Self::SolidworksCam => "SOLIDWORKS CAM",
             Self::Nx => "Siemens NX",
             Self::Catia => "CATIA",
+            Self::Creo => "PTC Creo",
             Self::Other => "no system that is known by its words",
         }
     }
@@ -56,7 +60,17 @@ impl Dialect {
         match self {
             Self::SolidworksCam => Some(1.0),
             Self::Nx => Some(-1.0),
-            Self::Catia | Self::Other => None,
+            Self::Catia | Self::Creo | Self::Other => None,
+        }
+    }
+
+    /// How points in place of arcs are had.
+    pub(crate) fn points(self) -> &'static str {
+        match self {
+            Self::Creo => {
+                "let Creo write points in place of arcs (manufacturing parameter CIRC_INTERPOLATION: POINTS_ONLY)"
+            }
+            _ => "let the CAM system write points",
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::model::motion::Motion;
 use crate::model::orientation::OrientationText;
 use crate::model::program::Finding;
 use crate::options::ReadOptions;
+use crate::text::line_words::in_words;
 use crate::text::number::NumberText;
 use crate::text::source::SourceFile;
 
@@ -51,6 +52,32 @@ impl Reader<'_, '_> {
             line: self.file.line_of(span.start),
             message,
         });
+    }
+
+    /// Names statements whose text goes to the controller as it stands, in one finding.
+    pub fn raw_text(&mut self, statements: &[Statement]) {
+        let is_raw = |statement: &&Statement| {
+            self.file
+                .part(&statement.word)
+                .eq_ignore_ascii_case(b"INSERT")
+        };
+        let raw: Vec<&Statement> = statements.iter().filter(is_raw).collect();
+        let Some(first) = raw.first() else {
+            return;
+        };
+        let lines: Vec<usize> = raw
+            .iter()
+            .map(|statement| self.file.line_of(statement.span.start))
+            .collect();
+        let further = match lines.len() {
+            1 => String::new(),
+            _ => format!(" ({})", in_words(&lines)),
+        };
+        let span = first.span.clone();
+        self.finding(
+            &span,
+            format!("INSERT gives its text to the controller as it stands, and it is not looked at: check that it moves neither the tool nor the coordinates{further}"),
+        );
     }
 
     pub fn first_word(&self, statement: &Statement) -> Vec<u8> {

@@ -25,13 +25,23 @@ const TEXTS: [&[u8]; 9] = [
     b"DISPLY",
 ];
 
-/// The statements of a file in their order; comments and empty lines are none.
+/// The statements of a file in their order; comments and empty lines are none. Comments of Creo (`$$->`) go on in further lines, as its statements do.
 pub(crate) fn statements_of(bytes: &[u8]) -> Vec<Statement> {
     let mut statements = Vec::with_capacity(bytes.len() / 24);
     let mut at = 0;
     while at < bytes.len() {
         let first = at;
         let mut next = next_line(bytes, at);
+        let is_creo = bytes[at..next].trim_ascii_start().starts_with(b"$$->");
+        if is_creo {
+            // A statement of Creo that is a comment to others: it goes on where `$` ends its line.
+            while next < bytes.len() && bytes[at..next].trim_ascii_end().ends_with(b"$") {
+                at = next;
+                next = next_line(bytes, at);
+            }
+            at = next;
+            continue;
+        }
         let Some(start) = (at..next).find(|at| !bytes[*at].is_ascii_whitespace()) else {
             at = next;
             continue;

@@ -122,7 +122,7 @@ impl Reader<'_, '_> {
     pub fn circle(&mut self, statement: &Statement) {
         match Circle::of(self.file, statement, self.dialect, self.unit_mm) {
             Ok(circle) => self.state.circle = Some(circle),
-            Err(reason) => self.fault(&statement.span, reason, "let the CAM system write points"),
+            Err(reason) => self.fault(&statement.span, reason, self.dialect.points()),
         }
     }
 
@@ -238,6 +238,7 @@ impl Reader<'_, '_> {
                 external: Vec::new(),
                 external_moved_behind: false,
                 indivisible: None,
+                turns_otherwise: None,
             },
         });
         self.state.place = Some(place);

@@ -5,6 +5,7 @@ use crate::apt::file_reader::{Found, Reader};
 use crate::apt::lines::statements_of;
 use crate::apt::state::{State, unit_of};
 use crate::error::ProgramError;
+use crate::model::parsed::Parsed;
 use crate::model::program::{Language, RobotProgram};
 use crate::options::ReadOptions;
 use crate::text::source::SourceFile;
@@ -38,6 +39,11 @@ pub fn read_apt(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_apt(files, options).whole()
+}
+
+/// The same, with the motions that could be read beside what is refused.
+pub(crate) fn parse_apt(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let frames = options.frames.iter();
     let mut program = Found {
         options,
@@ -85,19 +91,16 @@ pub fn read_apt(
             reader.statement(statement);
         }
         reader.end_circle();
+        reader.raw_text(&statements);
     }
     let mut faults = program.faults;
-    if !faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = files.iter().position(|file| file.name() == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        return Err(faults);
-    }
+    faults.sort_by_key(|fault: &ProgramError| {
+        let file = files.iter().position(|file| file.name() == fault.file);
+        (file, fault.span.start, fault.line)
+    });
     let (mut findings, motions) = (program.findings, program.motions);
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
+    let program = RobotProgram {
         language: Language::Apt,
         files,
         motions,
@@ -105,5 +108,6 @@ pub fn read_apt(
         declarations: Vec::new(),
         outside_calls: Vec::new(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
-    })
+    };
+    Parsed { program, faults }
 }

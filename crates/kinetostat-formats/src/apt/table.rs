@@ -65,7 +65,7 @@ pub const APT_STATEMENTS: &[StatementRow] = &[
     line("PARTNO", Carried, APT),
     line("PPRINT", Carried, ISO),
     line("TPRINT", Carried, CATIA),
-    line("INSERT", Carried, ISO),
+    line("INSERT", Carried, "ISO 4343: text for the controller as it stands; named in a warning"),
     line("REMARK", Carried, APT),
     line("TITLES", Carried, APT),
     line("LETTER", Carried, ISO),

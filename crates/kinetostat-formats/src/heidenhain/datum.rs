@@ -15,6 +15,18 @@ pub(crate) enum Bend {
     Scale(f64),
 }
 
+impl Bend {
+    /// By what a coordinate of an axis counts; none of axes that turn, and of all where lengths are others.
+    pub(crate) fn factor(&self, axis: usize) -> Option<f64> {
+        match self {
+            Self::None => Some(1.0),
+            Self::Mirror(axes) if axes[axis] => Some(-1.0),
+            Self::Mirror(_) => Some(1.0),
+            Self::Rotation(_) | Self::Scale(_) => None,
+        }
+    }
+}
+
 /// The coordinates of a program in those of the control's preset: shifted, then bent about the shifted datum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Datum {
@@ -120,9 +132,11 @@ pub(crate) fn axis_of(word: &Word) -> Option<(usize, bool)> {
     }
 }
 
+/// Why a change by a parameter is refused.
+pub(crate) const PARAMETER: &str = "a Q parameter says by how much";
+
 /// What a line `CYCL DEF n.m` changes; its words behind the number.
 pub(crate) fn change(cycle: u32, part: u32, words: &[Word], unit_mm: f64) -> Change {
-    const PARAMETER: &str = "a Q parameter says by how much";
     if part == 0 {
         return Change::Kept;
     }
@@ -161,6 +175,9 @@ pub(crate) fn change(cycle: u32, part: u32, words: &[Word], unit_mm: f64) -> Cha
                 Some(angle) => Change::Bend(Bend::Rotation(angle)),
                 None => Change::Refused(PARAMETER),
             },
+            [word] if word.is("IROT") => {
+                Change::Refused("the rotation adds to the one before (IROT), which is not followed")
+            }
             _ => Change::Refused("the rotation is not one angle `ROT`"),
         },
         11 => match words {

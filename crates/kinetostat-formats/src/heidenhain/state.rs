@@ -21,6 +21,8 @@ pub(crate) struct Pole {
 pub(crate) struct State {
     /// Where the tool is in the programmed axes, mm; none where that is not known.
     pub place: [Option<f64>; 3],
+    /// A mirror image or a scaling began or ended, and not all axes were stated since.
+    pub unstated: bool,
     /// A rotation began or ended, and X and Y were not stated since: where a block with one of them goes is not known.
     pub unsettled: bool,
     pub pole: Option<Pole>,
@@ -64,6 +66,7 @@ impl State {
     pub(crate) fn new(standing: Standing) -> Self {
         Self {
             place: [None; 3],
+            unstated: false,
             unsettled: false,
             pole: None,
             radius_mm: None,
@@ -111,6 +114,7 @@ impl State {
     /// The tool's length or the machine's axes are others now.
     pub(crate) fn lost(&mut self) {
         self.place = [None; 3];
+        self.unstated = false;
         self.direction = None;
         self.last = None;
     }
@@ -126,7 +130,8 @@ impl State {
         }
     }
 
-    /// Mirrors, turns or scales. What is not stated again behind it is not known; behind a rotation the tool stays where it is
+    /// Mirrors, turns or scales. Axes that a mirror image leaves as they are stay where they are; what else is not
+    /// stated again behind it or a scaling is not known. Behind a rotation the tool stays where it is
     /// until X or Y is stated.
     pub(crate) fn bend(&mut self, bend: Bend) {
         if bend == self.datum.bend {
@@ -149,7 +154,14 @@ impl State {
                 [Some(here.x), Some(here.y), z]
             }
             (true, [_, _, z]) => [None, None, z],
-            (false, _) => [None; 3],
+            (false, place) => {
+                let stays = |axis: usize| {
+                    bend.factor(axis).is_some() && bend.factor(axis) == before.bend.factor(axis)
+                };
+                let kept = [0, 1, 2].map(|axis| place[axis].filter(|_| stays(axis)));
+                self.unstated = true;
+                kept
+            }
         };
         self.pole = None;
         self.direction = None;

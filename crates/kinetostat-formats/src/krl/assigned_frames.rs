@@ -3,10 +3,20 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use nalgebra::Isometry3;
+
 use crate::krl::role::Role;
 
-/// Numbers of the array of a role to which the program gave a value for certain, once, as far as it was walked.
-pub(crate) type Given = BTreeSet<(Role, u32)>;
+/// What the program gave frames for certain, as far as it was walked.
+#[derive(Debug, Default)]
+pub(crate) struct Given {
+    /// Numbers of the array of a role that have a value.
+    pub numbers: BTreeSet<(Role, u32)>,
+    /// Data of the program by their index: the value that the last statement gave; none where it is not in numbers, or may not have run.
+    pub data: BTreeMap<usize, Option<Isometry3<f64>>>,
+    /// The statement that is walked runs once, on no condition: the values above are those that it finds.
+    pub is_certain: bool,
+}
 
 /// Statements by role and number; none where the index is no literal number.
 pub(crate) type Assignments = BTreeMap<(Role, Option<u32>), Vec<Assignment>>;

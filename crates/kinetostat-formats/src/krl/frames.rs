@@ -8,6 +8,7 @@ use crate::krl::aggregate::{Position, literal_index, position_of};
 use crate::krl::assigned_frames::{Assignment, Given};
 use crate::krl::lex::TokenFile;
 use crate::krl::role::Role;
+use crate::krl::symbols::Meaning;
 use crate::krl::values::{Values, key};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::orientation::OrientationText;
@@ -82,7 +83,7 @@ impl Values<'_> {
                 other.line
             )));
         }
-        Some(match given.contains(&(role, number)) {
+        Some(match given.numbers.contains(&(role, number)) {
             true => Ok(frame),
             false => Err(format!(
                 "it is assigned while the program runs, in line {line}, and whether that ran before is not certain"
@@ -130,7 +131,7 @@ impl Values<'_> {
                 Ok(part) => frame *= part,
                 Err(reason) => {
                     return FrameUse {
-                        name,
+                        name: self.named_apart(routine, tokens, name),
                         frame: Frame::Unknown { reason },
                     };
                 }
@@ -158,6 +159,40 @@ impl Values<'_> {
         }
         let (datum, stated) = self.datum(routine, tokens).ok()?;
         whole(&position_of(&self.files[datum.file], &stated.value).ok()?)
+    }
+
+    /// The datum that a name alone means, where statements alone give it its values.
+    pub(crate) fn own_datum(&self, routine: usize, tokens: &Range<usize>) -> Option<usize> {
+        let name = self.file(routine).name(tokens.start)?;
+        let Some(Meaning::Datum(index)) = self.symbols.meaning(routine, &name) else {
+            return None;
+        };
+        let datum = self.symbols.data.get(index)?;
+        let is_own = !datum.is_global && !datum.is_changed_by_calls;
+        (tokens.len() == 1 && is_own).then_some(index)
+    }
+
+    /// What the program gave a datum before, in numbers and for certain.
+    fn held(&self, routine: usize, tokens: &Range<usize>, given: &Given) -> Option<Isometry3<f64>> {
+        let index = self.own_datum(routine, tokens)?;
+        *given.data.get(&index).filter(|_| given.is_certain)?
+    }
+
+    /// The name of a frame that is not known: with its line, where a datum gets several values and each use may be another frame.
+    fn named_apart(&self, routine: usize, tokens: &Range<usize>, name: String) -> String {
+        let file = self.file(routine);
+        let all = tokens.clone().filter_map(|at| file.name(at));
+        let mut data = all.filter_map(|name| match self.symbols.meaning(routine, &name)? {
+            Meaning::Datum(index) => self.symbols.data.get(index),
+            Meaning::Parameter => None,
+        });
+        match data.any(|datum| datum.assignments > 1) {
+            true => {
+                let line = file.source.line_of(file.span(tokens).start);
+                format!("{name} of line {line}")
+            }
+            false => name,
+        }
     }
 
     /// The number in `TOOL_DATA[3]`.
@@ -189,6 +224,9 @@ impl Values<'_> {
             if let Some(number) = self.number_in(file, role, tokens) {
                 return self.known(role, number, given);
             }
+        }
+        if let Some(frame) = self.held(routine, tokens, given) {
+            return Ok(frame);
         }
         let (datum, stated) = self.datum(routine, tokens).map_err(|(reason, _)| reason)?;
         let position =

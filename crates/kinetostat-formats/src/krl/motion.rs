@@ -119,6 +119,7 @@ pub(crate) fn follow(
             external: end.external,
             external_moved_behind: false,
             indivisible: joint.then_some("this motion cannot be divided"),
+            turns_otherwise: None,
         },
         span,
     };

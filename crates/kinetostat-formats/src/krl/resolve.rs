@@ -7,6 +7,7 @@ use crate::krl::kept::{completed, is_beyond, kept_angles};
 use crate::krl::motion::Followed;
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing};
+use crate::krl::unsettled::Unsettled;
 use crate::krl::values::{Reason, Values};
 use crate::krl::walking::walker::Walker;
 use crate::model::frame::{Frame, FrameUse};
@@ -38,9 +39,13 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
         targets,
         ..
     } = walker;
+    let mut settings = settings;
+    let unsettled = Unsettled::of(&motions, &entry, (values, &mut settings));
+    faults.extend(unsettled.faults(values, &settings));
     let mut resolver = Resolver {
         values,
         settings,
+        is_refused: unsettled.is_refused(),
         unknown,
         findings,
         declarations: &targets.declarations,
@@ -73,6 +78,8 @@ pub(crate) fn resolve(walker: Walker<'_, '_>, main: Option<usize>) -> Resolved {
 struct Resolver<'v, 'p> {
     values: &'v Values<'p>,
     settings: Settings,
+    /// Calls are refused for what they may have changed: the rest is looked at as if they had not.
+    is_refused: bool,
     unknown: UnknownTargets,
     findings: Vec<Finding>,
     declarations: &'v [Declaration],
@@ -129,6 +136,7 @@ impl Resolver<'_, '_> {
             .follows
             .and_then(|index| self.before(index, &motion).cloned());
         let mut fault = None;
+        let lost_place = self.lost_place(state.get(Thing::Place));
         if let (Some(step_mm), Target::Pose(pose)) = (step_mm, &mut motion.target) {
             match (&before, self.unknown) {
                 (Some(before), _) => {
@@ -137,12 +145,12 @@ impl Resolver<'_, '_> {
                 }
                 (None, UnknownTargets::LeftAsWritten) => {
                     motion.target = Target::Unknown {
-                        reason: STEP.to_owned(),
+                        reason: lost_place.clone().unwrap_or_else(|| STEP.to_owned()),
                     }
                 }
                 (None, UnknownTargets::Refused) => {
                     fault = Some((
-                        STEP.to_owned(),
+                        lost_place.clone().unwrap_or_else(|| STEP.to_owned()),
                         "write the end with LIN and all its numbers",
                     ));
                 }
@@ -162,7 +170,7 @@ impl Resolver<'_, '_> {
                 .and_then(|before| completed(&open, before, is_beyond(before)));
             let why = match before {
                 Some(_) => BEYOND,
-                None => OPEN,
+                None => lost_place.as_deref().unwrap_or(OPEN),
             };
             match (filled, self.unknown) {
                 (Some((position_mm, orientation)), _) => {
@@ -214,6 +222,10 @@ impl Resolver<'_, '_> {
 
     /// The frame in force at a motion of a file.
     fn frame(&self, (slot, file): (Slot, usize), role: Role, none: FrameUse) -> FrameUse {
+        let slot = match slot {
+            Slot::Lost { before, .. } if self.is_refused => before.map_or(Slot::Unknown, Slot::Is),
+            slot => slot,
+        };
         let found = self.settings.frames.get(slot).cloned();
         found
             .or_else(|| self.values.stated(role.variable()))
@@ -223,9 +235,19 @@ impl Resolver<'_, '_> {
 
     /// A frame that was known before a call of what is in none of the files.
     fn lost(&self, slot: Slot, file: usize, role: Role) -> Option<FrameUse> {
-        let Slot::Lost { call, .. } = slot else {
+        let Slot::Lost { mut call, .. } = slot else {
             return None;
         };
+        let thing = match role {
+            Role::Base => Thing::Base,
+            Role::Tool => Thing::Tool,
+        };
+        // The first of several calls.
+        while let Some(Slot::Lost { call: before, .. }) =
+            (self.settings.before_calls.get(call)).map(|before| before.get(thing))
+        {
+            call = before;
+        }
         let call = self.settings.calls.get(call)?;
         let home = match call.file == file {
             true => String::new(),
@@ -241,6 +263,19 @@ impl Resolver<'_, '_> {
             name: role.variable().to_owned(),
             frame: Frame::Unknown { reason },
         })
+    }
+
+    /// Why an end that needs the place before it is not known, behind a call of what is in none of the files.
+    fn lost_place(&self, slot: Slot) -> Option<String> {
+        let Slot::Lost { call, .. } = slot else {
+            return None;
+        };
+        let call = self.settings.calls.get(call)?;
+        Some(format!(
+            "its end depends on where the tool is, and `{}`, which line {} calls and none of these files holds, may move it",
+            call.name.as_deref().unwrap_or_default(),
+            call.line
+        ))
     }
 
     fn compare_fold(&mut self, around: &[Option<usize>]) {

@@ -6,7 +6,7 @@ use crate::krl::aggregate::{aggregate_of, number_of};
 use crate::krl::lex::TokenFile;
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
-use crate::krl::turning::turns_as_followed;
+use crate::krl::turning::{auxiliary_turn, data_turn_as_followed, turns_as_followed};
 use crate::krl::values::{Reason, Values};
 use crate::model::motion::Speed;
 
@@ -147,6 +147,20 @@ impl Setter<'_, '_> {
                     false => Thing::JointData,
                 };
                 state.set(thing, slot);
+                if thing == Thing::LinearData && whole {
+                    data_turn_as_followed(self.values, self.routine, (tokens, &value))?;
+                } else if thing == Thing::LinearData
+                    && part.is_some_and(|part| part.is("ORI_TYP") || part.is("CIRC_TYP"))
+                {
+                    turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+                }
+            }
+            b"$CIRC_MODE" => {
+                let of_data = called.and_then(|_| {
+                    let stated = self.values.choice(self.routine, &argument, "CIRC_MODE");
+                    stated.ok().flatten()
+                });
+                auxiliary_turn(&file.text(tokens), of_data.as_deref())?;
             }
             _ => {}
         }

@@ -32,8 +32,10 @@ impl Slot {
                 call,
                 before: Some(index),
             },
+            // The last call is noted: [`Settings::before_calls`] has those before it.
+            Self::Lost { before, .. } => Self::Lost { call, before },
             // What was not known before is not lost by the call.
-            Self::Unknown | Self::Lost { .. } => self,
+            Self::Unknown => self,
         }
     }
 }
@@ -191,6 +193,8 @@ pub(crate) struct Settings {
     pub points: Pool<PointData>,
     /// Calls of what is in none of the files.
     pub calls: Vec<OutsideCall>,
+    /// What was in force before each of these calls: what one before it had lost stays lost by both.
+    pub before_calls: Vec<State>,
     /// Tools and bases to which the program gave values up to here.
     pub given: Given,
 }

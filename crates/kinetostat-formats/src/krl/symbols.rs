@@ -37,6 +37,10 @@ pub(crate) struct Datum {
     pub stated: BTreeMap<u32, Stated>,
     /// Where it, or any of its elements, is assigned.
     pub assigned: Option<(usize, usize)>,
+    /// How many statements give it, or a part of it, a value.
+    pub assignments: usize,
+    /// A routine to which it is given, or a loop, may change it.
+    pub is_changed_by_calls: bool,
     /// Where elements without a stated value are assigned.
     pub elements_assigned: BTreeMap<u32, (usize, usize)>,
 }
@@ -127,6 +131,8 @@ impl<'p> Symbols<'p> {
                             is_global: true,
                             stated: BTreeMap::new(),
                             assigned: None,
+                            assignments: 0,
+                            is_changed_by_calls: false,
                             elements_assigned: BTreeMap::new(),
                         });
                         all.everywhere.insert(preset.name, all.data.len() - 1);
@@ -207,6 +213,8 @@ impl<'p> Symbols<'p> {
             is_global: node.is_global,
             stated: stated.map(|stated| (0, stated)).into_iter().collect(),
             assigned: None,
+            assignments: 0,
+            is_changed_by_calls: false,
             elements_assigned: BTreeMap::new(),
         });
         self.data.len() - 1

@@ -30,10 +30,6 @@ const ASYNCHRONOUS: Treatment = Refused {
     reason: "it moves axes apart from the program",
     remedy: "take this statement into a program of its own",
 };
-const BRAKES: Treatment = Refused {
-    reason: "it leaves the programmed path",
-    remedy: "take this statement into a program of its own",
-};
 
 /// How the end of a motion is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -187,7 +183,7 @@ const OTHERS: [StatementRow; 140] = [
         reason: "it leaves motions before their ends",
         remedy: "take the interrupt that resumes into a program of its own",
     }, EXPERT),
-    line("BRAKE", BRAKES, EXPERT),
+    line("BRAKE", Carried, EXPERT),
     line("PTP_REL", RELATIVE, EXPERT),
     line("CIRC_REL", RELATIVE, EXPERT),
     line("SPTP_REL", RELATIVE, KSS),
@@ -207,9 +203,9 @@ const OTHERS: [StatementRow; 140] = [
     line("SBASE", Carried, KSS),
     line("SLOAD", Carried, KSS),
     line("SIPO_MODE", Carried, KSS),
-    line("SORI_TYP", Carried, KSS),
-    line("SCIRC_TYP", Carried, KSS),
-    line("SCIRC_M", Carried, KSS),
+    line("SORI_TYP", Understood, KSS),
+    line("SCIRC_TYP", Understood, KSS),
+    line("SCIRC_M", Understood, KSS),
     line("SAPO", Carried, KSS),
     line("SAPO_PTP", Carried, KSS),
     line("SJERK", Carried, KSS),

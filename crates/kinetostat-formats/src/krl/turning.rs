@@ -1,4 +1,4 @@
-//! How the tool turns from point to point: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`.
+//! How the tool turns from point to point: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, and the data of `LDAT_ACT=LCPDAT1`.
 
 use std::ops::Range;
 
@@ -13,7 +13,10 @@ pub(crate) fn turns_as_followed(
     (name, tokens, value): (&Name, &Range<usize>, &Range<usize>),
 ) -> Result<(), Reason> {
     let file = values.file(routine);
-    let word = match name.is("$ORI_TYPE") {
+    // A member of LDAT_ACT stands behind a point.
+    let stated = file.name(tokens.start + 2).filter(|_| name.is("LDAT_ACT"));
+    let is_orientation = name.is("$ORI_TYPE") || stated.is_some_and(|member| member.is("ORI_TYP"));
+    let word = match is_orientation {
         true => "ORI_TYP",
         false => "CIRC_TYP",
     };
@@ -31,21 +34,61 @@ pub(crate) fn turns_as_followed(
         None => (file.text(value).to_uppercase(), "here"),
     };
     let shown = excerpt(file.text(tokens).as_bytes());
+    is_followed(word, &choice, &shown, place == "here")
+}
+
+/// Refuses data of inline forms, which BAS puts in force for the motions behind it, as [`turns_as_followed`] refuses words.
+pub(crate) fn data_turn_as_followed(
+    values: &Values<'_>,
+    routine: usize,
+    (tokens, value): (&Range<usize>, &Range<usize>),
+) -> Result<(), Reason> {
+    let shown = excerpt(values.file(routine).text(tokens).as_bytes());
+    for word in ["ORI_TYP", "CIRC_TYP"] {
+        // Data that are in none of the files say nothing of speed or rounding, either: what needs them says so.
+        if let Ok(Some(choice)) = values.choice(routine, value, word) {
+            is_followed(word, &choice, &shown, false)?;
+        }
+    }
+    Ok(())
+}
+
+fn is_followed(word: &str, choice: &str, shown: &str, here: bool) -> Result<(), Reason> {
     match word {
         "ORI_TYP" if !choice.contains("VAR") => Err((
             format!("`{shown}`: the tool does not turn evenly to the orientation of the point"),
-            match place {
-                "here" => "write $ORI_TYPE=#VAR, with the orientations that the tool has",
-                _ => "write ORI_TYP #VAR in these data, with the orientations that the tool has",
+            match here {
+                true => "write $ORI_TYPE=#VAR, with the orientations that the tool has",
+                false => {
+                    "write ORI_TYP #VAR in these data, with the orientations that the tool has"
+                }
             },
         )),
         "CIRC_TYP" if choice.contains("PATH") => Err((
             "the tool turns with the circle (#PATH), whatever its points say".to_owned(),
-            match place {
-                "here" => "write $CIRC_TYPE=#BASE, with the orientations that the tool has",
-                _ => "write CIRC_TYP #BASE in these data, with the orientations that the tool has",
+            match here {
+                true => "write $CIRC_TYPE=#BASE, with the orientations that the tool has",
+                false => {
+                    "write CIRC_TYP #BASE in these data, with the orientations that the tool has"
+                }
             },
         )),
         _ => Ok(()),
+    }
+}
+
+/// Refuses `$CIRC_MODE.AUX_PT.ORI=#INTERPOLATE`: the tool passes the orientation of the place on the circle.
+/// Either stands in the statement or in the data that it names.
+pub(crate) fn auxiliary_turn(statement: &str, of_data: Option<&str>) -> Result<(), Reason> {
+    let says = |text: &str| text.to_uppercase().contains("#INTERPOLATE");
+    match says(statement) || of_data.is_some_and(says) {
+        true => Err((
+            format!(
+                "`{}`: on a circle the tool passes the orientation of the place on it, which is not followed",
+                excerpt(statement.as_bytes())
+            ),
+            "write #IGNORE, and divide the circle where the tool is to have that orientation",
+        )),
+        false => Ok(()),
     }
 }

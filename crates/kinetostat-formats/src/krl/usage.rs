@@ -126,7 +126,7 @@ impl Notes<'_, '_, '_, '_> {
                             .any(|word| name.is(word))
                     }) =>
             {
-                self.assign(assigned, equals);
+                self.assign(assigned, equals, is_for);
                 self.frame(assigned, equals, Some(equals + 1..tokens.end));
                 let (place, _) = place_of(self.file, assigned, equals);
                 self.keep(place.start + 1..equals);
@@ -147,7 +147,7 @@ impl Notes<'_, '_, '_, '_> {
         }
     }
 
-    fn assign(&mut self, at: usize, end: usize) {
+    fn assign(&mut self, at: usize, end: usize, by_call: bool) {
         let Some(index) = self.datum(at) else {
             return;
         };
@@ -159,6 +159,8 @@ impl Notes<'_, '_, '_, '_> {
         );
         let (place, element) = place_of(self.file, at, end);
         let datum = &mut self.symbols.data[index];
+        datum.assignments += 1;
+        datum.is_changed_by_calls |= by_call;
         match element {
             Some(element) if place.len() > 1 => {
                 match datum.stated.get_mut(&element) {
@@ -222,7 +224,7 @@ impl Notes<'_, '_, '_, '_> {
                 let end = self.file.find(start..close, b',').unwrap_or(close);
                 let (place, _) = place_of(self.file, start, end);
                 if place == (start..end) && self.changes(&called, number) {
-                    self.assign(start, end);
+                    self.assign(start, end, true);
                     self.frame(start, end, None);
                 }
                 number += 1;

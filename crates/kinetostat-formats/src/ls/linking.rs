@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::ls::beside::run_beside;
 use crate::ls::found::Reader;
 use crate::ls::lines::Layout;
 use crate::ls::program::Program;
@@ -38,20 +39,30 @@ impl Reader<'_> {
                     Step::Perhaps(step) => step,
                     step => step,
                 };
-                let Step::Call(name) = step else {
-                    continue;
+                let line = &layouts[index].lines[at];
+                let mut outside = |name: Option<&[u8]>| {
+                    self.outside_calls.push(OutsideCall {
+                        file: index,
+                        line: file.line_of(line.whole.start),
+                        name: name.map(crate::error::excerpt),
+                        speeds_behind: Vec::new(),
+                    });
                 };
-                let called = name.as_ref().map(|name| file.part(name));
-                match called.and_then(|name| names.get(&name.to_ascii_uppercase())) {
-                    Some(to) => {
-                        program.called.insert(at, *to);
+                let known = |name: &[u8]| names.get(&name.to_ascii_uppercase());
+                if let Step::Call(name) = step {
+                    let called = name.as_ref().map(|name| file.part(name));
+                    match called.and_then(known) {
+                        Some(to) => {
+                            program.called.insert(at, *to);
+                        }
+                        None => outside(called),
                     }
-                    None => {
-                        self.outside_calls.push(OutsideCall {
-                            file: index,
-                            line: file.line_of(layouts[index].lines[at].whole.start),
-                            name: called.map(crate::error::excerpt),
-                        });
+                    continue;
+                }
+                for name in run_beside(file.bytes(), &line.text) {
+                    let name = name.as_ref().map(|name| file.part(name));
+                    if name.and_then(known).is_none() {
+                        outside(name);
                     }
                 }
             }

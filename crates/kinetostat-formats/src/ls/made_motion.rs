@@ -65,6 +65,7 @@ impl Reader<'_> {
                 external: end.external,
                 external_moved_behind: false,
                 indivisible: text.indivisible,
+                turns_otherwise: text.turns_otherwise,
             },
         })
     }

@@ -40,6 +40,7 @@ pub(crate) struct MotionText {
     /// Why the end is not where its position says.
     pub displaced: Option<&'static str>,
     pub indivisible: Option<&'static str>,
+    pub turns_otherwise: Option<Reason>,
 }
 
 /// Why a motion is refused, and what to do.
@@ -89,6 +90,7 @@ pub(crate) fn motion_of(bytes: &[u8], text: &Range<usize>) -> Result<MotionText,
         zone_span: Some(zone_span),
         displaced: None,
         indivisible: is_duration.then_some("its speed is a time, which each piece would take"),
+        turns_otherwise: None,
     };
     reader.options(&mut motion)?;
     Ok(motion)
@@ -265,6 +267,11 @@ impl Reader<'_> {
             }
             match row.effect {
                 Effect::None => {}
+                Effect::Turned(reason) => {
+                    let remedy =
+                        "take the option out, or teach both positions with one orientation";
+                    motion.turns_otherwise = Some((reason, remedy));
+                }
                 Effect::Displaced(reason) => motion.displaced = Some(reason),
                 Effect::Refused(reason) => {
                     return Err((reason, "take this motion into a program of its own"));

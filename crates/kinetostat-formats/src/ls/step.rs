@@ -165,7 +165,12 @@ fn bracketed(bytes: &[u8], span: &Range<usize>) -> Number {
 
 /// The name of the program that is called.
 fn called(bytes: &[u8], span: &Range<usize>) -> Option<Range<usize>> {
-    let from = span.start + b"CALL".len();
+    name_from(bytes, span.start + b"CALL".len()..span.end)
+}
+
+/// The name of a program with which a part begins; none where a register says it.
+pub(crate) fn name_from(bytes: &[u8], part: Range<usize>) -> Option<Range<usize>> {
+    let (from, span) = (part.start, part);
     let rest = bytes.get(from..span.end)?;
     let blanks = rest.len() - rest.trim_ascii_start().len();
     let is_part = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'_' || **byte == b'-';

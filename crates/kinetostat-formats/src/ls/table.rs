@@ -162,6 +162,8 @@ pub(crate) enum Follows {
 pub(crate) enum Effect {
     /// The end stays: carried.
     None,
+    /// The tool turns otherwise than evenly, in words how.
+    Turned(&'static str),
     /// The end is elsewhere, which only the run knows.
     Displaced(&'static str),
     /// The motion is not followed.
@@ -192,7 +194,7 @@ const COORDINATED: Effect =
 #[rustfmt::skip]
 pub(crate) const MOTION_OPTIONS: &[OptionRow] = &[
     option("ACC", Follows::Value, Effect::None),
-    option("Wjnt", Follows::Nothing, Effect::None),
+    option("Wjnt", Follows::Nothing, Effect::Turned("the joints of the wrist turn evenly (Wjnt), and with them the tool does not")),
     option("Mrot", Follows::Nothing, Effect::None),
     option("PTH", Follows::Nothing, Effect::None),
     option("BREAK", Follows::Nothing, Effect::None),

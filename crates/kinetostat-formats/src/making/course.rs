@@ -1,5 +1,7 @@
 //! In which order moves, events and changes of tools run.
 
+use std::collections::BTreeMap;
+
 use kinetostat_program::Path;
 
 use crate::making::event_kind::EventKind;
@@ -7,6 +9,7 @@ use crate::making::events::SourceEvent;
 use crate::making::fault::MakeFinding;
 use crate::making::numbers::plain;
 use crate::making::step::StatedConfiguration;
+use crate::model::program::Language;
 
 /// Numbers of a motion: what acts before it, the motion, and what acts behind it.
 const OF_A_MOTION: usize = 3;
@@ -66,12 +69,14 @@ pub(crate) struct Course {
     pub tools: Vec<(usize, u32)>,
     /// What has no place among the moves.
     pub left_out: Vec<SourceEvent>,
-    /// Its speeds are those of a robot's program.
-    pub is_of_robot: bool,
+    /// Of a program that is not in G-code.
+    pub language: Option<Language>,
     /// Of every move, how the arm reaches its places, where the source says it in the same language.
     pub configurations: Vec<StatedConfiguration>,
     /// Of every move, its speeds of turning and of external axes, where the source states them in the same language.
     pub other_speeds: Vec<Option<Box<str>>>,
+    /// By line, the call behind which the speed of a motion is not known: `SPINDLE_ON` on line 7.
+    pub lost_speeds: BTreeMap<usize, String>,
 }
 
 impl Course {
@@ -101,9 +106,10 @@ impl Course {
                 .map(|change| (before(change.line), change.number))
                 .collect(),
             left_out,
-            is_of_robot: false,
+            language: None,
             configurations: Vec::new(),
             other_speeds: Vec::new(),
+            lost_speeds: BTreeMap::new(),
         }
     }
 

@@ -52,6 +52,7 @@ pub(crate) mod robot_faults;
 pub(crate) mod routines;
 pub(crate) mod siemens_events;
 pub(crate) mod siemens_words;
+pub(crate) mod speed_remedy;
 pub(crate) mod stated;
 pub(crate) mod stated_configurations;
 pub(crate) mod statements;

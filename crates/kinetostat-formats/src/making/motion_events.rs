@@ -1,8 +1,10 @@
 //! What a robot's program does in the statements of its motions and on their lines: outputs, procedures, triggers.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::ls::motion::event_of;
+use crate::ls::names::{named_end, position_names};
 use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::statements::of_line;
@@ -20,6 +22,10 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
     let starts = sorted(own().map(|motion| motion.span.start).collect());
     let ends = sorted(own().map(|motion| motion.span.end).collect());
     let mut events = Vec::new();
+    let names = match (program.language, program.files.get(file)) {
+        (Language::FanucLs, Some(source)) => position_names(source),
+        _ => BTreeMap::new(),
+    };
     for motion in own() {
         let before = ends.partition_point(|end| *end <= motion.span.start);
         let before = before.checked_sub(1).map_or(0, |before| ends[before]);
@@ -31,6 +37,12 @@ pub(crate) fn events_of_motions(program: &RobotProgram, file: usize) -> Vec<Sour
         let begin = source.range_of(motion.line).start;
         let number = |from: usize| starts.partition_point(|start| *start < from);
         let number = number(motion.span.start).saturating_sub(number(begin));
+        let called = program.files.get(file);
+        let called = called.and_then(|source| named_end(source, motion, &names));
+        events.extend(called.map(|text| SourceEvent {
+            motion: Some(number),
+            ..SourceEvent::words_alone(motion.line, EventKind::Comment, text)
+        }));
         events.extend(events_of_motion(
             program.language,
             source,

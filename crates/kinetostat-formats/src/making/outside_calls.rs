@@ -1,5 +1,7 @@
 //! What a source calls and none of its files holds: it is a note, and may move the tool.
 
+use std::collections::BTreeMap;
+
 use crate::making::fault::MakeFinding;
 use crate::model::outside_call::by_name;
 use crate::model::program::RobotProgram;
@@ -18,4 +20,20 @@ pub(crate) fn outside_calls(program: &RobotProgram, file: usize) -> Vec<MakeFind
         }
     });
     all.collect()
+}
+
+/// By line of motions, the call behind which their speed is not known.
+pub(crate) fn lost_speeds(program: &RobotProgram, file: usize) -> BTreeMap<usize, String> {
+    let calls = program
+        .outside_calls
+        .iter()
+        .filter(|call| call.file == file);
+    let by_line = calls.flat_map(|call| {
+        let name = call.name.as_deref().unwrap_or("what is called");
+        let shown = format!("`{name}`, which line {} calls,", call.line);
+        call.speeds_behind
+            .iter()
+            .map(move |line| (*line, shown.clone()))
+    });
+    by_line.collect()
 }

@@ -14,6 +14,7 @@ use crate::making::limits::{Limits, MakeLanguage};
 use crate::making::numbers::plain;
 use crate::making::otherwise::{Otherwise, further_axes};
 use crate::making::pieces::{Shape, pieces_of};
+use crate::making::speed_remedy::speed_remedy;
 use crate::making::step::{MadeMotion, Step, Way};
 use crate::making::stops::stops;
 use crate::making::template::{PlacesUnknown, Rapids, Template};
@@ -247,13 +248,18 @@ impl Planner<'_> {
         if let Some(speed) = found.filter(|speed| *speed > 0.0 && speed.is_finite()) {
             return Some(speed);
         }
+        if let Some(call) = self.course.lost_speeds.get(&motion.line) {
+            let reason = format!(
+                "the speed of this motion is not known: {call} is in none of these files, and may set another"
+            );
+            let remedy = "give its file as well, state the speed again behind the call, or state unstated_feed_mm_per_s in the template";
+            self.fault(motion.line, &reason, remedy);
+            return None;
+        }
         self.fault(
             motion.line,
             "the speed of this motion at feed is not known",
-            match self.course.is_of_robot {
-                true => "write it as a number of mm/s (here it is a time, a register, or a name without a value), or state unstated_feed_mm_per_s in the template",
-                false => "write an F above zero (with G95 the speed of the spindle, too), or state unstated_feed_mm_per_s in the template",
-            },
+            speed_remedy(self.course.language),
         );
         None
     }

@@ -50,6 +50,11 @@ pub(crate) fn files(
     let first = steps.iter().find_map(Step::motion);
     writer.follow_configuration(first.is_some_and(|first| writer.goes_by(first)), &mut text);
     text += "    ConfL\\Off;\n";
+    // What arcs are computed with; without it the tool turns with the path.
+    let circles = |motion: &MadeMotion| matches!(motion.way, Way::Circle { .. });
+    if steps.iter().filter_map(Step::motion).any(circles) {
+        text += "    CirPathMode\\ObjectFrame;\n";
+    }
     if let Some(acceleration) = template.acceleration_m_per_s2 {
         text += &format!(
             "    PathAccLim TRUE\\AccMax:={},TRUE\\DecelMax:={};\n",

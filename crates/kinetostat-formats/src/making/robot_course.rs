@@ -20,7 +20,7 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         let moves = numbers(robot, |line| line);
         course.tools = changes_of_source(program, robot, (&moves, &events));
         course.events = events;
-        course.is_of_robot = true;
+        course.language = Some(program.language);
         return course;
     };
     let mut by_line: BTreeMap<usize, Vec<SourceEvent>> = BTreeMap::new();
@@ -48,9 +48,10 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         of_moves: Some(moves),
         events: placed,
         left_out: by_line.into_values().flatten().collect(),
-        is_of_robot: true,
+        language: Some(program.language),
         configurations: Vec::new(),
         other_speeds: Vec::new(),
+        lost_speeds: BTreeMap::new(),
     }
 }
 

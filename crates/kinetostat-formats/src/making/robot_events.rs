@@ -12,7 +12,7 @@ use crate::making::motion_events::events_of_motions;
 use crate::making::order_words::orders_only;
 use crate::making::robot_actions::kind_of;
 use crate::making::siemens_events::events_of_siemens;
-use crate::making::statements::of_line;
+use crate::making::statements::{comment_behind, of_line};
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
 
@@ -51,7 +51,15 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
         let text = String::from_utf8_lossy(source.line(line).unwrap_or_default()).into_owned();
         let text = body(program.language, &text);
         let upper = text.to_ascii_uppercase();
-        if text.is_empty() || orders_only(program.language, text) {
+        if text.is_empty() {
+            continue;
+        }
+        if orders_only(program.language, text) {
+            // What it puts in force is followed; what a person wrote behind it is kept.
+            let comment = comment_behind(program.language, text);
+            events.extend(
+                comment.map(|text| SourceEvent::words_alone(line, EventKind::Comment, text)),
+            );
             continue;
         }
         let kind = kind_of(program.language, &upper);

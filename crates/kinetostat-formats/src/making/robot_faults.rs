@@ -13,12 +13,12 @@ pub(crate) fn not_once(program: &RobotProgram) -> Vec<MakeError> {
         .motions
         .iter()
         .filter(|motion| motion.runs != Runs::Once);
-    others
+    let mut faults: Vec<MakeError> = others
         .map(|motion| {
             let reason = match motion.runs {
                 Runs::OnCondition => "the motion is in a branch, or behind what may end the program or its routine before: whether it runs is not known",
-                Runs::Elsewhere => "nothing in these files leads to this motion: it never runs (its routine is not called, or the program ends before)",
-                _ => "the motion is in a loop, or in a routine that is called more than once",
+                Runs::Elsewhere => "nothing in these files leads to this motion: it never runs (its routine is not called, a jump leaves it out, or the program ends before)",
+                _ => "the motion is in a loop, in a routine with a GOTO that is not followed, or in one that is called more than once",
             };
             MakeError::at(
                 motion.line,
@@ -26,7 +26,9 @@ pub(crate) fn not_once(program: &RobotProgram) -> Vec<MakeError> {
                 "write its motions one after another, or take them out",
             )
         })
-        .collect()
+        .collect();
+    faults.sort_by_key(|fault| fault.line);
+    faults
 }
 
 /// Arcs whose way is not known: it depends on where they begin.

@@ -29,6 +29,24 @@ fn of_statement(language: Language, line: usize, text: &str) -> SourceEvent {
     }
 }
 
+/// The comment behind the statement of a line; none where the line is one.
+pub(crate) fn comment_behind(language: Language, text: &str) -> Option<&str> {
+    let sign = match language {
+        Language::Rapid => "!",
+        Language::Krl => ";",
+        Language::Apt => "$$",
+        _ => return None,
+    };
+    let mut in_text = false;
+    let begins = |(at, letter): (usize, char)| {
+        in_text ^= letter == '"';
+        (!in_text && text[at..].starts_with(sign)).then_some(at)
+    };
+    let at = text.char_indices().find_map(begins).filter(|at| *at > 0)?;
+    let comment = text[at..].trim();
+    (comment.len() > sign.len()).then_some(comment)
+}
+
 /// The statements of a line of RAPID and its comment; the whole line of others, and of what belongs to a block.
 fn statements(language: Language, text: &str) -> Vec<&str> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';

@@ -51,7 +51,7 @@ pub enum Runs {
     Once,
     /// At most once: in a branch.
     OnCondition,
-    /// More than once, or perhaps: in a loop, or in a routine that is called more than once.
+    /// More than once, or perhaps: in a loop, in a routine with a jump backward, or in one that is called more than once.
     Repeatedly,
     /// In a routine that nothing in these files calls.
     Elsewhere,

@@ -12,6 +12,8 @@ pub(crate) struct OutsideCall {
     pub line: usize,
     /// As it is shown; none where the run computes it.
     pub name: Option<String>,
+    /// Lines of motions whose speed it may have changed, in its file.
+    pub speeds_behind: Vec<usize>,
 }
 
 /// Calls of one name in one file, with their lines in order.

@@ -31,6 +31,14 @@ pub(crate) struct Read {
 }
 
 impl Parsed {
+    /// The program, or all that is refused of it.
+    pub(crate) fn whole(self) -> Result<RobotProgram, Vec<ProgramError>> {
+        match self.faults.is_empty() {
+            true => Ok(self.program),
+            false => Err(self.faults),
+        }
+    }
+
     /// Of files of which nothing can be read.
     pub(crate) fn refused(language: Language, faults: Vec<ProgramError>) -> Self {
         Self {

@@ -158,4 +158,6 @@ pub(crate) struct MotionSite {
     pub external_moved_behind: bool,
     /// Why it cannot become several statements.
     pub indivisible: Option<&'static str>,
+    /// Why the tool does not turn evenly from its start to its end, and what to do: it is refused where it turns.
+    pub turns_otherwise: Option<(&'static str, &'static str)>,
 }

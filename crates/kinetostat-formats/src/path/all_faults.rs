@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
-use crate::document::read;
+use crate::apt::reader::parse_apt;
 use crate::error::ProgramError;
+use crate::heidenhain::reading::reader::parse_heidenhain;
 use crate::krl::reader::parse_krl;
 use crate::ls::reader::parse_ls;
 use crate::model::parsed::Parsed;
@@ -11,7 +12,9 @@ use crate::model::program::Language;
 use crate::options::ReadOptions;
 use crate::path::fault::PathError;
 use crate::path::motion_faults::faults_of_motions;
+use crate::poses::reader::parse_poses;
 use crate::rapid::reader::parse_rapid;
+use crate::siemens::reader::parse_siemens;
 use crate::text::source::SourceFile;
 
 /// What keeps a program from being corrected.
@@ -58,8 +61,7 @@ impl ProgramFault {
 /// All that [`crate::read`] refuses, and with it what [`crate::path_of`] would refuse of the motions that could be read, in order of
 /// files and lines.
 ///
-/// Of RAPID, KRL and FANUC programs the motions beside the faults are looked at; of the other languages what reading refuses comes
-/// alone.
+/// The motions beside the faults are looked at, too.
 ///
 /// ```
 /// use kinetostat_formats::{Language, ReadOptions, SourceFile, all_faults};
@@ -83,13 +85,10 @@ pub fn all_faults(
         Language::Krl => parse_krl(files, options),
         Language::Rapid => parse_rapid(files, options),
         Language::FanucLs => parse_ls(files, options),
-        other => match read(other, files, options) {
-            Ok(program) => Parsed {
-                program,
-                faults: Vec::new(),
-            },
-            Err(faults) => Parsed::refused(other, faults),
-        },
+        Language::Poses => parse_poses(files, options),
+        Language::Siemens => parse_siemens(files, options),
+        Language::Heidenhain => parse_heidenhain(files, options),
+        Language::Apt => parse_apt(files, options),
     };
     let of_path = faults_of_motions(&program);
     let of_text = faults.into_iter().map(ProgramFault::from);

@@ -16,7 +16,7 @@ use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;
 use crate::path::header::{mark_line, with_header};
-use crate::path::of_program::{RobotPath, path_of};
+use crate::path::of_program::{RobotPath, path_of_written};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
 use crate::path::turned_axes::{angles_as_written, angles_of_piece, by_angles, refuse_lost_turn};
@@ -58,7 +58,7 @@ use crate::writing::piece::Piece;
 pub struct Correctable<'a> {
     /// The program as read.
     pub program: &'a RobotProgram,
-    /// What [`path_of`] makes of it.
+    /// What [`path_of`](crate::path_of) makes of it.
     pub path: &'a RobotPath,
     /// How it was read.
     pub reading: &'a ReadOptions,
@@ -275,7 +275,7 @@ impl Correctable<'_> {
             .map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
         let program =
             read(self.program.language, sources.collect(), self.reading).map_err(unreadable)?;
-        let path = path_of(&program, self.making).map_err(unreadable)?;
+        let path = path_of_written(&program, self.making).map_err(unreadable)?;
         Ok((program, path))
     }
 

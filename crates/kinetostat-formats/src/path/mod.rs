@@ -24,3 +24,4 @@ pub(crate) mod path_warnings;
 pub(crate) mod read_again;
 pub(crate) mod tools;
 pub(crate) mod turned_axes;
+mod turning_faults;

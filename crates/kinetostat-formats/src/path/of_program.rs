@@ -12,7 +12,7 @@ use crate::path::axis_turns::first_leaning;
 use crate::path::fault::PathError;
 use crate::path::maker::Maker;
 use crate::path::motion_faults::{
-    fault_at, faults_of_motions, has_one_work_object, motions_to_poses,
+    fault_at, faults_of_motions, faults_of_written, has_one_work_object, motions_to_poses,
 };
 use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
@@ -76,7 +76,22 @@ impl RobotPath {
 /// # Errors
 /// All motions that cannot stand in one path: of several tools, of work objects that are not known, in several files.
 pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPath, Vec<PathError>> {
-    let faults = faults_of_motions(program);
+    path_without(faults_of_motions(program), program, options)
+}
+
+/// The path of a program that is written here, read again.
+pub(crate) fn path_of_written(
+    program: &RobotProgram,
+    options: &PathOptions,
+) -> Result<RobotPath, Vec<PathError>> {
+    path_without(faults_of_written(program), program, options)
+}
+
+fn path_without(
+    faults: Vec<PathError>,
+    program: &RobotProgram,
+    options: &PathOptions,
+) -> Result<RobotPath, Vec<PathError>> {
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -3,6 +3,7 @@
 use crate::error::{ProgramError, note};
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
+use crate::model::parsed::Parsed;
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::model::site::{MotionSite, PoseText, SpeedSite, TargetSite};
 use crate::model::target::{Configuration, PoseTarget, Target};
@@ -58,6 +59,11 @@ pub fn read_poses(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_poses(files, options).whole()
+}
+
+/// The same, with the motions of the rows that could be read beside what is refused.
+pub(crate) fn parse_poses(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let mut reader = Reader {
         options,
         faults: Vec::new(),
@@ -93,16 +99,12 @@ pub fn read_poses(
         motions,
         ..
     } = reader;
-    if !faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = files.iter().position(|file| file.name() == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        return Err(faults);
-    }
+    faults.sort_by_key(|fault: &ProgramError| {
+        let file = files.iter().position(|file| file.name() == fault.file);
+        (file, fault.span.start, fault.line)
+    });
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
+    let program = RobotProgram {
         language: Language::Poses,
         files,
         motions,
@@ -110,7 +112,8 @@ pub fn read_poses(
         declarations: Vec::new(),
         outside_calls: Vec::new(),
         rotary: crate::model::stated_axes::StatedAxes::default(),
-    })
+    };
+    Parsed { program, faults }
 }
 
 struct Reader<'o> {
@@ -154,13 +157,15 @@ impl Reader<'_> {
             self.finding(index, file, at, message);
         }
         self.external(file, &rows);
-        if refused {
-            return;
-        }
-        let Some(unit) = self.unit(index, file, &rows, &said) else {
+        // Of the rows beside those that are refused, all that is said of each alone.
+        let unit = match refused {
+            true => said.named.or(self.options.length_unit),
+            false => self.unit(index, file, &rows, &said),
+        };
+        let Some(unit) = unit else {
             return;
         };
-        if let Some(arm) = &self.options.arm {
+        if let Some(arm) = self.options.arm.as_ref().filter(|_| !refused) {
             match between_rows(arm, &rows) {
                 Ok(None) => {}
                 Ok(Some((row, words))) => self.finding(index, file, rows[row].span.start, words),
@@ -350,6 +355,7 @@ impl Reader<'_> {
                 external,
                 external_moved_behind: false,
                 indivisible: row.indivisible,
+                turns_otherwise: None,
             },
             span: row.span,
         }

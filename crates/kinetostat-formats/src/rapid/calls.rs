@@ -53,7 +53,9 @@ pub(crate) fn of_calls(
             Place::Entry => entry[call.from],
             place => place,
         };
-        let reached = (summary.calls.iter()).filter(|call| runs[call.from] != Runs::Elsewhere);
+        // What a jump leaves out calls nothing.
+        let calls = (summary.calls.iter()).filter(|call| call.runs != Runs::Elsewhere);
+        let reached = (calls.clone()).filter(|call| runs[call.from] != Runs::Elsewhere);
         let mut reached = reached.map(|call| runs[call.from].max(call.runs));
         runs[routine] = match (reached.next(), reached.next()) {
             _ if summary.recursive => Runs::Repeatedly,
@@ -62,7 +64,7 @@ pub(crate) fn of_calls(
             (Some(once), None) => once,
             (Some(_), Some(_)) => Runs::Repeatedly,
         };
-        let mut places = summary.calls.iter().map(from);
+        let mut places = calls.map(from);
         let unknown = Some(routine) == main || summary.recursive;
         entry[routine] = match (unknown, places.next()) {
             (false, Some(first)) => places.fold(first, merge),

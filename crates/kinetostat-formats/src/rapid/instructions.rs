@@ -50,6 +50,7 @@ impl Walker<'_, '_> {
                         Some("it stands behind IF without THEN, where one statement can stand");
                 }
                 motion.runs = self.now.runs;
+                self.modes.push(self.now.modes);
                 self.motions.push(motion);
                 self.places.push((routine, place));
                 Place::Motion(self.motions.len() - 1)
@@ -104,6 +105,8 @@ impl Walker<'_, '_> {
             }
             Some(_) => {
                 let name = String::from_utf8_lossy(file.word(tokens.start));
+                let written = String::from_utf8_lossy(file.source.part(&span));
+                self.now.modes = self.now.modes.behind(&name, &written);
                 self.has_ended |= name.eq_ignore_ascii_case("ExitCycle");
                 let effects = EFFECTS
                     .iter()
@@ -123,6 +126,7 @@ impl Walker<'_, '_> {
                     file: file.index,
                     line: file.source.line_of(span.start),
                     name: (called != "%").then_some(called),
+                    speeds_behind: Vec::new(),
                 });
                 Place::Unknown
             }

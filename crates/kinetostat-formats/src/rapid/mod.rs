@@ -2,7 +2,7 @@
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`walker`],
-//! [`instructions`], [`calls`]).
+//! [`instructions`], [`calls`], [`labels`], [`jumps`]).
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
@@ -11,6 +11,8 @@ pub(crate) mod calls;
 pub(crate) mod expression;
 pub(crate) mod frames;
 mod instructions;
+pub(crate) mod jumps;
+pub(crate) mod labels;
 pub(crate) mod lex;
 pub(crate) mod literals;
 pub(crate) mod loads;
@@ -21,6 +23,7 @@ pub(crate) mod symbols;
 pub(crate) mod table;
 pub(crate) mod targets;
 pub(crate) mod tree;
+pub(crate) mod turning;
 pub(crate) mod usage;
 pub(crate) mod walk;
 mod walker;

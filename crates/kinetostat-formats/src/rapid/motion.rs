@@ -122,6 +122,7 @@ pub(crate) fn follow(
             external,
             external_moved_behind: false,
             indivisible,
+            turns_otherwise: None,
         },
         span,
     })

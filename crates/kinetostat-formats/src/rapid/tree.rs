@@ -88,7 +88,7 @@ pub(crate) struct Routine {
     pub body: Vec<Statement>,
     /// ERROR, UNDO and BACKWARD.
     pub handlers: Vec<Statement>,
-    /// It has a GOTO: its order is not that of its lines.
+    /// It has a GOTO that leads backward: its order is not that of its lines.
     pub jumps: bool,
 }
 
@@ -119,9 +119,7 @@ pub(crate) enum Statement {
         assign: usize,
     },
     /// An instruction or the call of a procedure, with its semicolon.
-    Call {
-        tokens: Range<usize>,
-    },
+    Call { tokens: Range<usize> },
     Branches {
         header: Range<usize>,
         choice: Choice,
@@ -131,9 +129,8 @@ pub(crate) enum Statement {
         header: Range<usize>,
         block: Vec<Statement>,
     },
-    Label,
+    /// `name:`, the token of the name.
+    Label { at: usize },
     /// RETURN, EXIT, RAISE, RETRY, TRYNEXT, GOTO: what follows does not run.
-    Leaves {
-        tokens: Range<usize>,
-    },
+    Leaves { tokens: Range<usize> },
 }

@@ -66,7 +66,7 @@ impl Notes<'_, '_, '_, '_> {
                     self.statements(block);
                 }
                 Statement::Leaves { tokens } => self.keep(tokens.clone()),
-                Statement::Label => {}
+                Statement::Label { .. } => {}
             }
         }
     }

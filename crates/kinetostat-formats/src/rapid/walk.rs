@@ -12,9 +12,11 @@ use crate::model::program::Finding;
 use crate::options::ReadOptions;
 use crate::rapid::calls::{Call, Place, Summary, merge, of_calls};
 use crate::rapid::frames::Values;
+use crate::rapid::labels::destination;
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement};
+use crate::rapid::turning::Modes;
 use crate::rapid::walker::{Now, Walker, stays};
 use crate::text::name::Name;
 
@@ -58,15 +60,21 @@ pub(crate) fn walk(
         moving_functions,
         summaries: vec![Summary::default(); count],
         finished: Vec::new(),
+        jumps: Vec::new(),
         now: Now {
             routine: 0,
             runs: Runs::Once,
             left: None,
             depth: 0,
+            modes: Modes::BASIC,
         },
+        modes_at_entry: vec![Modes::BASIC; count],
+        modes_behind: vec![Modes::NOTHING; count],
+        modes: Vec::new(),
     };
     for routine in main.into_iter().chain(0..count) {
         if !walker.summaries[routine].begun {
+            walker.now.modes = Modes::BASIC;
             walker.routine(routine, 0);
         }
     }
@@ -76,6 +84,7 @@ pub(crate) fn walk(
 impl Walker<'_, '_> {
     fn routine(&mut self, index: usize, depth: usize) {
         let home = self.values.symbols.routines[index];
+        let modes = self.now.modes;
         let outer = std::mem::replace(
             &mut self.now,
             Now {
@@ -83,9 +92,12 @@ impl Walker<'_, '_> {
                 runs: Runs::Once,
                 left: None,
                 depth,
+                modes,
             },
         );
+        let outer_jumps = std::mem::take(&mut self.jumps);
         self.summaries[index].begun = true;
+        self.modes_at_entry[index] = self.now.modes;
         let before = self.motions.len();
         if home.routine.jumps {
             self.now.runs = Runs::Repeatedly;
@@ -95,6 +107,7 @@ impl Walker<'_, '_> {
             place = merge(place, left);
         }
         let in_body = self.motions.len();
+        self.jumps.clear();
         self.now.runs = Runs::OnCondition.max(self.now.runs);
         let has_ended = self.has_ended;
         self.block(&home.routine.handlers, Place::Unknown);
@@ -110,28 +123,60 @@ impl Walker<'_, '_> {
         }
         self.summaries[index].leaves = Some(place);
         self.finished.push(index);
-        self.now = outer;
+        self.jumps = outer_jumps;
+        let modes = self.now.modes;
+        self.modes_behind[index] = modes;
+        self.now = Now { modes, ..outer };
     }
 
     fn block(&mut self, statements: &[Statement], mut place: Place) -> Place {
         let runs = self.now.runs;
+        // Behind a GOTO of this block nothing runs up to a label.
+        let mut is_left_out = false;
         for statement in statements {
-            place = self.statement(statement, place);
-            if self.now.left.is_some() || self.has_ended {
-                // What is behind a RETURN in a branch, or an EXIT anywhere, runs on a condition.
-                self.now.runs = Runs::OnCondition.max(self.now.runs);
+            match statement {
+                Statement::Label { at } if !self.jumps_anywhere() => {
+                    let before = (!is_left_out).then_some(place);
+                    let arrived = self.arrive(*at, before);
+                    is_left_out = arrived.is_none();
+                    place = arrived.unwrap_or(place);
+                }
+                _ if is_left_out => {
+                    self.now.runs = Runs::Elsewhere;
+                    self.statement(statement, Place::Unknown);
+                }
+                _ => {
+                    place = self.statement(statement, place);
+                    is_left_out =
+                        !self.jumps_anywhere() && destination(self.file(), statement).is_some();
+                }
             }
+            self.now.runs = self.runs_here(runs);
         }
         self.now.runs = runs;
         place
+    }
+
+    /// Whether the order of the routine is not that of its lines.
+    fn jumps_anywhere(&self) -> bool {
+        let routine = self.values.symbols.routines[self.now.routine];
+        routine.routine.jumps
     }
 
     fn statement(&mut self, statement: &Statement, place: Place) -> Place {
         match statement {
             Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
             Statement::Assignment { tokens, .. } => self.behind_functions(tokens.clone(), place),
-            Statement::Label => Place::Unknown,
+            Statement::Label { .. } => Place::Unknown,
+            // Nothing is left where nothing runs.
+            Statement::Leaves { .. } if self.now.runs == Runs::Elsewhere => place,
             Statement::Leaves { tokens } => {
+                if let (false, Some(label)) =
+                    (self.jumps_anywhere(), destination(self.file(), statement))
+                {
+                    self.jump_to(label, place);
+                    return place;
+                }
                 self.has_ended |= self.file().word(tokens.start).eq_ignore_ascii_case(b"EXIT");
                 let left = self.now.left.map_or(place, |left| merge(left, place));
                 self.now.left = Some(left);
@@ -147,15 +192,21 @@ impl Walker<'_, '_> {
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::OnCondition);
                 let mut after = (*choice != Choice::OneOfAll).then_some(place);
+                // A block that is left out is a way, too.
+                let modes = self.now.modes;
+                let mut met = modes;
                 for block in blocks {
+                    self.now.modes = modes;
                     let end = match (choice, block.as_slice()) {
                         (Choice::Compact, [Statement::Call { tokens }]) => {
                             self.call(tokens, place, *choice)
                         }
                         _ => self.block(block, place),
                     };
+                    met = met.met(self.now.modes);
                     after = Some(after.map_or(end, |after| merge(after, end)));
                 }
+                self.now.modes = met;
                 self.now.runs = runs;
                 self.now.depth -= 1;
                 after.unwrap_or(place)
@@ -169,7 +220,12 @@ impl Walker<'_, '_> {
                     false => Place::Unknown,
                 };
                 self.now.depth += 1;
+                let (modes, first) = (self.now.modes, self.motions.len());
                 let end = self.block(block, inside);
+                // What holds at its end holds at its next pass, too.
+                let met = modes.met(self.now.modes);
+                self.meet_modes(first, met);
+                self.now.modes = met;
                 self.now.depth -= 1;
                 self.now.runs = runs;
                 merge(place, end)
@@ -216,6 +272,11 @@ impl Walker<'_, '_> {
         }
         if !self.summaries[called].begun {
             self.routine(called, now.depth + 1);
+        } else {
+            // It was walked with what held at its first call, and may change what holds.
+            let met = self.modes_at_entry[called].met(now.modes);
+            self.meet_modes(0, met);
+            self.now.modes = met.met(self.modes_behind[called]);
         }
         let summary = &mut self.summaries[called];
         match summary.leaves {
@@ -225,6 +286,13 @@ impl Walker<'_, '_> {
                 summary.recursive = true;
                 Place::Unknown
             }
+        }
+    }
+
+    /// Of motions from one on, only this is sure beside what was.
+    fn meet_modes(&mut self, first: usize, modes: Modes) {
+        for own in &mut self.modes[first..] {
+            *own = own.met(modes);
         }
     }
 
@@ -242,6 +310,9 @@ impl Walker<'_, '_> {
             };
             motion.runs = runs[*routine].max(motion.runs);
             motion.site.external_moved_behind |= self.moves_external_at_entry;
+        }
+        for (motion, modes) in self.motions.iter_mut().zip(&self.modes) {
+            motion.site.turns_otherwise = modes.otherwise(motion);
         }
         Walked {
             motions: self.motions,

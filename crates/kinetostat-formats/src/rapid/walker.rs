@@ -7,9 +7,11 @@ use crate::model::program::Finding;
 use crate::options::{ExternalAxes, UnknownTargets};
 use crate::rapid::calls::{Place, Summary};
 use crate::rapid::frames::Values;
+use crate::rapid::labels::Jump;
 use crate::rapid::table::row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Statement, TokenFile};
+use crate::rapid::turning::{MODES, Modes};
 use crate::table::Treatment;
 use crate::text::name::Name;
 
@@ -22,6 +24,8 @@ pub(super) struct Now {
     /// Where a RETURN left it.
     pub left: Option<Place>,
     pub depth: usize,
+    /// How the tool turns.
+    pub modes: Modes,
 }
 
 /// Where the walk is, and what it found.
@@ -46,6 +50,14 @@ pub(super) struct Walker<'w, 'p> {
     pub summaries: Vec<Summary>,
     /// Callers behind what they call.
     pub finished: Vec<usize>,
+    /// Of the routine that is walked: jumps that have not come to their labels.
+    pub jumps: Vec<Jump>,
+    /// By routine, what is in force as it begins, at the calls seen before it was walked.
+    pub modes_at_entry: Vec<Modes>,
+    /// By routine, what is in force behind it.
+    pub modes_behind: Vec<Modes>,
+    /// Of each motion that runs once, or at every pass of a loop: what is in force.
+    pub modes: Vec<Modes>,
     pub now: Now,
 }
 
@@ -57,7 +69,9 @@ pub(super) fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) ->
             let file = &values.files[symbols.routines[routine].file];
             let carried = |name: &Name| {
                 symbols.routine(routine, name).is_none()
-                    && row(name).is_some_and(|row| row.treatment == Treatment::Carried)
+                    && row(name).is_some_and(|row| {
+                        row.treatment == Treatment::Carried || MODES.contains(&row.name)
+                    })
             };
             Name::of(file.word(tokens.start)).is_some_and(|name| carried(&name))
         }
@@ -65,7 +79,7 @@ pub(super) fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) ->
             blocks.iter().all(|block| stays(values, routine, block))
         }
         Statement::Loop { block, .. } => stays(values, routine, block),
-        Statement::Label => false,
+        Statement::Label { .. } => false,
         Statement::Assignment { .. } | Statement::Leaves { .. } => true,
     })
 }

@@ -90,6 +90,19 @@ pub(crate) const STATEMENTS: [&str; 33] = [
 const LONGEST_LINE: usize = 8192;
 
 impl Block {
+    /// A line whose words are not known.
+    pub(crate) fn unread(line: Range<usize>) -> Self {
+        Self {
+            span: line.clone(),
+            words_at: line.start,
+            line,
+            skip: false,
+            number: None,
+            label: None,
+            items: Vec::new(),
+        }
+    }
+
     /// Of a line of a file, and its tokens.
     ///
     /// # Errors

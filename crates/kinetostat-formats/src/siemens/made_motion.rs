@@ -268,5 +268,6 @@ fn site_of(
         external: Vec::new(),
         external_moved_behind: false,
         indivisible: None,
+        turns_otherwise: None,
     }
 }

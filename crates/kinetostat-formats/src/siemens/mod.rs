@@ -24,6 +24,7 @@ pub(crate) mod plain_turns;
 pub(crate) mod reader;
 pub(crate) mod scan;
 pub(crate) mod state;
+pub(crate) mod steps_behind_frames;
 pub(crate) mod table;
 pub(crate) mod tokens;
 mod turned_axes;

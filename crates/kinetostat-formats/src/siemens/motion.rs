@@ -109,6 +109,8 @@ impl Reader<'_> {
             })
         });
         let frame = change.applied(&self.state.frame, values, words.in_plane, self.state.normal);
+        let between = frame.inverse() * self.state.frame;
+        self.note_shift(between.translation.vector.into());
         self.state.set_frame(frame);
     }
 
@@ -154,6 +156,7 @@ impl Reader<'_> {
 
     fn motion(&mut self, block: &Block, words: &Words, stated: (bool, bool)) {
         let start = self.state.place;
+        self.note_steps(words);
         if self.no_place_by_axes(block) {
             let reason = "its places are not those of the tool's tip in the part";
             return self.unknown(block, words, stated, [None; 3], reason);

@@ -1,6 +1,7 @@
 //! The reader of SINUMERIK programs.
 
 use crate::error::ProgramError;
+use crate::model::parsed::Parsed;
 use crate::model::program::{Finding, Language, RobotProgram};
 use crate::options::ReadOptions;
 use crate::siemens::scan::scan;
@@ -34,6 +35,11 @@ pub fn read_siemens(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
+    parse_siemens(files, options).whole()
+}
+
+/// The same, with the motions that could be read beside what is refused.
+pub(crate) fn parse_siemens(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
     let Scan {
         motions,
         mut faults,
@@ -41,16 +47,12 @@ pub fn read_siemens(
         rotary,
         ..
     } = scan(&files, options);
-    if !faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = files.iter().position(|file| file.name() == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        faults.sort_by_key(place);
-        return Err(faults);
-    }
+    faults.sort_by_key(|fault: &ProgramError| {
+        let file = files.iter().position(|file| file.name() == fault.file);
+        (file, fault.span.start, fault.line)
+    });
     findings.sort_by_key(|finding: &Finding| (finding.file, finding.line));
-    Ok(RobotProgram {
+    let program = RobotProgram {
         language: Language::Siemens,
         files,
         motions,
@@ -58,5 +60,6 @@ pub fn read_siemens(
         declarations: Vec::new(),
         outside_calls: Vec::new(),
         rotary,
-    })
+    };
+    Parsed { program, faults }
 }

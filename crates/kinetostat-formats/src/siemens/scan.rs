@@ -12,13 +12,14 @@ use crate::siemens::declarations::define;
 use crate::siemens::files::whole_file;
 use crate::siemens::plain_turns::finding_of;
 use crate::siemens::state::State;
+use crate::siemens::steps_behind_frames::finding_of_steps;
 use crate::siemens::table::row;
 use crate::siemens::tokens::Token;
 use crate::siemens::values::Variables;
 use crate::siemens::walker::{Corners, Reader, Scan};
 use crate::standing::Standing;
 use crate::table::Treatment;
-use crate::text::source::SourceFile;
+use crate::text::source::{BEHIND_END, SourceFile};
 
 /// Reads all files, each for itself.
 pub(crate) fn scan(files: &[SourceFile], options: &ReadOptions) -> Scan {
@@ -72,6 +73,7 @@ fn scan_once(
         };
         for line in 1..=file.line_count() {
             if reader.state.ended {
+                reader.behind_end(line);
                 break;
             }
             let range = file.range_of(line);
@@ -84,6 +86,8 @@ fn scan_once(
         out.shown = shown_by_both(&out.shown, &shown);
         let plain = std::mem::take(&mut out.plain_turns);
         out.findings.extend(finding_of(index, &plain));
+        let steps = std::mem::take(&mut out.steps_behind_frames);
+        out.findings.extend(finding_of_steps(index, &steps));
     }
     out
 }
@@ -99,6 +103,20 @@ pub(crate) fn has_change(bytes: &[u8]) -> bool {
 }
 
 impl Reader<'_> {
+    /// The program has ended before a line: names the first block from there on.
+    fn behind_end(&mut self, line: usize) {
+        let file = self.file;
+        let mut rest = (line..=file.line_count()).map(|line| file.range_of(line));
+        let has_words = |range: &Range<usize>| {
+            let is_head = file.part(range).trim_ascii_start().starts_with(b"%");
+            let block = Block::of(file.bytes(), range.clone());
+            !is_head && block.map_or(true, |(block, _)| !block.items.is_empty())
+        };
+        if let Some(range) = rest.find(has_words) {
+            self.finding(&range, BEHIND_END.to_owned());
+        }
+    }
+
     fn block(&mut self, block: &Block, tokens: &[Token]) {
         let Some(first) = block.items.first() else {
             return;

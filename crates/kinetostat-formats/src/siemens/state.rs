@@ -127,6 +127,8 @@ pub(crate) struct State {
     pub direction: Option<Vector3<f64>>,
     /// Where the tool is, in the frame's axes, mm.
     pub place: [Option<f64>; 3],
+    /// Axes along which the frame was shifted since a word stated where they are.
+    pub shifted: [bool; 3],
     /// The last motion.
     pub last: Option<usize>,
     pub others: BTreeMap<Vec<u8>, OtherAxis>,
@@ -165,6 +167,7 @@ impl State {
             standing,
             direction: None,
             place: [None; 3],
+            shifted: [false; 3],
             last: None,
             others: BTreeMap::new(),
             ended: false,

@@ -33,6 +33,8 @@ pub(crate) struct Scan {
     pub shown: Vec<CountShown>,
     /// Words of rotary axes in cuts that a setting of the machine takes otherwise.
     pub plain_turns: Vec<PlainTurn>,
+    /// Lines of steps that are the first words of their axes behind a frame.
+    pub steps_behind_frames: Vec<usize>,
     /// Words RND, CHF and CHR, where corners are followed.
     pub corner_words: Vec<Range<usize>>,
 }

@@ -5,6 +5,10 @@ use std::ops::Range;
 /// What some editors write before the first letter of a text.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// What is said of the first block behind the end of a program.
+pub(crate) const BEHIND_END: &str =
+    "what stands from here on does not run: it stays as it is written";
+
 /// Where the text of a file begins.
 pub(crate) fn beginning(bytes: &[u8]) -> usize {
     match bytes.starts_with(BYTE_ORDER_MARK) {

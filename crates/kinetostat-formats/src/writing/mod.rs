@@ -15,6 +15,7 @@ pub(crate) mod literal;
 pub(crate) mod motions;
 pub(crate) mod piece;
 pub(crate) mod refusals;
+mod refused;
 mod speeds;
 pub(crate) mod syntax;
 mod target_texts;

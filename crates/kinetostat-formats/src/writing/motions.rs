@@ -12,6 +12,7 @@ use crate::writing::ends::Writer;
 use crate::writing::external_axes::{AxesOfPiece, shared_axes};
 use crate::writing::line_length::check_lines;
 use crate::writing::piece::Piece;
+use crate::writing::refused::Refused;
 use crate::writing::syntax::Syntax;
 use crate::writing::target_texts::text_of;
 
@@ -41,19 +42,17 @@ pub(crate) fn write_with(
         names: Names::default(),
     };
     let ways = ways_of_external_axes(program);
+    let mut refused = Refused::default();
     for ((index, motion), ways) in program.motions.iter().enumerate().zip(&ways) {
         let pieces = of_motion.get(&index).map_or(&[][..], Vec::as_slice);
         let text = text_of(program, &motion.site.target);
         let axes = shared_axes(program, motion, ways, (text, pieces))?;
         let pieces: Vec<(&Piece, &AxesOfPiece)> = pieces.iter().copied().zip(&axes).collect();
-        let written = writer.write_motion(motion, &pieces);
-        written.map_err(|(reason, remedy)| WriteError::Motion {
-            file: program.files[motion.file].name().to_owned(),
-            line: motion.line,
-            reason: reason.to_owned(),
-            remedy: remedy.to_owned(),
-        })?;
+        if let Err(reason) = writer.write_motion(motion, &pieces) {
+            refused.add(motion, reason);
+        }
     }
+    refused.error(program).map_or(Ok(()), Err)?;
     let Writer {
         mut edits,
         demands,

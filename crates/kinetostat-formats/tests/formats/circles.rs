@@ -55,7 +55,7 @@ fn rapid() -> String {
         |[x, y]: [f64; 2]| format!("[[{x},{y},-2],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]");
     let [start, up, left, down, end] = PLACES.map(target);
     format!(
-        "MODULE M\nCONST robtarget up:={up};\nPROC main()\n  MoveL {start},v10,fine,tool0;\n  MoveC up,{left},v10,z1,tool0;\n\
+        "MODULE M\nCONST robtarget up:={up};\nPROC main() CirPathMode\\ObjectFrame;\n  MoveL {start},v10,fine,tool0;\n  MoveC up,{left},v10,z1,tool0;\n\
          \x20 MoveC {down}, {end}, v10, fine, tool0; ! closed\nENDPROC\nENDMODULE\n"
     )
 }

@@ -33,6 +33,7 @@ mod paths;
 mod poses;
 mod rapid;
 mod real_files;
+mod refused_runs;
 mod refusing;
 mod siemens;
 mod turns_in_place;

@@ -101,6 +101,8 @@ pub struct TurnMap {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TurnChoice {
+    /// From one station to the next along the path, mm; a little less where the path is no multiple of it.
+    pub station_mm: f64,
     /// In the order of the path.
     pub stations: Vec<TurnStation>,
     /// The configuration of the arm all along, by its [number](crate::ArmConfiguration::number).
@@ -198,8 +200,9 @@ impl TurnChoice {
             ),
         };
         let chosen = format!(
-            "{turned} ({}); the smallest singular value is {:.4} (line {})",
+            "{turned} ({}, {} mm apart); the smallest singular value is {:.4} (line {})",
             counted(self.stations.len(), "station"),
+            self.station_mm,
             self.smallest_singular_value,
             self.smallest_singular_value_line
         );

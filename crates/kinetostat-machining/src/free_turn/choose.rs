@@ -12,8 +12,12 @@ use crate::free_turn::serial::Joints;
 use crate::free_turn::smooth::smooth;
 use crate::free_turn::task::{TurnCurve, TurnTask};
 
+/// How often stations are set twice as far apart along a path that is too long for them: from 5 mm to 160 mm.
+const TIMES_FARTHER: usize = 5;
+
 /// Chooses the free turn of a round tool about its own axis along a whole path: at stations along it the turns of a band, in any of the
-/// configurations of the arm, that cost least together and keep what is asked. Of all that is looked at it is the cheapest.
+/// configurations of the arm, that cost least together and keep what is asked. Of all that is looked at it is the cheapest. Where a path is so long that it has more postures than may be kept,
+/// stations are set farther apart ([`TurnChoice::station_mm`]).
 ///
 /// # Errors
 /// [`TurnError::Input`] for numbers and paths that make no sense, [`TurnError::NoFreedom`] for another machine than an arm of six
@@ -46,7 +50,18 @@ use crate::free_turn::task::{TurnCurve, TurnTask};
 /// ```
 pub fn choose_turns(task: &TurnTask<'_>) -> Result<TurnChoice, TurnError> {
     checked(task)?;
-    let mut problem = Problem::of(task)?;
+    let mut spaced = task.clone();
+    for _ in 0..TIMES_FARTHER {
+        let problem = Problem::of(&spaced);
+        if !matches!(problem, Err(TurnError::TooMany { .. })) {
+            return chosen(problem?);
+        }
+        spaced.station_mm *= 2.0;
+    }
+    chosen(Problem::of(&spaced)?)
+}
+
+fn chosen(mut problem: Problem<'_, '_>) -> Result<TurnChoice, TurnError> {
     match problem.search() {
         Ok(found) => {
             let steps = Curve::of(&problem, found);
@@ -119,6 +134,7 @@ fn choice(problem: &Problem<'_, '_>, curve: &Curve, in_steps: Option<TurnFigures
         as_programmed,
         best_constant,
         map: map(problem, configuration),
+        station_mm: problem.task.station_mm,
         stations: listed,
     }
 }

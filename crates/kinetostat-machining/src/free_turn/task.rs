@@ -142,7 +142,8 @@ pub struct TurnTask<'a> {
     pub path: &'a Path,
     /// Where it lies.
     pub placement: Placement,
-    /// From one station to the next along the path, mm; a little less where the path is no multiple of it.
+    /// From one station to the next along the path, mm; a little less where the path is no multiple of it, and farther apart where they
+    /// would have more postures than [`TurnBounds::most_postures`].
     pub station_mm: f64,
     /// Which turns are tried.
     pub band: TurnBand,

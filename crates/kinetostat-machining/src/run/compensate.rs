@@ -171,6 +171,28 @@ fn compensated(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     Ok(conclude(task, &load, points, Some(written), &checked))
 }
 
+/// What `work` makes of the field of corrections that a compensation of this task is written with.
+///
+/// # Errors
+/// As [`compensate_program`], of what is found before its points are solved.
+pub fn with_model_field<R>(
+    task: &Task<'_>,
+    watch: &dyn Watch,
+    work: impl FnOnce(&dyn CorrectionField) -> R,
+) -> Result<R, RunError> {
+    refuse(of_task(task))?;
+    has_motion(task)?;
+    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
+    let looked = FirstLook::new(task, &load, watch)?.beginning_solved()?;
+    refuse(looked.gross(task))?;
+    let Ramped { followed, .. } = load.ramped(looked.stiffness());
+    let course = ArmCourse::of(task);
+    let field = ModelField::new(task.mechanism, task.placement, &followed)
+        .correcting(task.corrected)
+        .on_course(course.as_ref());
+    Ok(work(&field))
+}
+
 /// Whether the program keeps its tolerance as it is.
 fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
     let largest =

@@ -2,7 +2,8 @@
 
 use kinetostat::Wrench;
 use kinetostat_program::{
-    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, RotaryTurn, ToolTurn, Turn, irregular,
+    Corrected, Curve, GreatCircle, Knowledge, Move, MoveKind, Path, Piece, RotaryTurn, ToolTurn,
+    Turn, irregular,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -234,10 +235,18 @@ pub(crate) fn of_written<'a>(
         };
         let turn = commanded_turn(path, written, index);
         let angles = commanded_angles(path, written, index);
+        let circle = angles
+            .as_ref()
+            .and_then(|[from, to]| great_circle(motion, from, to));
         let mut push = |(place, share): (f64, f64),
                         (wrench, other_wrench): (Wrench, Option<Wrench>),
                         (end, programmed): (bool, bool)| {
             let commanded_deg: Option<Vec<f64>> = angles.as_ref().map(|[from, to]| {
+                if let (Some(circle), Some(rotary), true) =
+                    (&circle, rotary(motion), place > 0.0 && place < 1.0)
+                {
+                    return circle.angles_at(&rotary.axes, place);
+                }
                 let both = from.iter().zip(to);
                 both.map(|(from, to)| from + (to - from) * place).collect()
             });
@@ -369,6 +378,14 @@ fn commanded_turn(path: &Path, written: &Corrected, index: usize) -> Option<Tool
 
 fn rotary(motion: &Move) -> Option<&RotaryTurn> {
     motion.tool_turn.as_ref()?.rotary.as_ref()
+}
+
+/// On which the tool's axis goes between the angles at both ends of a piece as written; none where each axis turns evenly.
+fn great_circle(motion: &Move, from: &[f64], to: &[f64]) -> Option<GreatCircle> {
+    let own = rotary(motion).filter(|own| own.great_circle.is_some())?;
+    let tool_axis = own.axes.tool_at_zero.inverse() * Vector3::z();
+    let direction = own.axes.tool_direction_at(to, &tool_axis);
+    GreatCircle::new(&own.axes, from, &direction).ok()
 }
 
 /// Where the rotary axes stand at both ends of a piece as written, deg; none where they stand as in the program.

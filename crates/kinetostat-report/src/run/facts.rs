@@ -113,7 +113,8 @@ pub(crate) fn worst(result: &Shown<'_>) -> Value {
         .iter()
         .map(|point| {
             context! {
-                line => line_of(result, point.line),
+                line => number::count(point.line),
+                source => source_of(result, point.line),
                 output_line => (point.output_line > 0).then(|| number::count(point.output_line)),
                 place => vector(&point.position_mm, 1.0, 3),
                 motion => motion(point),
@@ -125,18 +126,11 @@ pub(crate) fn worst(result: &Shown<'_>) -> Value {
     context! { rows, before_unit => before.0, after_unit => after.0 }
 }
 
-/// A line, and of a flat program the one that it came from.
-fn line_of(result: &Shown<'_>, line: usize) -> String {
-    let flat = result.run_inputs.flat.as_ref();
-    match flat.and_then(|flat| flat.source_of(line)) {
-        Some((file, from)) => format!(
-            "{} (from {} of {})",
-            number::count(line),
-            number::count(from),
-            text::shorten(file, 40)
-        ),
-        None => number::count(line),
-    }
+/// Of a line of a flat program the one that it came from.
+fn source_of(result: &Shown<'_>, line: usize) -> Option<String> {
+    let (file, from) = result.run_inputs.flat.as_ref()?.source_of(line)?;
+    let file = text::shorten(file, 40);
+    Some(format!("from {} of {file}", number::count(from)))
 }
 
 fn motion(point: &PointResult) -> String {

@@ -68,7 +68,12 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
     let settings = &source.settings;
     let program = read(source.language, source.files.clone(), &settings.reading).map_err(|_| {
         // All in one run: those of the motions that could be read, too.
-        let all = all_faults(source.language, source.files.clone(), &settings.reading);
+        let mut all = all_faults(source.language, source.files.clone(), &settings.reading);
+        for fault in &mut all {
+            if let (ProgramFault::Text(fault), Some(before)) = (fault, &source.before) {
+                fault.show_source(&before.origins, &before.files);
+            }
+        }
         refused(&all, ProgramFault::reason)
     })?;
     let joints = |motion: &&Motion| matches!(motion.target, Target::Joints { .. });
@@ -124,12 +129,19 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
 }
 
 /// What remedies speak of, and how a job file says it under `[robot]`.
-const KEYS: [(&str, &str); 8] = [
+const KEYS: [(&str, &str); 9] = [
     (
         "(`turn_about_axis`)",
         "turn_about_axis = { tool = \"x\", part = [1, 0, 0] }",
     ),
-    ("give its file together", "files = [\"other.spf\"]"),
+    (
+        "give its file together with this one",
+        "files = [\"other.h\"]",
+    ),
+    (
+        "give its file together with the program",
+        "files = [\"other.spf\"]",
+    ),
     ("give the subprogram with", "files = [\"other.spf\"]"),
     (
         "as written when reading",

@@ -29,8 +29,18 @@ pub(crate) struct RobotSource {
     pub(crate) parquet: Option<Vec<u8>>,
     /// The files of which the program was joined.
     pub(crate) divided: Option<Divided>,
+    /// Of a program that was written flat, what it was before.
+    pub(crate) before: Option<BeforeFlat>,
     /// The program as it was read.
     pub(crate) reading: Reading,
+}
+
+/// The files of a program before it was written flat.
+#[derive(Debug, Clone)]
+pub(crate) struct BeforeFlat {
+    pub(crate) files: Vec<SourceFile>,
+    /// Of each flat line the file and the line there.
+    pub(crate) origins: Vec<(usize, usize)>,
 }
 
 impl RobotSource {
@@ -96,6 +106,7 @@ pub(crate) fn robot_source(
         paths: Vec::new(),
         settings,
         divided: None,
+        before: None,
         reading: Reading::new(),
     };
     let mut read = Vec::new();

@@ -79,7 +79,7 @@ impl Run<'_> {
         if matches!(cycle, 200 | 201 | 203) {
             // What a cycle before said, says nothing of this one.
             for name in OWN {
-                self.parameters.0.remove(name);
+                self.parameters.remove(name);
             }
             self.rapid_out = false;
         }
@@ -94,12 +94,14 @@ impl Run<'_> {
                 self.substituted(at, words)?;
             }
             200 | 201 | 203 => {
+                self.cycle_refused = false;
                 self.cycle = Some(cycle);
                 self.modal = false;
             }
             1 => {
                 if part == 0 {
                     self.pecking = [None; 6];
+                    self.cycle_refused = false;
                     self.cycle = Some(1);
                     self.modal = false;
                 }
@@ -111,6 +113,7 @@ impl Run<'_> {
                 }
             }
             _ => {
+                self.cycle_refused = false;
                 self.cycle = Some(cycle);
                 self.modal = false;
                 self.substituted(at, words)?;
@@ -122,6 +125,7 @@ impl Run<'_> {
     /// Whether the cycle that is called stays a cycle.
     pub(crate) fn is_left(&self, at: (usize, usize)) -> Result<bool, Fault> {
         match self.cycle {
+            _ if self.cycle_refused => Ok(false),
             None => Err(self.fault(at, "no cycle is defined that could be called", "define it before")),
             Some(1 | 200 | 201 | 203) => Ok(false),
             Some(number) if self.options.unknown_targets == UnknownTargets::Refused => Err(self
@@ -136,6 +140,9 @@ impl Run<'_> {
 
     /// The blocks of a hole.
     pub(crate) fn drill(&mut self, at: (usize, usize)) -> Result<(), Fault> {
+        if self.cycle_refused {
+            return Ok(());
+        }
         let value = |name: &str| self.parameters.value(name).unwrap_or(0.0);
         let cycle = self.cycle.unwrap_or(0);
         let missing = NEEDED

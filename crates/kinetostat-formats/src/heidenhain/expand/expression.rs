@@ -1,5 +1,6 @@
 //! Expressions of Q parameters: `+Q1 DIV +3`, `(Q2 + 5) * SIN Q3`. Angles are in degrees.
 
+use crate::heidenhain::expand::values::no_value;
 use crate::heidenhain::words::parameter_at;
 
 /// Deepest nesting of brackets and functions.
@@ -144,10 +145,7 @@ impl Reader<'_> {
         if let Some(name) = parameter_at(self.text, self.at, self.text.len()) {
             self.at = name.end;
             let name = String::from_utf8_lossy(&self.text[name]).to_ascii_uppercase();
-            return self
-                .parameters
-                .value(&name)
-                .ok_or_else(|| format!("{name} has no value that the program states"));
+            return self.parameters.value(&name).ok_or_else(|| no_value(&name));
         }
         let number = self.text[self.at..]
             .iter()

@@ -1,7 +1,5 @@
 //! A program run once and written flat.
 
-use std::collections::BTreeMap;
-
 use crate::error::ProgramError;
 use crate::heidenhain::expand::corners::written_out;
 use crate::heidenhain::expand::program::Program;
@@ -9,6 +7,7 @@ use crate::heidenhain::expand::run::Run;
 use crate::heidenhain::expand::values::Values;
 use crate::heidenhain::numbering::is_numbered;
 use crate::options::ReadOptions;
+use crate::refused_run::{FaultsOfRun, RefusedRun, with_corners};
 use crate::text::flat::FlatText;
 use crate::text::source::SourceFile;
 
@@ -35,7 +34,7 @@ const MOST_BLOCKS: usize = 5_000_000;
 /// ```
 ///
 /// # Errors
-/// What cannot be followed, by file and line: the run ends there.
+/// What cannot be followed, by file and line. Behind a line that is refused the run goes on, unless what runs, or a value, depends on it.
 pub fn expand_heidenhain(
     files: Vec<SourceFile>,
     options: &ReadOptions,
@@ -52,18 +51,35 @@ pub fn expand_within(
     options: &ReadOptions,
     most_blocks: usize,
 ) -> Result<FlatText, Vec<ProgramError>> {
+    run_within(&files, options, most_blocks).map_err(|refused| refused.faults)
+}
+
+/// The same; of a program that is refused what was written all the same.
+pub(crate) fn run_or_refused(
+    files: &[SourceFile],
+    options: &ReadOptions,
+) -> Result<FlatText, RefusedRun> {
+    run_within(files, options, MOST_BLOCKS)
+}
+
+fn run_within(
+    files: &[SourceFile],
+    options: &ReadOptions,
+    most_blocks: usize,
+) -> Result<FlatText, RefusedRun> {
+    let out = |flat| written_out(flat, files, options);
     let programs: Vec<Program<'_>> = files.iter().map(Program::of).collect();
     let Some(main) = programs.first() else {
         let none = SourceFile::new("", "");
         let fault = ProgramError::at(&none, 0..0, "no file is given", "give a program");
-        return Err(vec![fault]);
+        return Err(vec![fault].into());
     };
     let equal: Vec<ProgramError> = main.equal_labels().collect();
     if !equal.is_empty() {
-        return Err(equal);
+        return Err(equal.into());
     }
     if !main.needs() {
-        return written_out(unchanged(main.file), &files, options);
+        return with_corners(unchanged(main.file), Vec::new(), out);
     }
     let mut run = Run {
         options,
@@ -71,7 +87,7 @@ pub fn expand_within(
         unit_mm: main.unit_mm(),
         number: is_numbered(main.file.bytes()).then_some(0),
         ending: main.file.line_ending(),
-        parameters: Values(BTreeMap::new()),
+        parameters: Values::default(),
         frames: Vec::new(),
         output: Vec::with_capacity(main.file.bytes().len()),
         origins: Vec::new(),
@@ -84,12 +100,16 @@ pub fn expand_within(
         steps: 0,
         silent: 0,
         most_blocks,
+        cycle_refused: false,
+        faults: FaultsOfRun::default(),
     };
-    let outcome = run.whole();
+    run.whole();
     let Run {
-        output, origins, ..
+        output,
+        origins,
+        faults,
+        ..
     } = run;
-    outcome.map_err(|fault| vec![fault])?;
     let changed = output != main.file.bytes();
     let file = SourceFile::new(main.file.name(), output);
     let flat = FlatText {
@@ -97,7 +117,7 @@ pub fn expand_within(
         origins,
         changed,
     };
-    written_out(flat, &files, options)
+    with_corners(flat, faults.into_faults(), out)
 }
 
 fn unchanged(file: &SourceFile) -> FlatText {

@@ -21,11 +21,18 @@ impl Run<'_> {
         let Some(open) = open else {
             return Ok(Next::End);
         };
-        let Frame::Program { file, caller } = self.frames[open] else {
-            return Ok(Next::End);
-        };
-        self.frames.truncate(open);
-        Ok(Next::At(file, caller + 1))
+        self.frames.truncate(open + 1);
+        match self.frames.pop() {
+            Some(Frame::Program {
+                file,
+                caller,
+                local,
+            }) => {
+                self.parameters.back(local);
+                Ok(Next::At(file, caller + 1))
+            }
+            _ => Ok(Next::End),
+        }
     }
 
     fn label(&self, at: (usize, usize), word: Option<&Word>) -> Result<usize, Fault> {
@@ -105,13 +112,13 @@ impl Run<'_> {
                 "give a program",
             ));
         };
-        self.enter(
-            at,
-            Frame::Program {
-                file: at.0,
-                caller: at.1,
-            },
-        )?;
+        self.may_enter(at)?;
+        let local = self.parameters.called();
+        self.frames.push(Frame::Program {
+            file: at.0,
+            caller: at.1,
+            local,
+        });
         Ok(Next::At(found, begin))
     }
 

@@ -2,7 +2,7 @@
 //!
 //! From the files ([`program`]), the values of Q parameters ([`values`], [`expression`]) and the blocks of drilling cycles ([`hole`], [`drill`])
 //! to the [`run`]: its [`steps`] go through the blocks, [`jumps`] say where it goes on, [`parameters`] what a block says,
-//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded. The way in is [`flat`].
+//! [`cycles`] and [`path_block`] what is drilled, [`corners`] what is rounded, [`refused_lines`] how it goes on behind what is refused. The way in is [`flat`].
 
 pub(crate) mod corners;
 pub(crate) mod cycles;
@@ -15,6 +15,7 @@ pub(crate) mod numbers;
 pub(crate) mod parameters;
 pub(crate) mod path_block;
 pub(crate) mod program;
+pub(crate) mod refused_lines;
 pub(crate) mod run;
 pub(crate) mod steps;
 pub(crate) mod values;

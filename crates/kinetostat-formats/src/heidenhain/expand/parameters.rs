@@ -3,7 +3,7 @@
 use crate::heidenhain::expand::expression::{Parameters, value_of};
 use crate::heidenhain::expand::numbers::{length, trimmed};
 use crate::heidenhain::expand::run::{Fault, Run};
-use crate::heidenhain::expand::values::begins_value;
+use crate::heidenhain::expand::values::{begins_value, no_value};
 use crate::heidenhain::words::{Value, Word};
 use crate::text::edits::Edits;
 
@@ -41,14 +41,14 @@ impl Run<'_> {
                 .iter()
                 .any(|w| text.eq_ignore_ascii_case(w.as_bytes()))
             {
-                self.parameters.0.remove(&key);
+                self.parameters.remove(&key);
                 continue;
             }
             let value = value_of(text, &self.parameters);
             let value = value.map_err(|reason| {
                 self.fault(at, reason, "state the value as a number: FN 0: Q1 = +5")
             })?;
-            self.parameters.0.insert(key, value);
+            self.parameters.insert(key, value);
         }
         Ok(())
     }
@@ -79,11 +79,7 @@ impl Run<'_> {
                 .collect();
             let key = String::from_utf8_lossy(&key).into_owned();
             let Some(value) = self.parameters.value(&key) else {
-                return Err(self.fault(
-                    at,
-                    format!("{key} has no value that the program states"),
-                    "state it before: FN 0: Q1 = +5",
-                ));
+                return Err(self.fault(at, no_value(&key), "state it before: FN 0: Q1 = +5"));
             };
             let plain = ["F", "S", "M", "CALL", "DEF"]
                 .iter()

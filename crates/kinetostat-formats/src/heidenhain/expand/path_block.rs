@@ -1,5 +1,6 @@
 //! Blocks that go somewhere or take a tool: their values, their calls of a cycle, the feed behind a hole.
 
+use crate::heidenhain::expand::expression::Parameters;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
@@ -24,15 +25,15 @@ impl Run<'_> {
         let key = format!("TOOL {name}");
         if kind.is("DEF") {
             match words.iter().find(|word| word.is("R")).and_then(Word::value) {
-                Some(radius) => self.parameters.0.insert(key, radius),
-                None => self.parameters.0.remove(&key),
+                Some(radius) => self.parameters.insert(key, radius),
+                None => self.parameters.remove(&key),
             };
             return;
         }
         let larger = words.iter().any(|word| word.is("DR"));
-        match self.parameters.0.get(&key).copied().filter(|_| !larger) {
-            Some(radius) => self.parameters.0.insert("Q108".to_owned(), radius),
-            None => self.parameters.0.remove("Q108"),
+        match self.parameters.value(&key).filter(|_| !larger) {
+            Some(radius) => self.parameters.insert("Q108".to_owned(), radius),
+            None => self.parameters.remove("Q108"),
         };
     }
 

@@ -2,14 +2,15 @@
 
 use crate::error::ProgramError;
 use crate::heidenhain::expand::program::Program;
-use crate::heidenhain::expand::values::Values;
+use crate::heidenhain::expand::values::{Local, Values};
 use crate::options::ReadOptions;
+use crate::refused_run::FaultsOfRun;
 
 /// Most bytes of it.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Deepest nesting of calls and repeats.
-const DEEPEST: usize = 20;
+pub(crate) const DEEPEST: usize = 20;
 
 /// What is running.
 pub(crate) enum Frame {
@@ -17,8 +18,12 @@ pub(crate) enum Frame {
     Sub { caller: usize },
     /// A part that runs again: the block that says so, how often still.
     Again { by: usize, left: u64 },
-    /// Another program: the file and block that called it.
-    Program { file: usize, caller: usize },
+    /// Another program: the file and block that called it, and the QL parameters there.
+    Program {
+        file: usize,
+        caller: usize,
+        local: Local,
+    },
 }
 
 /// A run.
@@ -48,6 +53,9 @@ pub(crate) struct Run<'p> {
     pub steps: usize,
     pub silent: usize,
     pub most_blocks: usize,
+    /// The definition of the cycle in force is refused: nothing is said of its calls.
+    pub cycle_refused: bool,
+    pub faults: FaultsOfRun,
 }
 
 /// Where the run goes on.
@@ -108,7 +116,7 @@ impl Run<'_> {
         self.raw(&bytes, at)
     }
 
-    pub(crate) fn enter(&mut self, at: (usize, usize), frame: Frame) -> Result<(), Fault> {
+    pub(crate) fn may_enter(&self, at: (usize, usize)) -> Result<(), Fault> {
         if self.frames.len() >= DEEPEST {
             return Err(self.fault(
                 at,
@@ -116,6 +124,11 @@ impl Run<'_> {
                 "nest them less deeply",
             ));
         }
+        Ok(())
+    }
+
+    pub(crate) fn enter(&mut self, at: (usize, usize), frame: Frame) -> Result<(), Fault> {
+        self.may_enter(at)?;
         self.frames.push(frame);
         Ok(())
     }

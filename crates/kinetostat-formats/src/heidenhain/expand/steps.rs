@@ -4,6 +4,7 @@ use crate::heidenhain::blocks::Block;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::words::{Value, Word};
+use crate::refused_run::Behind;
 
 /// Most blocks that run one after another without one that is written.
 const MOST_SILENT: usize = 1_000_000;
@@ -12,7 +13,14 @@ const MOST_SILENT: usize = 1_000_000;
 const MOST_STEPS: usize = 20_000_000;
 
 impl Run<'_> {
-    pub(crate) fn whole(&mut self) -> Result<(), Fault> {
+    /// Runs the program; what is refused is noted.
+    pub(crate) fn whole(&mut self) {
+        if let Err(fault) = self.blocks() {
+            self.refuse(fault, Behind::Nothing);
+        }
+    }
+
+    fn blocks(&mut self) -> Result<(), Fault> {
         let programs = self.programs;
         let begin = programs[0].begin.unwrap_or(0);
         let mut at = (0, 0);
@@ -51,10 +59,19 @@ impl Run<'_> {
                     }
                 };
             }
-            match self.block(at)? {
-                Next::Block => at.1 += 1,
-                Next::At(file, block) => at = (file, block),
-                Next::End => break,
+            let written = self.origins.len();
+            match self.block(at) {
+                Ok(Next::Block) => at.1 += 1,
+                Ok(Next::At(file, block)) => at = (file, block),
+                Ok(Next::End) => break,
+                Err(fault) => {
+                    let behind = self.behind(at);
+                    if !self.refuse(fault, behind) {
+                        return Ok(());
+                    }
+                    self.go_on(at, written)?;
+                    at.1 += 1;
+                }
             }
         }
         // The last block of the program.
@@ -118,6 +135,8 @@ impl Run<'_> {
             b"FN" => return self.function(at, &words),
             b"Q" | b"QL" | b"QR" => self.assign(at, &words)?,
             b"QS" => {}
+            // Its parameters are what it finds.
+            b"TCH" => self.write(file.part(&block.text), at)?,
             b"CYCL" | b"CYCLE" => self.cycle(at, &words)?,
             _ => return self.path(at, &words),
         }
@@ -151,14 +170,14 @@ impl Run<'_> {
                         let letters =
                             String::from_utf8_lossy(pair[0].letters.letters()).into_owned();
                         let key = format!("{letters}{}", pair[0].whole().unwrap_or(0));
-                        self.parameters.0.remove(&key);
+                        self.parameters.remove(&key);
                         reads = true;
                     }
                     for word in pair.iter().filter(|_| reads) {
                         // `SYSREAD Q11`.
                         if let Value::Parameter { name, .. } = &word.value {
                             let key = String::from_utf8_lossy(&bytes[name.clone()]);
-                            self.parameters.0.remove(&key.to_ascii_uppercase());
+                            self.parameters.remove(&key.to_ascii_uppercase());
                         }
                     }
                 }
@@ -168,7 +187,7 @@ impl Run<'_> {
                     .map(|word| &word.value)
                 {
                     let key = String::from_utf8_lossy(&bytes[name.clone()]).to_ascii_uppercase();
-                    self.parameters.0.remove(&key);
+                    self.parameters.remove(&key);
                 }
                 let block = &self.programs[at.0].blocks[at.1];
                 self.write(self.programs[at.0].file.part(&block.text), at)?;

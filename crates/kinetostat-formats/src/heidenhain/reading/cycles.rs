@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::heidenhain::blocks::Block;
-use crate::heidenhain::datum::{Bend, Change, change};
+use crate::heidenhain::datum::{Bend, Change, PARAMETER, change};
 use crate::heidenhain::reading::walker::{Reader, TILTED, TILTED_REMEDY};
 use crate::heidenhain::words::{Value, Word};
 
@@ -100,10 +100,15 @@ impl Reader<'_> {
                 }
                 state.bend(bend);
             }
+            Change::Refused(PARAMETER) => self.fault(
+                span,
+                PARAMETER,
+                "write the program flat first (--expand), or the values as numbers",
+            ),
             Change::Refused(reason) => self.fault(
                 span,
                 reason,
-                "write the program flat first (--expand), or the values as numbers",
+                "state datum shift, mirror image (X, Y, Z), rotation (ROT) or scaling (SCL) by numbers of their own, or let the CAM system write the places as they are",
             ),
         }
     }

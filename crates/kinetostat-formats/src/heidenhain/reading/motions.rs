@@ -18,6 +18,9 @@ use crate::options::UnknownTargets;
 
 const LEAVE: &str = "leave such motions as written (unknown_targets = \"left_as_written\" under [robot] in a job file), or let the CAM system write L blocks";
 
+/// Why the end of a motion behind a mirror image or a scaling is not known.
+pub(crate) const UNSTATED: &str = "an axis was not stated since the coordinates were mirrored or scaled, and where it stands in them is not known";
+
 /// Whether a motion to an end that is not known may stay whatever the options say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Carried {
@@ -71,7 +74,9 @@ impl Reader<'_> {
             self.unknown(block, words, span, reason, Carried::IfLeft);
             self.ends_at(end);
         }
-        self.state.place = [end[0], end[1], None];
+        // Nothing that follows from a call that is refused is told again.
+        let left = self.options.unknown_targets != UnknownTargets::Refused;
+        self.state.place = [end[0], end[1], end[2].filter(|_| !left)];
         self.state.direction = None;
         self.state.last = None;
     }
@@ -88,7 +93,11 @@ impl Reader<'_> {
         let refused = self.options.unknown_targets == UnknownTargets::Refused;
         if carried == Carried::IfLeft {
             if refused {
-                return self.fault(span, reason, LEAVE);
+                let remedy = match reason {
+                    UNSTATED => "state X, Y and Z once behind the mirror image or the scaling",
+                    _ => LEAVE,
+                };
+                return self.fault(span, reason, remedy);
             }
             self.finding(span, format!("it stays as it is written: {reason}"));
         }
@@ -158,6 +167,7 @@ impl Reader<'_> {
                 external: Vec::new(),
                 external_moved_behind: false,
                 indivisible: None,
+                turns_otherwise: None,
             },
             speed,
         });

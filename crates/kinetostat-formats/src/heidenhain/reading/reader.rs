@@ -11,11 +11,12 @@ use crate::heidenhain::reading::found::Found;
 use crate::heidenhain::reading::rounded::has_corners;
 use crate::heidenhain::reading::walker::{EXPAND, Reader};
 use crate::heidenhain::state::State;
+use crate::model::parsed::Parsed;
 use crate::model::program::{Language, RobotProgram};
 use crate::model::stated_axes::StatedAxes;
 use crate::options::ReadOptions;
 use crate::standing::Standing;
-use crate::text::source::SourceFile;
+use crate::text::source::{BEHIND_END, SourceFile};
 
 /// Most bytes of a file.
 const MOST_BYTES: usize = 1 << 28;
@@ -46,18 +47,20 @@ pub fn read_heidenhain(
     files: Vec<SourceFile>,
     options: &ReadOptions,
 ) -> Result<RobotProgram, Vec<ProgramError>> {
-    let mut found = interpret(&files, options);
-    if !found.faults.is_empty() {
-        let place = |fault: &ProgramError| {
-            let file = files.iter().position(|file| file.name() == fault.file);
-            (file, fault.span.start, fault.line)
-        };
-        found.faults.sort_by_key(place);
-        return Err(found.faults);
-    }
+    parse_heidenhain(files, options).whole()
+}
+
+/// The same, with the motions that could be read beside what is refused.
+pub(crate) fn parse_heidenhain(files: Vec<SourceFile>, options: &ReadOptions) -> Parsed {
+    let found = interpret(&files, options);
+    let mut faults = found.faults;
+    faults.sort_by_key(|fault: &ProgramError| {
+        let file = files.iter().position(|file| file.name() == fault.file);
+        (file, fault.span.start, fault.line)
+    });
     let mut findings = found.findings;
     findings.sort_by_key(|finding| (finding.file, finding.line));
-    Ok(RobotProgram {
+    let program = RobotProgram {
         language: Language::Heidenhain,
         files,
         motions: found.motions,
@@ -69,7 +72,8 @@ pub fn read_heidenhain(
             motions: found.axes,
             ..StatedAxes::default()
         },
-    })
+    };
+    Parsed { program, faults }
 }
 
 /// Reads files, with all that is refused beside what is understood.
@@ -221,10 +225,7 @@ impl Reader<'_> {
         });
         if let Some(block) = left.clone().next() {
             let span = block.text.clone();
-            self.finding(
-                &span,
-                "what stands from here on does not run: it stays as it is written".to_owned(),
-            );
+            self.finding(&span, BEHIND_END.to_owned());
         }
     }
 }

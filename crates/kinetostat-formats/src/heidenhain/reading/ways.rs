@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use crate::heidenhain::blocks::Block;
 use crate::heidenhain::ends::{Ends, Went};
 use crate::heidenhain::path_words::{FeedWord, PathWords};
-use crate::heidenhain::reading::motions::Carried;
+use crate::heidenhain::reading::motions::{Carried, UNSTATED};
 use crate::heidenhain::reading::walker::Reader;
 use crate::heidenhain::words::Word;
 use crate::model::motion::MotionKind;
@@ -132,7 +132,10 @@ impl Reader<'_> {
         let whole = x.zip(y).zip(z).map(|((x, y), z)| Vector3::new(x, y, z));
         let is_arc = went.arc.is_some();
         let Some(place) = whole.filter(|_| !is_arc || start[2].is_some()) else {
-            let reason = "where the tool is, is not wholly known here";
+            let reason = match self.state.unstated {
+                true => UNSTATED,
+                false => "where the tool is, is not wholly known here",
+            };
             // A cut that was refused for its axes says nothing of its place.
             let carried = match rapid || self.state.standing.is_refused() {
                 true => Carried::Yes,
@@ -144,6 +147,7 @@ impl Reader<'_> {
             self.state.direction = None;
             return;
         };
+        self.state.unstated = false;
         let datum = self.state.datum;
         let kind = match &went.arc {
             Some(arc) => MotionKind::Arc {

@@ -59,7 +59,7 @@ impl Walker<'_, '_> {
         match row(&name).map(|row| row.treatment) {
             Some(Treatment::Refused { reason, remedy }) => {
                 self.refuse(tokens, (reason.to_owned(), remedy));
-                State::UNKNOWN
+                state
             }
             Some(_) => state,
             None => {
@@ -68,9 +68,11 @@ impl Walker<'_, '_> {
                     file: file.index,
                     line: file.source.line_of(file.span(tokens).start),
                     name: Some(excerpt(file.word(at))),
+                    speeds_behind: Vec::new(),
                 };
                 let calls = &mut self.settings.calls;
                 calls.push(call);
+                self.settings.before_calls.push(state);
                 state.behind_outside(calls.len() - 1)
             }
         }

@@ -37,17 +37,28 @@ impl Walker<'_, '_> {
         true
     }
 
-    /// `TOOL_DATA[4]={X 0,Y 0,Z 180,A 0,B 0,C 0}`.
+    /// `TOOL_DATA[4]={X 0,Y 0,Z 180,A 0,B 0,C 0}`, and `TC={X 0,Y 0,Z 180,A 0,B 0,C 0}` of a frame that the program declares.
     pub(super) fn gives_frame(&mut self, name: &Name, tokens: &Range<usize>) {
-        let (Some(role), true) = (Role::of_array(name), self.is_certain()) else {
+        let Some(equals) = self.file().assign(tokens) else {
             return;
         };
-        let Some(equals) = self.file().assign(tokens) else {
+        let routine = self.now.routine;
+        let first = tokens.start..tokens.start + 1;
+        if let Some(datum) = self.values.own_datum(routine, &first) {
+            let value = equals + 1..tokens.end;
+            let is_whole = first.end == equals && self.file().is(value.start, b'{');
+            let frame = match is_whole && self.is_certain() {
+                true => self.values.literal_frame(routine, &value),
+                false => None,
+            };
+            self.settings.given.data.insert(datum, frame);
+        }
+        let (Some(role), true) = (Role::of_array(name), self.is_certain()) else {
             return;
         };
         let (place, element) = place_of(self.file(), tokens.start, equals);
         if let (Some(number), true) = (element, place == (tokens.start..equals)) {
-            self.settings.given.insert((role, number));
+            self.settings.given.numbers.insert((role, number));
         }
     }
 
@@ -56,12 +67,13 @@ impl Walker<'_, '_> {
         match row(name).map(|row| row.treatment) {
             Some(Treatment::Refused { reason, remedy }) => {
                 self.refuse(tokens, (reason.to_owned(), remedy));
-                State::UNKNOWN
+                // What stands behind it is looked at as if it was not there: one fault is one line.
+                state
             }
             Some(Treatment::Carried) => state,
             _ => {
                 self.unknown_statement(tokens);
-                State::UNKNOWN
+                state
             }
         }
     }

@@ -124,6 +124,7 @@ impl<'p> Walker<'_, 'p> {
     fn simple(&mut self, line: usize, state: State) -> State {
         let file = self.file();
         let tokens = file.lines[line].tokens.clone();
+        self.settings.given.is_certain = self.is_certain();
         let Some(name) = file.name(tokens.start) else {
             self.unknown_statement(&tokens);
             return state;

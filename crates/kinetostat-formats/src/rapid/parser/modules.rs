@@ -1,6 +1,9 @@
 //! Modules and their routines.
 
+use std::collections::BTreeSet;
+
 use crate::error::ProgramError;
+use crate::rapid::labels::lead_forward;
 use crate::rapid::parser::cursor::Parser;
 use crate::rapid::tree::{Module, Routine, RoutineKind, Sight, TokenFile};
 
@@ -176,6 +179,8 @@ impl Parser<'_, '_> {
             self.at += 1;
         }
         let (name, name_at) = name?;
+        let forward = |block| lead_forward(self.file, block, &mut BTreeSet::new());
+        let jumps = self.jumps && !(forward(&body) && forward(&handlers));
         Some(Routine {
             kind,
             sight,
@@ -185,7 +190,7 @@ impl Parser<'_, '_> {
             data: routine_data,
             body,
             handlers,
-            jumps: self.jumps,
+            jumps,
         })
     }
 }

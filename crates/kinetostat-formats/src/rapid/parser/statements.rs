@@ -237,7 +237,7 @@ impl Parser<'_, '_> {
         let next = self.file.tokens.get(start + 1).map(|token| token.kind);
         if self.kind() == Some(Kind::Word) && next == Some(Kind::Symbol(b':')) {
             self.at += 2;
-            return Some(Statement::Label);
+            return Some(Statement::Label { at: start });
         }
         let tokens = self.rest_of_statement(start);
         if tokens.is_empty() {

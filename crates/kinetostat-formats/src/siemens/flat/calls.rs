@@ -2,7 +2,6 @@
 
 use crate::siemens::block::{Argument, Item, What};
 use crate::siemens::expression::Expression;
-use crate::siemens::flat::modes::Modes;
 use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::runner::{Fault, Level, Runner};
 use crate::siemens::flat::unresolved::{REASON, REMEDY, is_call};
@@ -155,6 +154,7 @@ impl<'r> Runner<'r> {
         level.caller = std::mem::replace(&mut self.variables.own, own);
         level.again = call.times.saturating_sub(1);
         level.modes = self.modes;
+        level.frames = self.frames.clone();
         self.levels.push(level);
         Ok(())
     }
@@ -176,12 +176,7 @@ impl<'r> Runner<'r> {
             return Ok(());
         }
         if units[level.unit].saves {
-            let codes = level.modes.restored_from(&self.modes);
-            let now: Modes = level.modes;
-            self.modes = now;
-            if !codes.is_empty() {
-                self.write_line(codes.as_bytes());
-            }
+            self.restore(&level);
         }
         let inner = std::mem::replace(&mut self.variables.own, level.caller);
         for (parameter, name, places) in &level.back {

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::error::ProgramError;
+use crate::refused_run::{RefusedRun, with_corners};
 use crate::siemens::block::{Block, What};
 use crate::siemens::files::whole_file;
 use crate::siemens::flat::corners::written_out;
 use crate::siemens::flat::names::program_name;
 use crate::siemens::flat::run::MOST_STEPS;
-use crate::siemens::flat::runner::Runner;
+use crate::siemens::flat::runner::{Runner, Written};
 use crate::siemens::flat::structure::Unit;
 use crate::siemens::flat::unresolved::note_calls;
 use crate::text::flat::FlatText;
@@ -41,13 +42,23 @@ const FLOW: [&str; 26] = [
 /// ```
 ///
 /// # Errors
-/// What cannot be run, in the order of files and lines, or the first fault of the run.
+/// What cannot be run, in the order of files and lines. Behind a line that is refused the run goes on, unless what runs, or a value,
+/// depends on it.
 pub fn expand_siemens(files: &[SourceFile]) -> Result<FlatText, Vec<ProgramError>> {
     expand_within(files, MOST_STEPS)
 }
 
 /// The same by so many lines at most.
 pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Vec<ProgramError>> {
+    run_within(files, most_steps).map_err(|refused| refused.faults)
+}
+
+/// The same; of a program that is refused what was written all the same.
+pub(crate) fn run_or_refused(files: &[SourceFile]) -> Result<FlatText, RefusedRun> {
+    run_within(files, MOST_STEPS)
+}
+
+fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, RefusedRun> {
     let is_main = |file: &&SourceFile| file.name().to_ascii_lowercase().ends_with(".mpf");
     let main = files.iter().position(|file| is_main(&file)).unwrap_or(0);
     let Some(file) = files.get(main) else {
@@ -63,38 +74,36 @@ pub fn expand_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, 
         .collect();
     let mut faults = Vec::new();
     if !files.iter().all(|file| whole_file(file, &mut faults)) {
-        return Err(faults);
+        return Err(faults.into());
     }
     if !needs(file, &names) {
         note_calls(file, &mut faults);
-        if !faults.is_empty() {
-            return Err(faults);
-        }
         let flat = FlatText {
             file: file.clone(),
             origins: (1..=file.line_count()).map(|line| (main, line)).collect(),
             changed: false,
         };
-        return written_out(flat, files);
+        return with_corners(flat, faults, |flat| written_out(flat, files));
     }
     let units: Vec<Unit> = (files.iter().enumerate())
         .map(|(index, file)| Unit::of(file, index, &mut faults))
         .collect();
-    if !faults.is_empty() {
-        return Err(faults);
+    if !faults.is_empty() && !units.iter().all(|unit| unit.runs) {
+        return Err(faults.into());
     }
     let runner = Runner::new(files, &units, names, main);
-    match runner.run(most_steps) {
-        Ok((bytes, origins)) => {
-            let flat = FlatText {
-                file: SourceFile::new(file.name(), bytes),
-                origins,
-                changed: true,
-            };
-            written_out(flat, files)
-        }
-        Err(fault) => Err(vec![*fault]),
-    }
+    let Written {
+        output,
+        origins,
+        faults: of_run,
+    } = runner.run(most_steps);
+    faults.extend(of_run);
+    let flat = FlatText {
+        file: SourceFile::new(file.name(), output),
+        origins,
+        changed: true,
+    };
+    with_corners(flat, faults, |flat| written_out(flat, files))
 }
 
 /// Whether the control flow of a program is not straight on.

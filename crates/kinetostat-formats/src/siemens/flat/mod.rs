@@ -1,7 +1,8 @@
 //! Programs with jumps, loops, calls and drilling cycles: run once, and written flat.
 //!
 //! [`structure`] reads the control flow of a file ([`control`], [`statements`]), [`run`] follows it, [`print`] writes the blocks with numbers in place of
-//! expressions, [`holes`] the blocks of drilling cycles, [`corners`] those of rounded and broken corners.
+//! expressions, [`holes`] the blocks of drilling cycles, [`corners`] those of rounded and broken corners, [`saved`] what comes back behind a subprogram with SAVE,
+//! [`refused_lines`] how the run goes on behind what is refused.
 
 mod calls;
 mod control;
@@ -13,10 +14,13 @@ mod modes;
 mod names;
 mod numbers;
 mod print;
+mod refused_lines;
 mod run;
 mod runner;
+mod saved;
 mod statements;
 mod structure;
 pub(crate) mod unresolved;
 
+pub(crate) use expand::run_or_refused;
 pub use expand::{expand_siemens, expand_within};

@@ -1,16 +1,17 @@
 //! The blocks of a program as they run: numbers in place of expressions, without labels and assignments.
 
-use crate::siemens::block::{Item, What};
+use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::holes::drilling_of;
 use crate::siemens::flat::numbers::number;
 use crate::siemens::flat::runner::{Fault, Runner};
+use crate::siemens::flat::saved::is_frame;
 use crate::siemens::flat::structure::Line;
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
 
 /// Ends of programs.
-enum End {
+pub(super) enum End {
     No,
     Subprogram,
     Program,
@@ -46,9 +47,6 @@ impl Runner<'_> {
         }
         let end = self.end(items)?;
         let mut edits = Edits::default();
-        if let Some(label) = &line.block.label {
-            edits.replace(label.start..line.block.words_at, "");
-        }
         let mut left = 0;
         for item in items {
             if self.is_assignment(&item.name, &item.what) {
@@ -68,10 +66,7 @@ impl Runner<'_> {
             }
         }
         if left > 0 {
-            let text = edits.applied_to_part(file.bytes(), &line.block.line);
-            let overlap = || self.fault(&line.block.span, "it cannot be written", "report this");
-            let text = text.ok_or_else(overlap)?;
-            self.write_line(&text);
+            self.write_words(&line.block, edits)?;
         }
         let across = self.modes.normal();
         let places = items.iter().any(|item| {
@@ -99,13 +94,40 @@ impl Runner<'_> {
         Ok(false)
     }
 
+    /// Writes a block with its edits, without its label.
+    fn write_words(&mut self, block: &Block, mut edits: Edits) -> Result<(), Fault> {
+        let file = self.file();
+        let overlap = |text: Option<Vec<u8>>| {
+            text.ok_or_else(|| self.fault(&block.span, "it cannot be written", "report this"))
+        };
+        let named = |item: &Item| file.part(&item.name).to_ascii_uppercase();
+        let frame = block.items.iter().map(named).find(|name| is_frame(name));
+        let words = match frame {
+            Some(name) => {
+                let words = block.words_at..block.span.end;
+                let text = edits.clone().applied_to_part(file.bytes(), &words);
+                Some((name, overlap(text)?))
+            }
+            None => None,
+        };
+        if let Some(label) = &block.label {
+            edits.replace(label.start..block.words_at, "");
+        }
+        let text = overlap(edits.applied_to_part(file.bytes(), &block.line))?;
+        self.write_line(&text);
+        if let Some((name, text)) = words {
+            self.keep_frame(&name, &text);
+        }
+        Ok(())
+    }
+
     fn is_end(&self, item: &Item) -> bool {
         let name = self.file().part(&item.name).to_ascii_uppercase();
         let m17 = matches!(&item.what, What::Value { value: Expression::Number(value), .. } if *value == 17.0);
         name == b"RET" || name == b"M" && m17
     }
 
-    fn end(&self, items: &[Item]) -> Result<End, Fault> {
+    pub(super) fn end(&self, items: &[Item]) -> Result<End, Fault> {
         for item in items {
             if self.is_end(item) {
                 return Ok(End::Subprogram);

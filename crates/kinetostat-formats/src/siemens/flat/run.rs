@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::refused_run::Behind;
 use crate::siemens::declarations::define;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::control::{Control, Jump, Way};
@@ -9,38 +10,57 @@ use crate::siemens::flat::runner::{Fault, Runner, Section, Written};
 use crate::siemens::values::Value;
 
 /// Most blocks that are written.
-const MOST_BLOCKS: usize = 5_000_000;
+pub(super) const MOST_BLOCKS: usize = 5_000_000;
 /// Most lines that are run.
 pub(super) const MOST_STEPS: u64 = 20_000_000;
 /// Most bytes that are written.
-const MOST_BYTES: usize = 1 << 28;
+pub(super) const MOST_BYTES: usize = 1 << 28;
 /// Most sections that are repeated within one another.
 const MOST_SECTIONS: usize = 32;
 
 impl<'r> Runner<'r> {
     /// Runs it to its end, by so many lines at most.
-    pub(super) fn run(mut self, most_steps: u64) -> Result<Written, Fault> {
+    pub(super) fn run(mut self, most_steps: u64) -> Written {
         let mut steps = 0_u64;
         while let Some(level) = self.levels.last() {
             let (unit, line) = (level.unit, level.line);
-            if line >= self.units[unit].lines.len() {
-                self.leave()?;
-                continue;
-            }
+            let written = self.origins.len();
             steps += 1;
-            if steps > most_steps
-                || self.origins.len() > MOST_BLOCKS
-                || self.output.len() > MOST_BYTES
-            {
-                return Err(self.fault(
-                    &self.span(),
-                    "the program has run 20 million lines, or written 5 million blocks or 256 MiB, and has not ended",
-                    "check the conditions of its loops and jumps, or divide it",
-                ));
+            let (done, ends) = match self.is_bounded(steps, most_steps) {
+                Err(fault) => (Err(fault), true),
+                Ok(()) if line >= self.units[unit].lines.len() => (self.leave(), false),
+                Ok(()) => (self.line(unit, line), false),
+            };
+            let Err(fault) = done else {
+                continue;
+            };
+            let behind = match ends {
+                true => Behind::Nothing,
+                false => self.behind(unit, line),
+            };
+            let file = (self.files.iter()).position(|file| file.name() == fault.file);
+            if !self.faults.add(file.unwrap_or(0), *fault, behind) {
+                break;
             }
-            self.line(unit, line)?;
+            self.go_on(unit, line, written);
         }
-        Ok((self.output, self.origins))
+        Written {
+            output: self.output,
+            origins: self.origins,
+            faults: self.faults.into_faults(),
+        }
+    }
+
+    fn is_bounded(&self, steps: u64, most_steps: u64) -> Result<(), Fault> {
+        let is_full = self.origins.len() > MOST_BLOCKS || self.output.len() > MOST_BYTES;
+        match steps > most_steps || is_full {
+            true => Err(self.fault(
+                &self.span(),
+                "the program has run 20 million lines, or written 5 million blocks or 256 MiB, and has not ended",
+                "check the conditions of its loops and jumps, or divide it",
+            )),
+            false => Ok(()),
+        }
     }
 
     fn line(&mut self, unit: usize, line: usize) -> Result<(), Fault> {

@@ -4,21 +4,27 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
+use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
 use crate::siemens::flat::drilling::Drilling;
 use crate::siemens::flat::modes::Modes;
+use crate::siemens::flat::saved::Frames;
 use crate::siemens::flat::structure::Unit;
 use crate::siemens::values::{Value, Variable, Variables};
 use crate::text::source::SourceFile;
 
 /// Most programs that call one another (840D sl: 18 levels).
-const MOST_LEVELS: usize = 18;
+pub(super) const MOST_LEVELS: usize = 18;
 /// Why the run ends.
 pub(super) type Fault = Box<ProgramError>;
 
-/// Bytes, and of each line the file and the line there.
-pub(super) type Written = (Vec<u8>, Vec<(usize, usize)>);
+/// Bytes, and of each line the file and the line there; what is refused.
+pub(super) struct Written {
+    pub output: Vec<u8>,
+    pub origins: Vec<(usize, usize)>,
+    pub faults: Vec<ProgramError>,
+}
 
 /// A section that is run again.
 #[derive(Debug, Clone)]
@@ -44,7 +50,9 @@ pub(super) struct Level {
     pub back: Vec<(Vec<u8>, Vec<u8>, Vec<f64>)>,
     /// Further runs of it, and how.
     pub again: u32,
+    /// Codes and frame in force at its call.
     pub modes: Modes,
+    pub frames: Frames,
 }
 
 impl Level {
@@ -58,6 +66,7 @@ impl Level {
             back: Vec::new(),
             again: 0,
             modes: Modes::default(),
+            frames: Frames::default(),
         }
     }
 }
@@ -73,9 +82,11 @@ pub(super) struct Runner<'r> {
     pub origins: Vec<(usize, usize)>,
     pub ending: &'static [u8],
     pub modes: Modes,
+    pub frames: Frames,
     pub feed: Option<f64>,
     /// MCALL in force.
     pub drilling: Option<Drilling>,
+    pub faults: FaultsOfRun,
 }
 
 impl<'r> Runner<'r> {
@@ -95,8 +106,10 @@ impl<'r> Runner<'r> {
             output: Vec::new(),
             origins: Vec::new(),
             modes: Modes::default(),
+            frames: Frames::default(),
             feed: None,
             drilling: None,
+            faults: FaultsOfRun::default(),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::error::{ProgramError, note};
-use crate::siemens::block::{Block, What};
+use crate::siemens::block::{Block, STATEMENTS, What};
 use crate::siemens::expression::Cursor;
 use crate::siemens::flat::control::Control;
 use crate::siemens::flat::statements::{
@@ -27,6 +27,8 @@ pub(super) struct Unit {
     pub parameters: Vec<Parameter>,
     /// PROC ... SAVE.
     pub saves: bool,
+    /// Nothing is wrong with what says which line runs next.
+    pub runs: bool,
 }
 
 /// A line, counted from 0.
@@ -38,11 +40,25 @@ pub(super) struct Line {
     pub tokens: Vec<Token>,
 }
 
+/// Whether a line that cannot be read may say what runs, or what a variable is.
+fn controls(text: &[u8]) -> bool {
+    let text = text.split(|byte| *byte == b';').next().unwrap_or_default();
+    if text.contains(&b'=') {
+        return true;
+    }
+    let mut words = text.split(|byte| !byte.is_ascii_alphanumeric() && *byte != b'_');
+    words.any(|word| {
+        let word = String::from_utf8_lossy(word).to_ascii_uppercase();
+        STATEMENTS.contains(&word.as_str())
+    })
+}
+
 impl Unit {
     /// Of a file; what is wrong with it is noted.
     pub(super) fn of(file: &SourceFile, index: usize, faults: &mut Vec<ProgramError>) -> Self {
         let mut unit = Self {
             file: index,
+            runs: true,
             ..Self::default()
         };
         let mut open: Vec<usize> = Vec::new();
@@ -59,10 +75,14 @@ impl Unit {
             let (block, tokens, control) = match made {
                 Ok(made) => made,
                 Err(broken) => {
+                    let text = file.part(&file.range_of(number));
+                    unit.runs &= !controls(text);
                     note(faults, || {
                         ProgramError::at(file, broken.span, broken.reason, broken.remedy)
                     });
-                    continue;
+                    // It is written as it stands.
+                    let block = Block::unread(file.range_of(number));
+                    (block, Vec::new(), Control::None)
                 }
             };
             if let Some(label) = &block.label {
@@ -81,12 +101,20 @@ impl Unit {
                 block,
                 control,
             });
-            if let Err(reason) = unit.pair(line, file, &mut open) {
+            // A line that opens and cannot be read would leave what closes it alone.
+            if unit.runs
+                && let Err(reason) = unit.pair(line, file, &mut open)
+            {
+                unit.runs = false;
                 let remedy =
                     "close each IF, WHILE, FOR, LOOP and REPEAT once, the inner ones first";
                 note(faults, || ProgramError::at(file, span, reason, remedy));
             }
         }
+        if !unit.runs {
+            open.clear();
+        }
+        unit.runs &= open.is_empty();
         for line in open {
             let span = unit.lines[line].block.span.clone();
             note(faults, || {

@@ -3,6 +3,7 @@
 mod arcs;
 mod broken;
 mod corrections;
+mod creo;
 mod feeds;
 mod properties;
 mod random;

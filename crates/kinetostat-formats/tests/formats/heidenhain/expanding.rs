@@ -67,6 +67,41 @@ fn jumps_follow_their_comparison() {
 }
 
 #[test]
+fn local_parameters_are_those_of_one_program() {
+    let called = |main: &str, sub: &str| {
+        let files = vec![
+            SourceFile::new("main.h", text(main)),
+            SourceFile::new("SUBQ.H", text(sub)),
+        ];
+        expand_heidenhain(files, &ReadOptions::default())
+    };
+    let main =
+        "QL1 = 7\nQ1 = 3\nQR1 = 4\nL X+QL1 Y+0 Z+0 F500\nCALL PGM SUBQ.H\nL X+QL1 Y+Q1 Z+QR1\n";
+    let flat = called(main, "QL1 = 99\nQ1 = Q1 + 10\nQR1 = 5\nL Y+QL1\n").unwrap();
+    let flat = super::program(&String::from_utf8_lossy(flat.file.bytes()));
+    let places: Vec<[f64; 3]> = (0..3).map(|at| place(&flat, at)).collect();
+    assert_eq!(
+        places,
+        [[7.0, 0.0, 0.0], [7.0, 99.0, 0.0], [7.0, 13.0, 5.0]]
+    );
+    // What the caller's QL parameters are, the called program does not know; nor the caller those of it.
+    let without = called(main, "L Y+QL1\n").unwrap_err()[0].to_string();
+    assert_eq!(
+        without,
+        "SUBQ.H, line 2: `L Y+QL1`: QL1 has no value that its program states (QL parameters are those of one program: one that is called has its own); state it before: FN 0: Q1 = +5"
+    );
+    let behind = called("CALL PGM SUBQ\nL X+QL2\n", "QL2 = 1\n").unwrap_err();
+    assert!(
+        behind[0]
+            .to_string()
+            .starts_with("main.h, line 3: `L X+QL2`")
+    );
+    // A label belongs to the same program.
+    let same = "QL1 = 7\nCALL LBL 1\nL X+QL1 M30\nLBL 1\nQL1 = QL1 + 1\nLBL 0\n";
+    assert_eq!(blocks_of(same), ["L X+8 M30"]);
+}
+
+#[test]
 fn other_programs_run_where_they_are_called_and_lines_say_where_from() {
     let main = "0 BEGIN PGM MAIN MM\n1 Q1 = 5\n2 CALL PGM TNC:\\PARTS\\Sub.h ; here\n3 L Y+Q2\n4 END PGM MAIN MM\n";
     let sub = "BEGIN PGM SUB MM\nL X+Q1\nQ2 = Q1 * 2\nEND PGM SUB MM\n";

@@ -129,6 +129,42 @@ fn feeds_hold_on_and_rapid_traverse_does_not() {
 }
 
 #[test]
+fn axes_that_a_mirror_image_leaves_stay_where_they_are() {
+    let mirrored = "BEGIN PGM A MM\nL X+1 Y+2 Z+3 F100\nCYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X\nL X+10 Y+1\nL Y+5\n\
+        CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1\nL X+7\nEND PGM A MM\n";
+    let found = program(mirrored);
+    let places: Vec<[f64; 3]> = (0..4).map(|at| place(&found, at)).collect();
+    assert_eq!(
+        places,
+        [
+            [1.0, 2.0, 3.0],
+            [-10.0, 1.0, 3.0],
+            [-10.0, 5.0, 3.0],
+            [7.0, 5.0, 3.0]
+        ]
+    );
+    for (cycle, block) in [
+        ("8.1 X", "L Y+1"),
+        ("8.1 Z", "L X+1 Y+1"),
+        ("11.1 SCL 2", "L X+1 Y+1"),
+    ] {
+        let text = format!(
+            "BEGIN PGM A MM\nL X+1 Y+2 Z+3 F100\nCYCL DEF {cycle}\n{block}\nL X+1 Y+1 Z+1\nEND PGM A MM\n"
+        );
+        let faults = super::read_with(text.as_bytes(), &ReadOptions::default()).unwrap_err();
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        let fault = faults[0].to_string();
+        let expected = format!(
+            "part.h, line 4: `{block}`: an axis was not stated since the coordinates were mirrored or scaled, and where it stands in them is not known; state X, Y and Z once behind the mirror image or the scaling"
+        );
+        assert_eq!(fault, expected);
+    }
+    let added = "BEGIN PGM A MM\nCYCL DEF 10.1 IROT-45\nEND PGM A MM\n";
+    let faults = super::read_with(added.as_bytes(), &ReadOptions::default()).unwrap_err();
+    assert!(faults[0].reason.contains("IROT") && !faults[0].remedy.contains("--expand"));
+}
+
+#[test]
 fn mirrored_and_scaled_coordinates_are_followed() {
     let text = "BEGIN PGM A MM\nCYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X\nL X+10 Y+0 Z+0 FMAX\nCC X+0 Y+0\n\
         C X+0 Y+10 DR+ F100\nCYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1\nCYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 0.5\n\

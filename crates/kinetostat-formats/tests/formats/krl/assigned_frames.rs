@@ -104,3 +104,53 @@ fn what_is_not_certain_stays_unknown_with_its_line() {
         );
     }
 }
+
+/// A frame that the program declares and gives numbers: the last value before, where that is certain.
+#[test]
+fn declared_frames_are_followed() {
+    let z = |z: f64| format!("TC={{X 0,Y 0,Z {z},A 0,B 0,C 0}}");
+    let (one, two) = (z(150.0), z(160.0));
+    for (statements, wanted) in [
+        (format!("{one}\n$TOOL=TC\n{HERE}"), 150.0),
+        (format!("{one}\n{two}\n$TOOL=TC\n{HERE}"), 160.0),
+        (format!("{one}\n$TOOL=TC\n{two}\n{HERE}"), 150.0),
+        (
+            format!("{one}\n$TOOL=TC:{{X 0,Y 0,Z 1,A 0,B 0,C 0}}\n{HERE}"),
+            151.0,
+        ),
+    ] {
+        let found = tool("DECL FRAME TC", &statements);
+        assert!((found.unwrap() - wanted).abs() < 1e-9, "{statements}");
+    }
+    for statements in [
+        format!("$TOOL=TC\n{one}\n{HERE}"),
+        format!("{one}\nTC.Z=7\n$TOOL=TC\n{HERE}"),
+        format!("{one}\nTC=OTHER\n$TOOL=TC\n{HERE}"),
+        format!("{one}\nIF ready THEN\n{two}\nENDIF\n$TOOL=TC\n{HERE}"),
+        format!("{one}\nLOOP\n$TOOL=TC\n{HERE}\n{two}\nENDLOOP"),
+        format!("{one}\nchange(TC)\n$TOOL=TC\n{HERE}"),
+        format!("{one}\nTC={{Z 5}}\n$TOOL=TC\n{HERE}"),
+    ] {
+        let found = tool("DECL FRAME TC\nDECL FRAME OTHER\nBOOL ready", &statements);
+        assert!(found.is_err(), "{statements}: {found:?}");
+    }
+}
+
+/// Two values of one name are two frames, also where neither is known.
+#[test]
+fn two_values_of_a_name_are_not_one_frame() {
+    let statements = format!(
+        "BC=a()\n$BASE=BC\n$TOOL=$NULLFRAME\n{HERE}\nBC=b()\n$BASE=BC\n$TOOL=$NULLFRAME\n{HERE}"
+    );
+    let program = main_with("DECL FRAME BC", &statements);
+    let names: Vec<&str> = (program.motions.iter())
+        .map(|motion| motion.work_object.name.as_str())
+        .collect();
+    assert_eq!(names, ["BC of line 3", "BC of line 7"]);
+    let faults = path_of(&program, &PathOptions::default()).unwrap_err();
+    assert!(
+        faults[0]
+            .reason
+            .contains("is not known, and the program has another one")
+    );
+}

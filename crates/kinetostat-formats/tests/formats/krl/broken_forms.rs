@@ -227,6 +227,28 @@ fn inline_forms_whose_data_are_missing_or_say_something_else() {
             )],
         ),
         (
+            "LDAT_ACT=LCPDAT2\nBAS(#CP_PARAMS,0.1)\nLIN XP1",
+            &[(
+                3,
+                "the tool does not turn evenly to the orientation of the point; write ORI_TYP #VAR in these data",
+            )],
+        ),
+        (
+            "LDAT_ACT=LCPDAT1\nLDAT_ACT.CIRC_TYP=#PATH\nLIN XP1",
+            &[(4, "the tool turns with the circle (#PATH)")],
+        ),
+        (
+            "$CIRC_MODE.AUX_PT.ORI=#INTERPOLATE\nCIRC {X 5},{X 9,Y 3}",
+            &[(
+                3,
+                "the tool passes the orientation of the place on it, which is not followed; write #IGNORE",
+            )],
+        ),
+        (
+            "SCIRC {X 5},{X 9,Y 3} WITH $CIRC_MODE={AUX_PT {ORI #INTERPOLATE}}",
+            &[(3, "the tool passes the orientation of the place on it")],
+        ),
+        (
             "SLIN XP1 WITH $TOOL = STOOL2(FP2)",
             &[(3, "the tool stands still and the robot holds the part")],
         ),

@@ -7,6 +7,7 @@ mod corrections;
 mod folds;
 mod frames;
 mod order;
+mod outside_calls;
 mod partial;
 mod pieces;
 mod properties;

@@ -143,3 +143,41 @@ fn a_changed_speed_is_stated_and_the_one_before_restored() {
         .to_string();
     assert!(error.contains("its speed cannot be changed"));
 }
+
+/// All motions that do not take their pieces are named at once.
+#[test]
+fn all_lines_that_are_not_divided_are_named() {
+    let program = main_with(
+        DATA,
+        "LIN XP1\nPTP XP2\nPTP XP1\nLIN XP2\nPTP XP1\nTRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE\nLIN XP2",
+    );
+    let pieces: Vec<Piece> = (0..program.motions.len())
+        .flat_map(|motion| [at(motion, [60.0, 40.0, 5.0]), at(motion, [50.0, 50.0, 5.0])])
+        .collect();
+    let error = write(&program, &pieces, &WriteOptions::default()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "part.src, line 3: a joint motion cannot be divided: the tool does not go straight; so on lines 4, 6; line 8: the TRIGGER before it acts along the whole of it; give it one piece, at its end"
+    );
+}
+
+/// What brakes the robot on its path is carried; what leaves a motion before its end is refused.
+#[test]
+fn brake_holds_on_the_path_and_resume_leaves_it() {
+    let program = main_with(DATA, "LIN XP1\nBRAKE\nBRAKE F\nHALT\nLIN XP2");
+    assert_eq!(program.motions[1].follows, Some(0));
+    let text = "DEF part()\nRESUME\nEND\n";
+    let errors = read_krl(
+        vec![SourceFile::new("part.src", text)],
+        &ReadOptions::default(),
+    );
+    let rapid = "MODULE M\nPROC main()\nStopMove;\nStartMove;\nClearPath;\nENDPROC\nENDMODULE\n";
+    let others = read_rapid(
+        vec![SourceFile::new("m.mod", rapid)],
+        &ReadOptions::default(),
+    );
+    let (errors, others) = (errors.unwrap_err(), others.unwrap_err());
+    assert_eq!((errors.len(), others.len()), (1, 1));
+    assert_eq!((errors[0].line, others[0].line), (2, 5));
+    assert_eq!(errors[0].reason, others[0].reason);
+}

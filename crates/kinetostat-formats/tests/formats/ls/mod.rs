@@ -1,5 +1,6 @@
 //! FANUC TP programs.
 
+mod beside;
 mod broken;
 mod corrections;
 mod properties;

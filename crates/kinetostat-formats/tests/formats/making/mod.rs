@@ -2,6 +2,7 @@
 //! comparison that `make` does itself.
 
 mod arcs;
+mod comments;
 mod ends;
 mod events;
 mod hidden;

@@ -10,7 +10,7 @@ const RAPID: &str = "MODULE M\nPERS wobjdata table:=[FALSE,TRUE,\"\",[[500,0,300
     MoveJ [[0,0,50],[0.02,0.8,-0.59,0.1],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z10,tool0\\WObj:=table;\n\
     SetDO doSpindle,1;\n! groove\n\
     MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,tool0\\WObj:=table;\n\
-    MoveC [[5,5,0],[0,0.9961947,0,0.0871557],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],\
+    CirPathMode\\ObjectFrame; MoveC [[5,5,0],[0,0.9961947,0,0.0871557],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],\
     [[10,0,0],[0,0.9848078,0,0.1736482],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0\\WObj:=table;\nENDPROC\nENDMODULE\n";
 
 #[test]
@@ -113,7 +113,7 @@ fn what_does_not_run_once_is_refused() {
         [Some(8), Some(9)]
     );
     assert!(found[0].to_string().starts_with(
-        "line 8: the motion is in a loop, or in a routine that is called more than once; write"
+        "line 8: the motion is in a loop, in a routine with a GOTO that is not followed, or in one that is called more than once; write"
     ));
 }
 

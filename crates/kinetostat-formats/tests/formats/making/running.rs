@@ -305,6 +305,21 @@ fn a_speed_that_is_a_time_is_refused_in_words_of_robots() {
     );
 }
 
+/// Feeds of machines are in mm/min, and what states none there is neither a time nor a register.
+#[test]
+fn a_feed_that_is_none_is_refused_in_words_of_its_language() {
+    let text = "BEGIN PGM A MM\nL X+0 Y+0 Z+50 R0 FMAX\nL X+5 Y+5 Z+5 FZ0.1\nEND PGM A MM\n";
+    let files = vec![SourceFile::new("a.h", text)];
+    let program = read_heidenhain(files, &ReadOptions::default()).unwrap();
+    let robot = path_of(&program, &PathOptions::default()).unwrap();
+    let refused = make_of_robot(&program, &robot, &super::cell(), MakeLanguage::Csv).unwrap_err();
+    let said = refused[0].to_string();
+    assert!(
+        said.contains("number of mm/min") && !said.contains("register"),
+        "{said}"
+    );
+}
+
 /// Coolant flows before the motion of its block, a stop is behind it.
 #[test]
 fn a_stop_beside_coolant_is_behind_the_motion() {

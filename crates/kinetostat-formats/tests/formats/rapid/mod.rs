@@ -3,11 +3,13 @@
 mod broken;
 mod corrections;
 mod frames;
+mod jumps;
 mod order;
 mod pieces;
 mod properties;
 mod random;
 mod table;
+mod turning;
 mod zero_change;
 
 use kinetostat_formats::*;

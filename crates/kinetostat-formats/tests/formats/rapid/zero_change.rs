@@ -150,14 +150,16 @@ fn every_motion_is_found_with_what_it_says() {
 fn runs_and_findings_are_said() {
     let program = read_text(EVERYTHING.as_bytes());
     let runs: Vec<Runs> = program.motions.iter().map(|motion| motion.runs).collect();
-    // The routine has a GOTO: nothing in it is sure to run once.
-    assert!(runs.iter().all(|runs| *runs == Runs::Repeatedly));
-    assert!(
-        program
-            .motions
-            .iter()
-            .all(|motion| motion.follows.is_none())
-    );
+    // Its GOTO leads forward; two motions stand in branches, and one in a routine that a loop calls.
+    let mut wanted = [Runs::Once; 16];
+    (wanted[13], wanted[14]) = (Runs::OnCondition, Runs::OnCondition);
+    wanted[15] = Runs::Repeatedly;
+    assert_eq!(runs, wanted);
+    let follows: Vec<Option<usize>> = program.motions.iter().map(|m| m.follows).collect();
+    let mut wanted: Vec<Option<usize>> = (0..16_usize).map(|at| at.checked_sub(1)).collect();
+    // Behind a branch with a motion, and in a loop.
+    (wanted[14], wanted[15]) = (None, None);
+    assert_eq!(follows, wanted);
     let messages: Vec<&str> = program
         .findings
         .iter()

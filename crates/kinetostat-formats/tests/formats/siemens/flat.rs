@@ -137,10 +137,10 @@ fn subprograms_by_name_and_number() {
     let text = String::from_utf8(found.file.bytes().to_vec()).unwrap();
     assert_eq!(
         text,
-        "%_N_MAIN_MPF\n;$PATH=/_N_MPF_DIR\nG91 G1 Z=-5\nX=10\nY1\nY1\nY1\n; nothing\nG0 Y2\nM30\n"
+        "%_N_MAIN_MPF\n;$PATH=/_N_MPF_DIR\nG91 G1 Z=-5\nG90\nX=10\nY1\nY1\nY1\n; nothing\nG0 Y2\nM30\n"
     );
     assert_eq!(found.origins[2], (0, 3));
-    assert_eq!(found.origins[8], (3, 2));
+    assert_eq!(found.origins[9], (3, 2));
     // SAVE puts codes back that were stated before.
     let found = flat_of(&[
         ("m.mpf", "G90 G0 X1\nSUB1\nX2\n"),

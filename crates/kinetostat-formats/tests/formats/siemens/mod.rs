@@ -5,9 +5,11 @@ mod broken_forms;
 mod corrections;
 mod flat;
 mod frames;
+mod notes;
 mod properties;
 mod random;
 mod real;
+mod saved;
 mod zero_change;
 
 use kinetostat_formats::*;

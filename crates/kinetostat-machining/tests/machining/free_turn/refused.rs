@@ -146,3 +146,20 @@ fn turns_of_another_path_are_refused() {
         "{error}"
     );
 }
+
+#[test]
+fn a_long_path_has_stations_farther_apart() -> Result<(), Box<dyn std::error::Error>> {
+    let (mechanism, path, placement) = across_a_straight_wrist();
+    let mut task = TurnTask::new(&mechanism, &path, placement);
+    let all = choose_turns(&task)?;
+    assert_eq!(all.station_mm, 5.0);
+    // Room for a third of the postures: four times the distance.
+    task.bounds.most_postures = all.tried.1 / 3;
+    let fewer = choose_turns(&task)?;
+    assert_eq!(fewer.station_mm, 20.0);
+    assert!(fewer.tried.1 <= task.bounds.most_postures);
+    let [close, far] = [&all, &fewer].map(|choice| choice.stations.len());
+    assert!(3 * far < close && close < 5 * far, "{close} and {far}");
+    assert!(fewer.smallest_singular_value >= task.bounds.least_singular_value);
+    Ok(())
+}

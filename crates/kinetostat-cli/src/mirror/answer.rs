@@ -1,0 +1,83 @@
+//! The answer of `mirror`, stable names with units.
+
+use kinetostat_mirror::{
+    Convergence, DeviationFigures, LeftOut, Measurement, MirrorState, Outcome, Outlier,
+    Registration, Unseen,
+};
+use kinetostat_program::Accounting;
+use serde::Serialize;
+
+#[derive(Serialize)]
+pub(crate) struct MirrorAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) program: String,
+    pub(crate) model: Option<String>,
+    pub(crate) trial: usize,
+    pub(crate) relaxation: f64,
+    pub(crate) smoothing_mm: f64,
+    pub(crate) outcome: Outcome,
+    pub(crate) measurements: Vec<MeasurementResult>,
+    /// Smoothed deviation of the mean of all measurements, root mean square.
+    pub(crate) left_mm: f64,
+    pub(crate) floor_mm: Option<f64>,
+    pub(crate) left_in_trials_mm: Vec<f64>,
+    pub(crate) convergence: Option<Convergence>,
+    pub(crate) largest_correction_mm: f64,
+    pub(crate) accounting: Accounting,
+}
+
+#[derive(Serialize)]
+pub(crate) struct MeasurementResult {
+    pub(crate) file: String,
+    pub(crate) registration: Option<RegistrationResult>,
+    pub(crate) figures: DeviationFigures,
+    pub(crate) outliers: Vec<Outlier>,
+    pub(crate) left_out: Vec<LeftOut>,
+    pub(crate) unseen: Vec<Unseen>,
+}
+
+/// From the frame of the measurement to that of the program.
+#[derive(Serialize)]
+pub(crate) struct RegistrationResult {
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) shift_mm: [f64; 3],
+    pub(crate) scale: f64,
+    /// Motions that the points do not determine, in words.
+    pub(crate) free: Vec<String>,
+    pub(crate) scatter_mm: f64,
+    pub(crate) rejected_rows: Vec<usize>,
+}
+
+impl From<&Registration> for RegistrationResult {
+    fn from(found: &Registration) -> Self {
+        let turn = found.motion.rotation.scaled_axis();
+        Self {
+            rotation_vector_deg: turn.map(f64::to_degrees).into(),
+            shift_mm: found.motion.shift_mm.into(),
+            scale: found.motion.scale,
+            free: found.free.iter().map(ToString::to_string).collect(),
+            scatter_mm: found.deviation_mm,
+            rejected_rows: found.rejected_rows.clone(),
+        }
+    }
+}
+
+impl MeasurementResult {
+    pub(crate) fn of(file: &str, found: &Measurement) -> Self {
+        Self {
+            file: file.to_owned(),
+            registration: found.registration.as_ref().map(Into::into),
+            figures: found.figures,
+            outliers: found.outliers.clone(),
+            left_out: found.left_out.clone(),
+            unseen: found.unseen.clone(),
+        }
+    }
+}
+
+/// The largest correction of a state, mm.
+pub(crate) fn largest_correction_mm(state: &MirrorState) -> f64 {
+    let sizes = state.correction_mm.iter().map(nalgebra::Vector3::norm);
+    sizes.fold(0.0, kinetostat::number::larger)
+}

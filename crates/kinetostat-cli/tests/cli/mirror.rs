@@ -1,0 +1,332 @@
+//! `mirror`: trials of a machine that another command simulates, and what the state refuses.
+
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use kinetostat_testing::Worst;
+use serde_json::Value;
+
+use crate::common::{run, workplace};
+
+/// A circle of 30 mm, with straight ways in and out along its tangent.
+const CIRCLE: &str =
+    "G21 G90\nG0 X30 Y-40 Z5\nG0 Z0\nG1 Y0 F600\nG3 X30 Y0 I-30\nG1 Y40\nG0 Z5\nM2\n";
+
+fn job(model: &str) -> String {
+    format!(
+        "schema = 1\nmodel = \"{model}\"\nprogram = \"circle.ngc\"\n[placement]\npart_origin_mm = [0, 0, 100]\n[tool]\nlength_mm = 100\n[load]\nmilling = {{ radial_n = 215, tangential_n = -10, axial_n = -25 }}\n"
+    )
+}
+
+/// The orthoglide with feet and bars 30 % softer than the preset.
+fn soft(preset: &str) -> String {
+    let softer = |line: &str| {
+        let mut out = String::new();
+        let mut digits = String::new();
+        for c in line.chars().chain(std::iter::once('\n')) {
+            // Digits in a name are no number.
+            let begins =
+                c.is_ascii_digit() && !out.ends_with(|before: char| before.is_alphanumeric());
+            let goes_on = c.is_ascii_digit() || c == '.' || c == 'e';
+            if begins && digits.is_empty() || goes_on && !digits.is_empty() {
+                digits.push(c);
+                continue;
+            }
+            match digits.parse::<f64>() {
+                Ok(value) => out += &format!("{}", 0.7 * value),
+                Err(_) => out += &digits,
+            }
+            digits.clear();
+            out.push(c);
+        }
+        out
+    };
+    let mut changed = 0;
+    let lines = preset.lines().map(|line| {
+        let of_bar = line.trim_start().starts_with('[') && line.trim_end().ends_with("],");
+        let of_foot = line.strip_prefix("rigidities = ");
+        changed += usize::from(of_bar || of_foot.is_some());
+        match of_foot {
+            Some(rest) => format!("rigidities = {}", softer(rest)),
+            None if of_bar && line.starts_with("  [") => softer(line),
+            None => format!("{line}\n"),
+        }
+    });
+    let text = lines.collect();
+    assert!(changed >= 7, "{changed} lines of stiffness");
+    text
+}
+
+/// Where the tool comes to be along a program, by solving a machine along it: rows of a measurement, and the largest distance of
+/// those on the circle from it, um.
+fn simulated(here: &Path, program: &str) -> (String, f64) {
+    let words = [
+        "deflect",
+        "soft_job.toml",
+        "--program",
+        program,
+        "--points",
+        "points.csv",
+        "--all-points",
+        "--force-overwrite",
+    ];
+    run(here, &words).answered();
+    let text = std::fs::read_to_string(here.join("points.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|n| *n == name).unwrap();
+    let at = ["x", "y", "z"].map(|axis| {
+        [
+            column(&format!("{axis}_mm")),
+            column(&format!("error_before_{axis}_mm")),
+        ]
+    });
+    let kind = column("kind");
+    let mut rows = String::from("x_mm,y_mm,z_mm\n");
+    let mut worst = Worst::new();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        if cells[kind] == "rapid" {
+            continue;
+        }
+        let [x, y, z] = at.map(|both| {
+            both.map(|k| cells[k].parse::<f64>().unwrap())
+                .iter()
+                .sum::<f64>()
+        });
+        rows += &format!("{x},{y},{z}\n");
+        if x < 29.0 {
+            worst.add(1e3 * (x.hypot(y) - 30.0).hypot(z));
+        }
+    }
+    assert!(worst.samples() > 300);
+    (rows, worst.value())
+}
+
+#[test]
+fn a_model_thirty_percent_off_and_the_mirror_end_below_two_micrometres() {
+    let here = workplace();
+    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    let preset = run(here.path(), &["model", "show", "orthoglide"])
+        .answered()
+        .out;
+    put("circle.ngc", CIRCLE);
+    put("soft.toml", &soft(&preset));
+    put("model_job.toml", &job("orthoglide"));
+    put("soft_job.toml", &job("soft.toml"));
+    let fine = ["--decimals", "5", "--tolerance-um", "0.3"];
+    let mut words = vec!["compensate", "model_job.toml", "--out", "trial1.ngc"];
+    words.extend(fine);
+    run(here.path(), &words).answered();
+    let mut errors_um = Vec::new();
+    for trial in 1..=3 {
+        let (rows, worst) = simulated(here.path(), &format!("trial{trial}.ngc"));
+        errors_um.push(worst);
+        let [measured, next] = [
+            format!("trial{trial}.csv"),
+            format!("trial{}.ngc", trial + 1),
+        ];
+        put(&measured, &rows);
+        let mut words = vec![
+            "mirror",
+            "circle.ngc",
+            "--measured",
+            &measured,
+            "--job",
+            "model_job.toml",
+            "--state",
+            "state.toml",
+            "--no-register",
+            "--align",
+            "arc-length",
+            "--out",
+            &next,
+            "--json",
+        ];
+        words.extend(fine);
+        let said = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&said.out).unwrap();
+        assert_eq!(
+            (found["trial"].as_u64(), found["model"].as_str()),
+            (Some(trial), Some("orthoglide"))
+        );
+    }
+    // The model alone leaves a third of what it should correct.
+    assert!(errors_um[0] > 200.0, "{errors_um:?}");
+    assert!(errors_um[1] < 10.0 && errors_um[2] < 2.0, "{errors_um:?}");
+}
+
+/// Points on the circle's ways, raised by so much, with one far off.
+fn raised(by: f64) -> String {
+    let mut rows = String::from("x_mm,y_mm,z_mm\n");
+    for k in 0..=40 {
+        let z = by + if k == 20 { 0.3 } else { 0.0 };
+        rows += &format!("30,{},{z}\n", -40 + k);
+    }
+    for k in 1..180 {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / 180.0).sin_cos();
+        rows += &format!("{},{},{by}\n", 30.0 * cosine, 30.0 * sine);
+    }
+    rows
+}
+
+#[test]
+fn what_is_measured_is_said_and_kept_for_the_next_trial() {
+    let here = workplace();
+    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    let state = || std::fs::read_to_string(here.path().join("state.toml")).unwrap();
+    put("circle.ngc", CIRCLE);
+    put("other.ngc", &CIRCLE.replace("F600", "F500"));
+    put("trial1.csv", &raised(0.05));
+    put("trial2.csv", &raised(0.001));
+    let mirror = |program: &str, measured: &str, out: &str, more: &[&str]| {
+        let mut words = vec![
+            "mirror",
+            program,
+            "--measured",
+            measured,
+            "--state",
+            "state.toml",
+            "--no-register",
+            "--align",
+            "arc-length",
+            "--out",
+            out,
+        ];
+        words.extend(more);
+        run(here.path(), &words)
+    };
+    let said = mirror(
+        "circle.ngc",
+        "trial1.csv",
+        "trial2.ngc",
+        &["--plot", "trial1.svg"],
+    )
+    .answered();
+    assert!(
+        said.out.lines().all(|line| line.chars().count() <= 80),
+        "{}",
+        said.out
+    );
+    assert!(
+        said.out.contains("row 21 is left out: 0.35"),
+        "{}",
+        said.out
+    );
+    // Nothing was measured on the way out.
+    assert!(
+        said.out.contains("line 6: ") && said.out.contains("fades to nothing"),
+        "{}",
+        said.out
+    );
+    let plot = std::fs::read_to_string(here.path().join("trial1.svg")).unwrap();
+    assert!(plot.contains("outlier, row 21"));
+    let written = std::fs::read_to_string(here.path().join("trial2.ngc")).unwrap();
+    assert!(
+        written.contains("Z-0.05") || written.contains("Z-0.0499"),
+        "{written}"
+    );
+
+    let kept = state();
+    for (program, measured, more, says) in [
+        (
+            "other.ngc",
+            "trial2.csv",
+            &[][..],
+            "the state has program_sha256 = ",
+        ),
+        (
+            "circle.ngc",
+            "trial2.csv",
+            &["--smoothing-mm", "4"][..],
+            "the state has smoothing_mm = 5, this run 4",
+        ),
+        (
+            "circle.ngc",
+            "trial1.csv",
+            &[][..],
+            "trial1.csv is the measurement trial1.csv of an earlier trial",
+        ),
+        (
+            "circle.ngc",
+            "trial2.csv",
+            &["--relaxation", "2"][..],
+            "the relaxation is 2",
+        ),
+        (
+            "circle.ngc",
+            "trial2.csv",
+            &["--repeatability-um", "0"][..],
+            "--repeatability-um 0",
+        ),
+    ] {
+        let said = mirror(program, measured, "no.ngc", more);
+        assert_eq!(said.code, 1, "{said:?}");
+        assert!(said.err.contains(says), "{}", said.err);
+        assert!(!here.path().join("no.ngc").exists() && state() == kept);
+    }
+
+    let said = mirror(
+        "circle.ngc",
+        "trial2.csv",
+        "trial3.ngc",
+        &["--repeatability-um", "10"],
+    )
+    .answered();
+    assert!(
+        said.out
+            .contains("stop: what is left is within the repeatability"),
+        "{}",
+        said.out
+    );
+    let [two, three] =
+        ["trial2.ngc", "trial3.ngc"].map(|name| std::fs::read(here.path().join(name)).unwrap());
+    assert!(two == three && state().contains("number = 2"));
+}
+
+#[test]
+fn a_second_program_is_a_measurement_too() {
+    let here = workplace();
+    let put = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+    put("circle.ngc", CIRCLE);
+    put("lower.ngc", &CIRCLE.replace("G0 Z0", "G0 Z-0.02"));
+    let words = [
+        "mirror",
+        "circle.ngc",
+        "--measured",
+        "lower.ngc",
+        "--no-register",
+        "--align",
+        "arc-length",
+        "--out",
+        "next.ngc",
+        "--json",
+    ];
+    let said = run(here.path(), &words).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    let figures = &found["measurements"][0]["figures"];
+    assert!(
+        (figures["rms_mm"].as_f64().unwrap() - 0.02).abs() < 1e-9,
+        "{figures}"
+    );
+    assert!((found["largest_correction_mm"].as_f64().unwrap() - 0.02).abs() < 1e-4);
+    // Registered, the part lies lower, and nothing is to be corrected.
+    let words = [
+        "mirror",
+        "circle.ngc",
+        "--measured",
+        "lower.ngc",
+        "--out",
+        "same.ngc",
+        "--align",
+        "arc-length",
+        "--json",
+    ];
+    let said = run(here.path(), &words).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    assert!(found["largest_correction_mm"].as_f64().unwrap() < 1e-9);
+    let shift = &found["measurements"][0]["registration"]["shift_mm"];
+    assert!((shift[2].as_f64().unwrap() - 0.02).abs() < 1e-9, "{shift}");
+}

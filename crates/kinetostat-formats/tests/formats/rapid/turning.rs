@@ -1,0 +1,104 @@
+//! How the tool turns: `CirPathMode` and `SingArea`.
+
+use kinetostat_formats::*;
+
+const START: &str = "MoveL [[0,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;";
+/// On a half circle the tool turns by 60 degrees.
+const TURNED: &str = "MoveC [[5,5,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[10,0,0],[0,0.8660254,0.5,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;";
+const EVEN: &str = "MoveC [[5,5,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[10,0,0],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;";
+const LINE: &str =
+    "MoveL [[20,0,0],[0,0.8660254,0.5,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,fine,tool0;";
+
+/// Lines and faults of the motions of `main` with a routine `other`.
+fn faults(main: &str, other: &str) -> Vec<(usize, String)> {
+    let text = format!(
+        "MODULE M\nPROC main()\n{main}\nENDPROC\nPROC other()\n{other}\nENDPROC\nENDMODULE\n"
+    );
+    let program = read_rapid(
+        vec![SourceFile::new("m.mod", text)],
+        &ReadOptions::default(),
+    )
+    .unwrap();
+    match path_of(&program, &PathOptions::default()) {
+        Ok(_) => Vec::new(),
+        Err(faults) => faults
+            .iter()
+            .map(|fault| (fault.line, fault.to_string()))
+            .collect(),
+    }
+}
+
+#[track_caller]
+fn refused(main: &str, other: &str, line: usize, part: &str) {
+    let found = faults(main, other);
+    let fits = found.len() == 1 && found[0].0 == line && found[0].1.contains(part);
+    assert!(fits, "{found:#?}");
+}
+
+#[track_caller]
+fn carried(main: &str, other: &str) {
+    let found = faults(main, other);
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn on_circles_the_tool_turns_evenly_with_the_object_frame_alone() {
+    let remedy = "the tool turns by 60.000 deg, and on a circle it does not turn evenly: it turns with the path (CirPathMode\\PathFrame";
+    refused(&format!("{START}\n{TURNED}"), "", 4, remedy);
+    carried(&format!("{START}\n{EVEN}"), "");
+    carried(&format!("{START}\nCirPathMode\\ObjectFrame;\n{TURNED}"), "");
+    for other in ["PathFrame", "CirPointOri", "Wrist45"] {
+        let main = format!("CirPathMode\\ObjectFrame;\n{START}\nCirPathMode\\{other};\n{TURNED}");
+        refused(&main, "", 6, "write CirPathMode\\ObjectFrame before it");
+    }
+}
+
+#[test]
+fn what_one_way_alone_puts_in_force_is_not_sure() {
+    let set = "CirPathMode\\ObjectFrame;";
+    let left = "CirPathMode\\PathFrame;";
+    refused(
+        &format!("IF reg1=1 THEN\n{set}\nENDIF\n{START}\n{TURNED}"),
+        "",
+        7,
+        "turns with the path",
+    );
+    carried(
+        &format!("IF reg1=1 THEN\n{set}\nELSE\n{set}\nENDIF\n{START}\n{TURNED}"),
+        "",
+    );
+    // At the second pass the path frame is in force.
+    refused(
+        &format!("{set}\nWHILE TRUE DO\n{START}\n{TURNED}\n{left}\nENDWHILE"),
+        "",
+        6,
+        "turns with the path",
+    );
+    // So it is at the second call.
+    let call = format!("{set}\nother;\n{left}\nother;");
+    refused(
+        &call,
+        &format!("{START}\n{TURNED}"),
+        10,
+        "turns with the path",
+    );
+    carried(&format!("other;\n{START}\n{TURNED}"), set);
+}
+
+#[test]
+fn with_the_joints_of_the_wrist_no_motion_turns_evenly() {
+    for mode in ["Wrist", "LockAxis4"] {
+        let main = format!("{START}\nSingArea\\{mode};\n{LINE}");
+        refused(
+            &main,
+            "",
+            5,
+            "the joints of the wrist turn evenly (SingArea\\Wrist",
+        );
+    }
+    carried(&format!("{START}\nSingArea\\Wrist;\n{START}"), "");
+    carried(
+        &format!("SingArea\\Wrist;\n{START}\nSingArea\\Off;\n{LINE}"),
+        "",
+    );
+}

@@ -1,0 +1,15 @@
+//! Reasons for which a point has no place on the path.
+
+use serde::Serialize;
+
+/// Why a point has no place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WhyLeftOut {
+    /// The path does not come within the window.
+    BeyondWindow,
+    /// Several stretches of it do.
+    SeveralStretches,
+    /// It would lie behind the points before it.
+    OutOfOrder,
+}

@@ -1,0 +1,108 @@
+//! Smoothing along the path with a Gaussian kernel.
+//!
+//! The smoothed deviation at a length `s` is the mean (Nadaraya 1964, Watson 1964)
+//!
+//! ```text
+//! e(s) = sum_i K(s - s_i) w_i e_i / (k0 + sum_i K(s - s_i) w_i),   K(u) = exp(-u^2 / (2 h^2))
+//! ```
+//!
+//! over the points of the same pass, with the smoothing length `h`. Of a wave of length `l` it lets through
+//! `exp(-2 pi^2 h^2 / l^2)`: half at `5.34 h`, nine tenths at `13.7 h`. The constant `k0` is `K(3 h)` times the mean weight:
+//! where there are points it changes less than a hundredth, and farther than about `3 h` from all of them the mean fades to
+//! nothing instead of carrying the last one on.
+//!
+//! The scatter of a point is averaged over `n = (sum K w)^2 / sum (K w)^2` points, its standard deviation falls to
+//! `sigma / sqrt(n)`; with points every `a` along a straight course `n = 2 sqrt(pi) h / a`.
+
+use nalgebra::Vector3;
+
+use crate::alignment::AlignedPoint;
+
+/// Farther than so many smoothing lengths a point counts nothing: `exp(-18)`.
+const REACH: f64 = 6.0;
+
+/// `K(3 h)`.
+const FADING: f64 = 0.011_108_996_538_242_306;
+
+/// A Gaussian kernel along the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// Its standard deviation, mm.
+    pub length_mm: f64,
+}
+
+/// A smoothed deviation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Smoothed {
+    /// The mean, mm.
+    pub deviation_mm: Vector3<f64>,
+    /// Weight that it rests on, `k0` included.
+    pub support: f64,
+    /// Number of points that a scatter is averaged over; 0 where there are none.
+    pub effective_points: f64,
+}
+
+impl Kernel {
+    /// The share of a wave that it lets through.
+    ///
+    /// ```
+    /// let kernel = kinetostat_mirror::Kernel { length_mm: 5.0 };
+    /// assert!((kernel.transfer(5.336_446 * 5.0) - 0.5).abs() < 1e-6);
+    /// assert!(kernel.transfer(5.0) < 1e-8);
+    /// ```
+    #[must_use]
+    pub fn transfer(&self, wavelength_mm: f64) -> f64 {
+        let angle = std::f64::consts::TAU * self.length_mm / wavelength_mm;
+        (-0.5 * angle * angle).exp()
+    }
+
+    /// How much a point counts that is so far away along the path.
+    fn value(&self, apart_mm: f64) -> f64 {
+        let parts = apart_mm / self.length_mm;
+        (-0.5 * parts * parts).exp()
+    }
+
+    /// Smoothed deviations at lengths of a pass, from points of it in the order along it.
+    ///
+    /// ```
+    /// # use kinetostat_mirror::{AlignedPoint, Kernel};
+    /// # use nalgebra::Vector3;
+    /// let at = |i: usize| AlignedPoint {
+    ///     row: i + 1, along_mm: i as f64, piece: 0, pass: 0, tangent: Vector3::x(),
+    ///     deviation_mm: Vector3::new(0.0, 0.02, 0.0), weight: 1.0,
+    /// };
+    /// let points: Vec<_> = (0..100).map(at).collect();
+    /// let smoothed = Kernel { length_mm: 5.0 }.smoothed(&points, &[50.0]);
+    /// assert!((smoothed[0].deviation_mm.y - 0.02).abs() < 2e-5);
+    /// let n = 2.0 * std::f64::consts::PI.sqrt() * 5.0;
+    /// assert!((smoothed[0].effective_points / n - 1.0).abs() < 1e-6);
+    /// ```
+    #[must_use]
+    pub fn smoothed(&self, points: &[AlignedPoint], along_mm: &[f64]) -> Vec<Smoothed> {
+        let total: f64 = points.iter().map(|point| point.weight).sum();
+        let constant = FADING * total / points.len().max(1) as f64;
+        let reach = REACH * self.length_mm;
+        along_mm
+            .iter()
+            .map(|at| {
+                let first = points.partition_point(|point| point.along_mm < at - reach);
+                let end = points.partition_point(|point| point.along_mm <= at + reach);
+                let (mut sum, mut weight, mut squares) = (Vector3::zeros(), 0.0, 0.0);
+                for point in &points[first..end.max(first)] {
+                    let share = self.value(point.along_mm - at) * point.weight;
+                    sum += point.deviation_mm * share;
+                    weight += share;
+                    squares += share * share;
+                }
+                match squares > 0.0 {
+                    true => Smoothed {
+                        deviation_mm: sum / (weight + constant),
+                        support: weight + constant,
+                        effective_points: weight * weight / squares,
+                    },
+                    false => Smoothed::default(),
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,227 @@
+//! From measured points to deviations at the stations of a path.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::alignment::{AlignedPoint, Alignment, LeftOut, align};
+use crate::deviation::kernel::{Kernel, Smoothed};
+use crate::deviation::outliers::{Outlier, take_outliers};
+use crate::deviation::stations::Stations;
+use crate::deviation::unseen::{Unseen, unseen};
+use crate::error::MirrorError;
+use crate::nominal::NominalPath;
+use crate::number::{OF_TWO_DIRECTIONS, larger, median};
+use crate::points::{MeasuredPoint, MeasuredPoints};
+use crate::registration::{Motion, Registration, RegistrationOptions, register};
+
+/// How points become deviations; the same for all trials of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeasureSettings {
+    /// Standard deviation of the kernel along the path, mm.
+    pub smoothing_mm: f64,
+    /// How far the tool may be from its path, mm.
+    pub window_mm: f64,
+    /// How points find their places.
+    pub align: Alignment,
+    /// Whether they are brought onto the path by a rigid motion first.
+    pub register: bool,
+    /// Whether that motion has a scale.
+    pub scale: bool,
+}
+
+impl Default for MeasureSettings {
+    fn default() -> Self {
+        Self {
+            smoothing_mm: 5.0,
+            window_mm: 1.0,
+            align: Alignment::Nearest,
+            register: true,
+            scale: false,
+        }
+    }
+}
+
+/// Sizes of deviations.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DeviationFigures {
+    /// Points that count.
+    pub points: usize,
+    /// Root of the mean square of their deviations, mm.
+    pub rms_mm: f64,
+    /// The largest of them, mm.
+    pub largest_mm: f64,
+    /// Root of the mean square along the path after smoothing, mm.
+    pub smoothed_rms_mm: f64,
+    /// The largest after smoothing, mm.
+    pub smoothed_largest_mm: f64,
+    /// Root of the mean product of deviation and smoothed deviation, mm: what the proof of convergence is about.
+    pub passing_rms_mm: f64,
+    /// Standard deviation of a point from the smoothed deviation in one direction, from the median, mm.
+    pub scatter_mm: f64,
+    /// Mean number of points that a smoothed deviation rests on.
+    pub effective_points: f64,
+}
+
+/// A measurement, compared with the path.
+#[derive(Clone, Debug)]
+pub struct Measurement {
+    /// The motion onto the path, where one was sought.
+    pub registration: Option<Registration>,
+    /// Points that count, in the order along the path.
+    pub points: Vec<AlignedPoint>,
+    /// Smoothed deviation at each of them.
+    pub at_points: Vec<Smoothed>,
+    /// Points that no neighbour bears out.
+    pub outliers: Vec<Outlier>,
+    /// Points without a place on the path.
+    pub left_out: Vec<LeftOut>,
+    /// Smoothed deviation at each station.
+    pub at_stations: Vec<Smoothed>,
+    /// What the points leave open.
+    pub unseen: Vec<Unseen>,
+    /// Sizes.
+    pub figures: DeviationFigures,
+}
+
+/// Compares a measurement with the path.
+///
+/// ```
+/// use kinetostat_mirror::{MeasureSettings, MeasuredPoints, NominalPath, measure};
+/// use kinetostat_program::{Program, ReadOptions, interpret};
+/// use nalgebra::Vector3;
+///
+/// let program = Program::read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F300\n")?;
+/// let path = interpret(&program, &ReadOptions::default())?;
+/// let nominal = NominalPath::new(&path)?;
+/// let points: Vec<_> = (0..=100).map(|x| Vector3::new(f64::from(x), 0.05, 0.0)).collect();
+/// let settings = MeasureSettings { register: false, ..MeasureSettings::default() };
+/// let measured = measure(&nominal, &MeasuredPoints::at(&points)?, &settings)?;
+/// assert!((measured.figures.smoothed_largest_mm - 0.05).abs() < 1e-4);
+/// assert!(measured.outliers.is_empty() && measured.unseen.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Settings that are no lengths, a registration that fails, and points none of which has a place on the path.
+pub fn measure(
+    nominal: &NominalPath<'_>,
+    measured: &MeasuredPoints,
+    settings: &MeasureSettings,
+) -> Result<Measurement, MirrorError> {
+    for (name, value) in [
+        ("smoothing length", settings.smoothing_mm),
+        ("window", settings.window_mm),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(MirrorError::new(format!(
+                "the {name} is {value} mm; expected a length above 0"
+            )));
+        }
+    }
+    let options = RegistrationOptions {
+        with_scale: settings.scale,
+    };
+    let registration = match settings.register {
+        true => Some(register(nominal, measured, options)?),
+        false => None,
+    };
+    let motion = registration
+        .as_ref()
+        .map_or_else(Motion::default, |found| found.motion);
+    let moved: Vec<(MeasuredPoint, Vector3<f64>)> = measured
+        .points()
+        .iter()
+        .map(|point| (*point, motion.of(&point.position_mm)))
+        .collect();
+    let (mut points, left_out) = align(nominal, &moved, settings.align, settings.window_mm);
+    let outliers = take_outliers(nominal, &mut points);
+    if points.is_empty() {
+        return Err(MirrorError::new(nothing_left(
+            measured, &left_out, settings,
+        )));
+    }
+    let kernel = Kernel {
+        length_mm: settings.smoothing_mm,
+    };
+    let stations = Stations::of(nominal, settings.smoothing_mm);
+    let (mut at_points, mut at_stations) = (Vec::new(), Vec::new());
+    for (pass, own) in stations.passes().iter().enumerate() {
+        let first = points.partition_point(|point| point.pass < pass);
+        let end = points.partition_point(|point| point.pass <= pass);
+        let of_pass = &points[first..end];
+        let places: Vec<f64> = of_pass.iter().map(|point| point.along_mm).collect();
+        at_points.extend(kernel.smoothed(of_pass, &places));
+        at_stations.extend(kernel.smoothed(of_pass, &stations.along_mm()[own.clone()]));
+    }
+    let figures = figures(&points, &at_points, (&stations, &at_stations));
+    Ok(Measurement {
+        unseen: unseen(nominal, &points, settings.smoothing_mm),
+        registration,
+        points,
+        at_points,
+        outliers,
+        left_out,
+        at_stations,
+        figures,
+    })
+}
+
+fn nothing_left(
+    measured: &MeasuredPoints,
+    left_out: &[LeftOut],
+    settings: &MeasureSettings,
+) -> String {
+    let nearest = left_out.iter().filter_map(|point| point.distance_mm);
+    let nearest = nearest.min_by(f64::total_cmp).unwrap_or(f64::NAN);
+    format!(
+        "none of the {} measured points has a place on the path within {} mm that is the only one; the nearest is {nearest:.3} mm away: check units and frame, register the points, widen the window, or align them by arc length",
+        measured.points().len(),
+        settings.window_mm
+    )
+}
+
+fn figures(
+    points: &[AlignedPoint],
+    at_points: &[Smoothed],
+    (stations, at_stations): (&Stations, &[Smoothed]),
+) -> DeviationFigures {
+    let mean = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (value, weight) in pairs {
+            sum += value * weight;
+            total += weight;
+        }
+        sum / total
+    };
+    let both = || points.iter().zip(at_points);
+    let squares = points
+        .iter()
+        .map(|p| (p.deviation_mm.norm_squared(), p.weight));
+    let passing = both().map(|(p, smoothed)| {
+        let product = p.deviation_mm.dot(&smoothed.deviation_mm);
+        (product, p.weight * smoothed.support)
+    });
+    let off = both().map(|(p, smoothed)| (p.deviation_mm - smoothed.deviation_mm).norm());
+    let lengths = stations.lengths_mm();
+    let seen = || {
+        let all = at_stations.iter().zip(&lengths);
+        all.filter(|(smoothed, _)| smoothed.effective_points > 0.0)
+    };
+    let smoothed = seen().map(|(smoothed, length)| (smoothed.deviation_mm.norm_squared(), *length));
+    DeviationFigures {
+        points: points.len(),
+        rms_mm: mean(&mut squares.into_iter()).sqrt(),
+        largest_mm: points
+            .iter()
+            .map(|p| p.deviation_mm.norm())
+            .fold(0.0, larger),
+        smoothed_rms_mm: mean(&mut smoothed.into_iter()).sqrt(),
+        smoothed_largest_mm: at_stations
+            .iter()
+            .map(|s| s.deviation_mm.norm())
+            .fold(0.0, larger),
+        passing_rms_mm: larger(mean(&mut passing.into_iter()), 0.0).sqrt(),
+        scatter_mm: OF_TWO_DIRECTIONS * median(off.collect()),
+        effective_points: mean(&mut seen().map(|(s, length)| (s.effective_points, *length))),
+    }
+}

@@ -1,0 +1,13 @@
+//! Deviations along the path: outliers, smoothing, and what the points cannot tell.
+
+mod kernel;
+mod measure;
+mod outliers;
+mod stations;
+mod unseen;
+
+pub use kernel::{Kernel, Smoothed};
+pub use measure::{DeviationFigures, MeasureSettings, Measurement, measure};
+pub use outliers::Outlier;
+pub use stations::Stations;
+pub use unseen::Unseen;

@@ -1,0 +1,8 @@
+//! Measured points, from CSV or from the path of a second program.
+
+mod columns;
+mod read;
+mod sampled;
+mod set;
+
+pub use set::{MeasuredPoint, MeasuredPoints};

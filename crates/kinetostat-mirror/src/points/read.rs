@@ -1,0 +1,113 @@
+//! Measured points from CSV.
+
+use nalgebra::Vector3;
+
+use crate::error::MirrorError;
+use crate::points::columns::{Columns, shown};
+use crate::points::set::{MeasuredPoint, MeasuredPoints};
+
+impl MeasuredPoints {
+    /// Points from CSV with commas or semicolons: columns of x, y and z with their units (`x_mm`, `y_m`, `z_um`), and
+    /// `weight` or a standard deviation (`sigma_mm`), and `line` (the line of the program on which the tool was) where the
+    /// measurement knows them. Lines that begin with `#` and empty ones are passed over.
+    ///
+    /// ```
+    /// use kinetostat_mirror::MeasuredPoints;
+    ///
+    /// let text = "# laser tracker\nx_mm;y_mm;z_mm\n0;0;0\n1;;0\n";
+    /// let error = MeasuredPoints::read("trial1.csv", text).unwrap_err();
+    /// assert_eq!(error.to_string(), "trial1.csv:4: y is ``; expected a number with a decimal point");
+    /// ```
+    ///
+    /// # Errors
+    /// With file and line: columns that are missing, unknown, there twice or without a unit; cells that are no numbers; rows
+    /// of another length; and as [`MeasuredPoints::new`].
+    pub fn read(name_of_file: &str, text: &str) -> Result<Self, MirrorError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut columns = None;
+        let mut points = Vec::new();
+        let mut last = 1;
+        let rows = text.lines().zip(1..).filter(|(line, _)| {
+            let line = line.trim();
+            !line.is_empty() && !line.starts_with('#')
+        });
+        let mut separator = b',';
+        for (line, number) in rows {
+            let at = |error: MirrorError| error.at(name_of_file, number);
+            last = number;
+            if columns.is_none() && line.contains(';') {
+                separator = b';';
+            }
+            let record = cells(line, separator).map_err(at)?;
+            let Some((found, width)) = &columns else {
+                columns = Some((Columns::of(&record).map_err(at)?, record.len()));
+                continue;
+            };
+            if record.len() != *width {
+                return Err(at(MirrorError::new(format!(
+                    "{} cells under {width} columns; expected as many as the header has",
+                    record.len()
+                ))));
+            }
+            let place = (points.len() + 1, number);
+            points.push(point(found, &record, place).map_err(at)?);
+        }
+        Self::new(points).map_err(|error| error.at(name_of_file, last))
+    }
+}
+
+/// The cells of one line.
+fn cells(line: &str, separator: u8) -> Result<csv::StringRecord, MirrorError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .delimiter(separator)
+        .buffer_capacity(line.len() + 1)
+        .from_reader(line.as_bytes());
+    let mut record = csv::StringRecord::new();
+    match reader.read_record(&mut record) {
+        Ok(_) => Ok(record),
+        Err(error) => Err(MirrorError::new(error.to_string())),
+    }
+}
+
+fn point(
+    columns: &Columns,
+    record: &csv::StringRecord,
+    (row, line): (usize, usize),
+) -> Result<MeasuredPoint, MirrorError> {
+    let number = |name: &str, index: usize| {
+        let cell = record.get(index).unwrap_or_default().trim();
+        let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| {
+            let cell = shown(cell);
+            MirrorError::new(format!(
+                "{name} is `{cell}`; expected a number with a decimal point"
+            ))
+        })
+    };
+    let mut position_mm = Vector3::zeros();
+    for (axis, (index, mm)) in columns.axes.iter().enumerate() {
+        position_mm[axis] = mm * number(["x", "y", "z"][axis], *index)?;
+    }
+    let weight = match (columns.weight, columns.sigma) {
+        (Some(index), _) => number("weight", index)?,
+        (None, Some((index, mm))) => (mm * number("sigma", index)?).powi(-2),
+        (None, None) => 1.0,
+    };
+    let program_line = columns.line.map(|index| {
+        let number = number("line", index)?;
+        match number >= 1.0 && number.fract() == 0.0 {
+            true => Ok(number as usize),
+            false => Err(MirrorError::new(format!(
+                "line is {number}; expected a line of the program, from 1"
+            ))),
+        }
+    });
+    Ok(MeasuredPoint {
+        row,
+        line,
+        position_mm,
+        weight,
+        program_line: program_line.transpose()?,
+    })
+}

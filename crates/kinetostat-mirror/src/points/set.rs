@@ -1,0 +1,115 @@
+//! Points where the tool was measured.
+
+use nalgebra::Vector3;
+
+use crate::error::MirrorError;
+
+/// No workshop measures beyond this, mm: a number larger than it is in another unit than its column says.
+const FARTHEST_MM: f64 = 1e6;
+
+/// The fewest from which a rigid motion and a scatter can be told.
+const FEWEST: usize = 3;
+
+/// One place where the tool was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredPoint {
+    /// Row of the measurement, from 1; the header is not counted.
+    pub row: usize,
+    /// Line of the file, from 1; the row itself where there is no file.
+    pub line: usize,
+    /// Where it was measured, mm, in the frame of the measurement.
+    pub position_mm: Vector3<f64>,
+    /// Its share in every mean, `1 / sigma^2` where standard deviations are stated.
+    pub weight: f64,
+    /// Line of the program on which the tool was, where the measurement says so.
+    pub program_line: Option<usize>,
+}
+
+/// The points of one measurement.
+///
+/// ```
+/// use kinetostat_mirror::MeasuredPoints;
+///
+/// let text = "x_mm,y_mm,z_m,sigma_um\n0,0,0,2\n10,0,0,2\n20,0,0.001,4\n";
+/// let points = MeasuredPoints::read("trial1.csv", text)?;
+/// assert_eq!(points.points().len(), 3);
+/// assert_eq!(points.points()[2].position_mm.z, 1.0);
+/// assert_eq!(points.points()[2].weight / points.points()[0].weight, 0.25);
+/// # Ok::<(), kinetostat_mirror::MirrorError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredPoints {
+    points: Vec<MeasuredPoint>,
+}
+
+impl MeasuredPoints {
+    /// Points in the order in which they were measured.
+    ///
+    /// ```
+    /// use kinetostat_mirror::MeasuredPoints;
+    /// use nalgebra::Vector3;
+    ///
+    /// let corners = [[0.0, 0.0], [50.0, 0.0], [50.0, 30.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
+    /// assert!(MeasuredPoints::at(&corners).is_ok());
+    /// let why = MeasuredPoints::at(&corners[..2]).unwrap_err().to_string();
+    /// assert!(why.starts_with("2 measured points"), "{why}");
+    /// ```
+    ///
+    /// # Errors
+    /// Fewer than three, positions that are no numbers or beyond 1 km.
+    pub fn at(positions_mm: &[Vector3<f64>]) -> Result<Self, MirrorError> {
+        let points = positions_mm.iter().zip(1..);
+        Self::new(
+            points
+                .map(|(position_mm, row)| MeasuredPoint {
+                    row,
+                    line: row,
+                    position_mm: *position_mm,
+                    weight: 1.0,
+                    program_line: None,
+                })
+                .collect(),
+        )
+    }
+
+    /// Points with weights and lines of the program.
+    ///
+    /// # Errors
+    /// As [`MeasuredPoints::at`]; weights that are not positive.
+    pub fn new(points: Vec<MeasuredPoint>) -> Result<Self, MirrorError> {
+        if points.len() < FEWEST {
+            return Err(MirrorError::new(format!(
+                "{} measured points; {FEWEST} at least are needed, and some on each length over which deviations are smoothed",
+                points.len()
+            )));
+        }
+        for point in &points {
+            possible(point)?;
+        }
+        Ok(Self { points })
+    }
+
+    /// The points.
+    #[must_use]
+    pub fn points(&self) -> &[MeasuredPoint] {
+        &self.points
+    }
+}
+
+/// A place in a workshop with a weight.
+fn possible(point: &MeasuredPoint) -> Result<(), MirrorError> {
+    let at = &point.position_mm;
+    if !at.iter().all(|x| x.abs() <= FARTHEST_MM) {
+        return Err(MirrorError::new(format!(
+            "row {}: the point ({}, {}, {}) mm is no place in a workshop: leave the row out, or correct the unit in the header",
+            point.row, at.x, at.y, at.z
+        )));
+    }
+    match point.weight > 0.0 && point.weight.is_finite() {
+        true => Ok(()),
+        false => Err(MirrorError::new(format!(
+            "row {}: the weight is {}; expected a number above 0, or a standard deviation above 0: leave out a row that is not to count",
+            point.row, point.weight
+        ))),
+    }
+}

@@ -1,0 +1,84 @@
+//! Motions from which the points are followed onto the path.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use crate::nominal::NominalPath;
+use crate::points::MeasuredPoint;
+use crate::registration::horn::{Pair, closest_motion};
+use crate::registration::motion::Motion;
+
+/// Places of the path for its principal axes.
+const PLACES: usize = 1000;
+
+/// Motions to start from, the most likely first.
+pub(crate) fn starts(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec<Motion> {
+    let mut all = vec![Motion::default()];
+    all.extend(in_order(nominal, points));
+    all.extend(by_principal_axes(nominal, points));
+    all
+}
+
+/// Points in the order of the path: at the same share of the way.
+fn in_order(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Option<Motion> {
+    let mut way = 0.0;
+    let mut ways = vec![0.0];
+    for pair in points.windows(2) {
+        way += (pair[1].position_mm - pair[0].position_mm).norm();
+        ways.push(way);
+    }
+    let whole = nominal.length_mm();
+    let pairs = points.iter().zip(&ways);
+    let pairs: Vec<Pair> = pairs
+        .map(|(point, at)| {
+            let place = nominal.point_at(whole * at / way);
+            (point.position_mm, place, point.weight)
+        })
+        .collect();
+    closest_motion(&pairs, false)
+}
+
+/// Principal axes onto those of the path, turned in the four ways that keep right-handed axes.
+fn by_principal_axes(nominal: &NominalPath<'_>, points: &[MeasuredPoint]) -> Vec<Motion> {
+    let length = nominal.length_mm();
+    let places = (0..PLACES).map(|i| nominal.point_at(length * (i as f64 + 0.5) / PLACES as f64));
+    let path: Vec<Vector3<f64>> = places.collect();
+    let measured: Vec<Vector3<f64>> = points.iter().map(|point| point.position_mm).collect();
+    let (Some(from), Some(to)) = (principal(&measured), principal(&path)) else {
+        return Vec::new();
+    };
+    let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+    let turned = signs.map(|[first, second]| {
+        let flip = Matrix3::from_diagonal(&Vector3::new(first, second, first * second));
+        let matrix = to.1 * flip * from.1.transpose();
+        let rotation =
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+        Motion {
+            rotation,
+            shift_mm: to.0 - rotation * from.0,
+            scale: 1.0,
+        }
+    });
+    turned.to_vec()
+}
+
+/// Middle and principal axes, right-handed, the longest first.
+fn principal(points: &[Vector3<f64>]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    let mut spread = Matrix3::zeros();
+    for point in points {
+        let out = point - middle;
+        spread += out * out.transpose();
+    }
+    if !spread.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let eigen = spread.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let axis = |i: usize| eigen.eigenvectors.column(order[i]).into_owned();
+    let (first, second) = (axis(0), axis(1));
+    Some((
+        middle,
+        Matrix3::from_columns(&[first, second, first.cross(&second)]),
+    ))
+}

@@ -1,0 +1,92 @@
+//! How fast the error falls, and for which relaxation it cannot rise.
+//!
+//! A machine that is sent to the path plus a correction `c` leaves the deviation `e(c) = e0 + (I + D) c` across the path: `D` is
+//! how far its answer to a correction departs from the correction itself. The trial after it has
+//! `c' = c - rho S e`, so that `e' = (I - rho (I + D) S) e` with the kernel's smoothing `S`.
+//!
+//! The Gaussian kernel is positive definite and no row of `S` sums to more than 1, so that in the metric `M = diag(w r)` (weight
+//! of a point times the weight that its mean rests on) `S` is symmetric with eigenvalues from 0 to 1, however the points are
+//! spaced. What is left across the path is a projection, which keeps both. In the norm `|e|_S^2 = <e, S e>_M`
+//! ([`passing_rms_mm`](crate::DeviationFigures::passing_rms_mm)) three things follow.
+//! This is proven for points at the same places of the path in every trial, at which the correction acts as smoothed. Here it is kept
+//! at stations a quarter of the smoothing length apart and runs on cubic curves between them, and the written program has its own
+//! tolerance: both are below what the tests tell apart (`tests/mirror/trials.rs`).
+//!
+//! - `D = d`, a number above -1: a component that the kernel lets through with the share `mu` is multiplied by `1 - rho mu (1 + d)`
+//!   in each trial; none grows while `0 < rho < 2 / (1 + d)`.
+//! - `D` symmetric in `M`, `|D| < 1`: `0 <= S^(1/2) (I + D) S^(1/2) <= (1 + |D|) I`, and the norm falls while
+//!   `0 < rho < 2 / (1 + |D|)`.
+//! - any `D` with `|D| < 1`: from `|(I - rho B) y|^2 = |y|^2 - 2 rho <y, B y> + rho^2 |B y|^2` with
+//!   `<y, B y> >= (1 - |D|) |S^(1/2) y|^2` and `|B y| <= (1 + |D|) |S^(1/2) y|` it never rises while
+//!   `0 < rho <= 2 (1 - |D|) / (1 + |D|)^2`.
+
+use serde::{Deserialize, Serialize};
+
+/// The share of the error that is left after a trial, of what the kernel lets through whole, where the machine answers to a
+/// correction with `1 + d` times it.
+///
+/// ```
+/// assert!((kinetostat_mirror::expected_factor(1.0, 0.3) - 0.3).abs() < 1e-15);
+/// assert_eq!(kinetostat_mirror::expected_factor(0.5, 0.0), 0.5);
+/// ```
+#[must_use]
+pub fn expected_factor(relaxation: f64, departure: f64) -> f64 {
+    (1.0 - relaxation * (1.0 + departure)).abs()
+}
+
+/// Below which relaxation the error never rises, for a departure of at most this size, symmetric; `None` where it is 1 or more.
+///
+/// ```
+/// use kinetostat_mirror::bound_on_relaxation;
+///
+/// assert_eq!(bound_on_relaxation(0.25), Some(1.6));
+/// assert_eq!(bound_on_relaxation(1.0), None);
+/// ```
+#[must_use]
+pub fn bound_on_relaxation(departure: f64) -> Option<f64> {
+    (departure.abs() < 1.0).then_some(2.0 / (1.0 + departure.abs()))
+}
+
+/// What two trials in a row say about the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Convergence {
+    /// Share of the smoothed error of the trial before that is left.
+    pub factor: f64,
+    /// The same as a projection of it, with its sign: negative where the correction was too large.
+    pub signed_factor: f64,
+    /// The departure that explains it, `(1 - factor) / relaxation - 1`.
+    pub departure: f64,
+    /// The relaxation must stay below this.
+    pub relaxation_below: Option<f64>,
+    /// The error has risen.
+    pub risen: bool,
+}
+
+impl Convergence {
+    /// From the smoothed deviations of two trials at the stations of a path, with the lengths that they stand for.
+    pub(crate) fn between(
+        before: &[nalgebra::Vector3<f64>],
+        after: &[nalgebra::Vector3<f64>],
+        lengths_mm: &[f64],
+        relaxation: f64,
+    ) -> Option<Self> {
+        let (mut square, mut product, mut left) = (0.0, 0.0, 0.0);
+        for ((a, b), length) in before.iter().zip(after).zip(lengths_mm) {
+            square += length * a.norm_squared();
+            product += length * a.dot(b);
+            left += length * b.norm_squared();
+        }
+        let found = square > 0.0 && left.is_finite() && relaxation > 0.0;
+        found.then(|| {
+            let signed_factor = product / square;
+            let departure = (1.0 - signed_factor) / relaxation - 1.0;
+            Self {
+                factor: (left / square).sqrt(),
+                signed_factor,
+                departure,
+                relaxation_below: bound_on_relaxation(departure),
+                risen: left > square,
+            }
+        })
+    }
+}

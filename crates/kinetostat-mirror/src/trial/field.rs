@@ -1,0 +1,182 @@
+//! The correction as a field for the writer of programs.
+
+use kinetostat_program::{
+    Correction, CorrectionField, Course, FieldFailure, Move, Request, Structure,
+};
+use nalgebra::Vector3;
+
+use crate::deviation::Stations;
+use crate::error::MirrorError;
+use crate::nominal::NominalPath;
+use crate::trial::state::MirrorState;
+
+/// Where a move stands among the pieces of the path.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    /// It is one of them.
+    Piece(usize),
+    /// It lies between two places of the path (pass, length along it in mm), from one share of the way to another.
+    Between([(usize, f64); 2], [f64; 2]),
+}
+
+/// The correction of a state along the path: at its stations as stated, between them on cubic curves without a kink; on moves
+/// between two passes evenly from one to the next.
+pub struct MirrorField<'a> {
+    nominal: &'a NominalPath<'a>,
+    stations: Stations,
+    correction_mm: &'a [Vector3<f64>],
+    slope: Vec<Vector3<f64>>,
+    places: Vec<Place>,
+}
+
+impl<'a> MirrorField<'a> {
+    /// The field of a state of this path.
+    ///
+    /// # Errors
+    /// The state is of another path.
+    pub fn new(nominal: &'a NominalPath<'a>, state: &'a MirrorState) -> Result<Self, MirrorError> {
+        state.fits(nominal, &state.program_sha256, &state.settings)?;
+        let stations = Stations::of(nominal, state.settings.smoothing_mm);
+        let correction_mm = &state.correction_mm;
+        let mut slope = vec![Vector3::zeros(); correction_mm.len()];
+        for pass in stations.passes() {
+            for k in pass.clone() {
+                let before = k.saturating_sub(1).max(pass.start);
+                let after = (k + 1).min(pass.end - 1);
+                let way = stations.along_mm()[after] - stations.along_mm()[before];
+                slope[k] = (correction_mm[after] - correction_mm[before]) / way;
+            }
+        }
+        let places = places(nominal);
+        Ok(Self {
+            nominal,
+            stations,
+            correction_mm,
+            slope,
+            places,
+        })
+    }
+
+    /// The correction at a length along a pass, mm.
+    fn at_length(&self, pass: usize, along_mm: f64) -> Vector3<f64> {
+        let own = self.stations.passes()[pass].clone();
+        let along = &self.stations.along_mm()[own.clone()];
+        let after = along
+            .partition_point(|at| *at <= along_mm)
+            .clamp(1, along.len() - 1);
+        let k = own.start + after - 1;
+        let way = along[after] - along[after - 1];
+        let u = ((along_mm - along[after - 1]) / way).clamp(0.0, 1.0);
+        let (rest, both) = (1.0 - u, u * (1.0 - u));
+        self.correction_mm[k] * (rest * rest * (1.0 + 2.0 * u))
+            + self.slope[k] * (way * both * rest)
+            + self.correction_mm[k + 1] * (u * u * (3.0 - 2.0 * u))
+            - self.slope[k + 1] * (way * both * u)
+    }
+
+    fn at(&self, move_index: usize, share: f64) -> Vector3<f64> {
+        match self.places[move_index] {
+            Place::Piece(index) => {
+                let piece = &self.nominal.pieces()[index];
+                self.at_length(piece.pass, piece.from_mm + share * piece.length_mm)
+            }
+            Place::Between(ends, [first, last]) => {
+                let [from, to] = ends.map(|(pass, along_mm)| self.at_length(pass, along_mm));
+                from + (to - from) * (first + (last - first) * share)
+            }
+        }
+    }
+}
+
+/// Places of all moves: those between two pieces have a share of the way between them.
+fn places(nominal: &NominalPath<'_>) -> Vec<Place> {
+    let (moves, pieces) = (&nominal.path().moves, nominal.pieces());
+    let mut places = Vec::with_capacity(moves.len());
+    let mut before: Option<(usize, f64)> = None;
+    for (index, piece) in pieces.iter().enumerate() {
+        let begins = (piece.pass, piece.from_mm);
+        let idle = &moves[places.len()..piece.move_index];
+        places.extend(between([before.unwrap_or(begins), begins], idle));
+        places.push(Place::Piece(index));
+        before = Some((piece.pass, piece.from_mm + piece.length_mm));
+    }
+    if let Some(end) = before {
+        places.extend(between([end; 2], &moves[places.len()..]));
+    }
+    places
+}
+
+fn between(ends: [(usize, f64); 2], idle: &[Move]) -> Vec<Place> {
+    let whole: f64 = idle.iter().map(Move::length_mm).sum();
+    let mut done = 0.0;
+    let shares = idle.iter().map(|motion| {
+        let from = done;
+        done += motion.length_mm();
+        [from, done].map(|way| if whole > 0.0 { way / whole } else { 1.0 })
+    });
+    shares.map(|shares| Place::Between(ends, shares)).collect()
+}
+
+impl CorrectionField for MirrorField<'_> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
+        let at = |request: &Request| self.at(request.move_index, request.share);
+        requests
+            .iter()
+            .map(|request| Ok(at(request).into()))
+            .collect()
+    }
+
+    fn structure(&self, move_index: usize, _motion: &Move) -> Structure {
+        let Place::Piece(index) = self.places[move_index] else {
+            return Structure {
+                breaks: Vec::new(),
+                course: Course::Cubic,
+            };
+        };
+        let piece = &self.nominal.pieces()[index];
+        let own = &self.stations.along_mm()[self.stations.passes()[piece.pass].clone()];
+        let shares = own.iter().map(|at| (at - piece.from_mm) / piece.length_mm);
+        Structure {
+            breaks: shares
+                .filter(|share| *share > 0.0 && *share < 1.0)
+                .collect(),
+            course: Course::Cubic,
+        }
+    }
+}
+
+/// Two fields, one on top of the other: a model's compensation, and what was measured besides.
+pub struct SumOfFields<'a> {
+    /// Corrects the orientation too, where it does.
+    pub model: &'a dyn CorrectionField,
+    /// Added to it.
+    pub mirror: &'a MirrorField<'a>,
+}
+
+impl CorrectionField for SumOfFields<'_> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Correction, FieldFailure>> {
+        let both = self.model.corrections(requests).into_iter();
+        both.zip(self.mirror.corrections(requests))
+            .map(|(model, mirror)| {
+                let (mut sum, mirror) = (model?, mirror?);
+                sum.shift_mm += mirror.shift_mm;
+                Ok(sum)
+            })
+            .collect()
+    }
+
+    fn turns(&self) -> bool {
+        self.model.turns()
+    }
+
+    fn turns_tool(&self) -> bool {
+        self.model.turns_tool()
+    }
+
+    fn structure(&self, move_index: usize, motion: &Move) -> Structure {
+        let mut structure = self.model.structure(move_index, motion);
+        let own = self.mirror.structure(move_index, motion);
+        structure.breaks.extend(own.breaks);
+        structure
+    }
+}

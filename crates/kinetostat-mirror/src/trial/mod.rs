@@ -1,0 +1,11 @@
+//! Trials one after the other: their corrections, what is to be expected of the next, and when to stop.
+
+mod convergence;
+mod field;
+mod repeatability;
+mod state;
+
+pub use convergence::{Convergence, bound_on_relaxation, expected_factor};
+pub use field::{MirrorField, SumOfFields};
+pub use repeatability::{Averaging, Repeatability, floor_mm};
+pub use state::{MeasuredFile, MirrorState, Outcome, Trial};

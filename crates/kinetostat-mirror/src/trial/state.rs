@@ -1,0 +1,251 @@
+//! The state of all trials, in one file.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::deviation::{DeviationFigures, MeasureSettings, Measurement, Stations};
+use crate::error::MirrorError;
+use crate::nominal::NominalPath;
+use crate::trial::convergence::Convergence;
+use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
+
+/// Of the form of the state.
+const SCHEMA: u32 = 1;
+
+/// A file of measured points.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeasuredFile {
+    /// Its name.
+    pub name: String,
+    /// SHA-256 of it.
+    pub sha256: String,
+}
+
+/// One trial: what was measured of the program with the correction before, and what became of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// From 1; trial 1 is the program without a correction by measurement.
+    pub number: usize,
+    /// The measurements.
+    pub measured: Vec<MeasuredFile>,
+    /// Share of the deviation that was mirrored.
+    pub relaxation: f64,
+    /// Sizes, of the first measurement where there are several.
+    pub figures: DeviationFigures,
+    /// Root mean square of the smoothed deviation, of the mean of all measurements, mm.
+    pub left_mm: f64,
+    /// What a smoothed deviation of nothing has, mm, where the repeatability is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor_mm: Option<f64>,
+    /// Against the trial before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub convergence: Option<Convergence>,
+}
+
+/// What follows from a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Go on with the correction.
+    GoOn,
+    /// What is left is within the repeatability: the correction is left as it is.
+    WithinRepeatability,
+    /// The error has risen: the correction is made with what was measured, and the relaxation should be smaller.
+    Risen,
+}
+
+/// All trials of a program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MirrorState {
+    /// Of this form.
+    pub schema: u32,
+    /// SHA-256 of the program as it is drawn.
+    pub program_sha256: String,
+    /// How points become deviations.
+    pub settings: MeasureSettings,
+    /// The trials so far.
+    #[serde(default)]
+    pub trials: Vec<Trial>,
+    /// Stations along the path, mm.
+    pub along_mm: Vec<f64>,
+    /// Correction at each of them, mm, axes of the program.
+    pub correction_mm: Vec<Vector3<f64>>,
+    /// Smoothed deviation of the last trial at each of them, mm.
+    pub deviation_mm: Vec<Vector3<f64>>,
+}
+
+impl MirrorState {
+    /// Of a program without trials.
+    #[must_use]
+    pub fn new(
+        nominal: &NominalPath<'_>,
+        program_sha256: impl Into<String>,
+        settings: MeasureSettings,
+    ) -> Self {
+        let stations = Stations::of(nominal, settings.smoothing_mm);
+        let along_mm = stations.along_mm().to_vec();
+        Self {
+            schema: SCHEMA,
+            program_sha256: program_sha256.into(),
+            settings,
+            trials: Vec::new(),
+            correction_mm: vec![Vector3::zeros(); along_mm.len()],
+            deviation_mm: vec![Vector3::zeros(); along_mm.len()],
+            along_mm,
+        }
+    }
+
+    /// Whether it belongs to this program and these settings.
+    ///
+    /// # Errors
+    /// Names the first field that differs, with both values.
+    pub fn fits(
+        &self,
+        nominal: &NominalPath<'_>,
+        program_sha256: &str,
+        settings: &MeasureSettings,
+    ) -> Result<(), MirrorError> {
+        let fresh = Self::new(nominal, program_sha256, *settings);
+        let (own, other) = (&self.settings, settings);
+        let fields = [
+            ("schema", self.schema.to_string(), fresh.schema.to_string()),
+            (
+                "program_sha256",
+                self.program_sha256.clone(),
+                fresh.program_sha256.clone(),
+            ),
+            (
+                "smoothing_mm",
+                own.smoothing_mm.to_string(),
+                other.smoothing_mm.to_string(),
+            ),
+            (
+                "window_mm",
+                own.window_mm.to_string(),
+                other.window_mm.to_string(),
+            ),
+            (
+                "align",
+                format!("{:?}", own.align),
+                format!("{:?}", other.align),
+            ),
+            (
+                "register",
+                own.register.to_string(),
+                other.register.to_string(),
+            ),
+            ("scale", own.scale.to_string(), other.scale.to_string()),
+        ];
+        if let Some((field, own, other)) = fields.iter().find(|(_, own, other)| own != other) {
+            return Err(MirrorError::new(format!(
+                "the state has {field} = {own}, this run {other}: go on with the same program and settings, or begin with a new state"
+            )));
+        }
+        let count = fresh.along_mm.len();
+        let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-6;
+        let lists = [
+            self.along_mm.len(),
+            self.correction_mm.len(),
+            self.deviation_mm.len(),
+        ];
+        let moved = self.along_mm.iter().zip(&fresh.along_mm).any(apart);
+        let all = self.correction_mm.iter().chain(&self.deviation_mm);
+        let lost = all.flat_map(Vector3::iter).any(|x| !x.is_finite());
+        match lists != [count; 3] || moved || lost {
+            true => Err(MirrorError::new(format!(
+                "the state's along_mm, correction_mm and deviation_mm do not fit the {count} stations of this path: the file was changed, or the program is read with other options; begin with a new state"
+            ))),
+            false => Ok(()),
+        }
+    }
+
+    /// Takes the measurements of one more trial, and mirrors the mean of their deviations unless it is within the repeatability.
+    ///
+    /// # Errors
+    /// A relaxation that is not above 0 and below 2; no measurement, one of another path, or one that an earlier trial has taken.
+    pub fn take(
+        &mut self,
+        nominal: &NominalPath<'_>,
+        measured: &[(MeasuredFile, Measurement)],
+        relaxation: f64,
+        repeatability: Option<Repeatability>,
+    ) -> Result<Outcome, MirrorError> {
+        if !(relaxation > 0.0 && relaxation < 2.0) {
+            return Err(MirrorError::new(format!(
+                "the relaxation is {relaxation}; expected a number above 0 and below 2 (1 mirrors the whole deviation; beyond 2 no machine converges)"
+            )));
+        }
+        let stations = self.along_mm.len();
+        let fits = |m: &(MeasuredFile, Measurement)| m.1.at_stations.len() == stations;
+        let (Some((_, first)), true) = (measured.first(), measured.iter().all(fits)) else {
+            return Err(MirrorError::new(
+                "a trial needs a measurement of its own path, smoothed over the same length",
+            ));
+        };
+        let taken = self.trials.iter().flat_map(|trial| &trial.measured);
+        for (file, _) in measured {
+            if let Some(before) = taken.clone().find(|before| before.sha256 == file.sha256) {
+                return Err(MirrorError::new(format!(
+                    "{} is the measurement {} of an earlier trial: measure the program with its new correction",
+                    file.name, before.name
+                )));
+            }
+        }
+        let deviation = mean_deviation(measured, stations);
+        let lengths = Stations::of(nominal, self.settings.smoothing_mm).lengths_mm();
+        let seen = |k: usize| {
+            measured
+                .iter()
+                .any(|m| m.1.at_stations[k].effective_points > 0.0)
+        };
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (k, length) in lengths.iter().enumerate().filter(|(k, _)| seen(*k)) {
+            sum += length * deviation[k].norm_squared();
+            total += length;
+        }
+        let left_mm = (sum / total).sqrt();
+        let averaging = Averaging {
+            effective_points: first.figures.effective_points,
+            measurements: measured.len(),
+            smoothing_mm: self.settings.smoothing_mm,
+            length_mm: total,
+            relaxation_before: self.trials.last().map_or(0.0, |last| last.relaxation),
+        };
+        let floor = repeatability.map(|known| floor_mm(known, &averaging));
+        let convergence = self.trials.last().and_then(|last| {
+            Convergence::between(&self.deviation_mm, &deviation, &lengths, last.relaxation)
+        });
+        let outcome = match (floor, convergence) {
+            (Some([_, within]), _) if left_mm <= within => Outcome::WithinRepeatability,
+            (_, Some(Convergence { risen: true, .. })) => Outcome::Risen,
+            _ => Outcome::GoOn,
+        };
+        if outcome != Outcome::WithinRepeatability {
+            for (correction, deviation) in self.correction_mm.iter_mut().zip(&deviation) {
+                *correction -= deviation * relaxation;
+            }
+        }
+        self.trials.push(Trial {
+            number: self.trials.len() + 1,
+            measured: measured.iter().map(|(file, _)| file.clone()).collect(),
+            relaxation,
+            figures: first.figures,
+            left_mm,
+            floor_mm: floor.map(|[floor, _]| floor),
+            convergence,
+        });
+        self.deviation_mm = deviation;
+        Ok(outcome)
+    }
+}
+
+/// The mean of the smoothed deviations at each station, of the measurements that see it.
+fn mean_deviation(measured: &[(MeasuredFile, Measurement)], stations: usize) -> Vec<Vector3<f64>> {
+    let mean = |k: usize| {
+        let all = measured.iter().map(|(_, m)| &m.at_stations[k]);
+        let seen: Vec<_> = all.filter(|s| s.effective_points > 0.0).collect();
+        let sum: Vector3<f64> = seen.iter().map(|s| s.deviation_mm).sum();
+        sum / seen.len().max(1) as f64
+    };
+    (0..stations).map(mean).collect()
+}

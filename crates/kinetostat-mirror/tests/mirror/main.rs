@@ -1,0 +1,10 @@
+//! Measured points against machines whose errors are known in closed form.
+
+mod aligning;
+mod degenerate;
+mod files;
+mod machine;
+mod outliers;
+mod registration;
+mod trials;
+mod writing;
