@@ -18,6 +18,9 @@ fn of_form(language: Language) -> &'static [&'static str] {
             "%%%",
             "VERSION",
             "LANGUAGE",
+            // How the tool turns is followed.
+            "CIRPATHMODE",
+            "SINGAREA",
         ],
         Language::Krl => &[
             "&",

@@ -55,8 +55,10 @@ pub fn events_of_robot(program: &RobotProgram) -> Vec<SourceEvent> {
             continue;
         }
         if orders_only(program.language, text) {
-            // What it puts in force is followed; what a person wrote behind it is kept.
-            let comment = comment_behind(program.language, text);
+            // What it puts in force is followed; further statements on its line, and what a person wrote there, are kept.
+            let further = of_line(program.language, line, text);
+            let comment = comment_behind(program.language, text).filter(|_| further.is_empty());
+            events.extend(further);
             events.extend(
                 comment.map(|text| SourceEvent::words_alone(line, EventKind::Comment, text)),
             );

@@ -3,6 +3,9 @@
 use kinetostat_program::WriteError as PathWriteError;
 use thiserror::Error;
 
+use crate::model::motion::Motion;
+use crate::model::program::RobotProgram;
+
 /// Why no path can be made of a program that was read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{file}, line {line}: {reason}; {remedy}")]
@@ -16,6 +19,21 @@ pub struct PathError {
     pub reason: String,
     /// What the user can do about it.
     pub remedy: String,
+}
+
+/// A fault of a motion.
+pub(crate) fn fault_at(
+    program: &RobotProgram,
+    motion: &Motion,
+    reason: String,
+    remedy: &str,
+) -> PathError {
+    PathError {
+        file: program.files[motion.file].name().to_owned(),
+        line: motion.line,
+        reason,
+        remedy: remedy.to_owned(),
+    }
 }
 
 /// A promise that a written program breaks.

@@ -10,8 +10,7 @@ use crate::model::program::{Language, RobotProgram};
 use crate::model::target::Target;
 use crate::path::axis_angles::{AxesOfMotion, axes_of_motions};
 use crate::path::axis_turns::axis_turns;
-use crate::path::fault::PathError;
-use crate::path::motion_faults::fault_at;
+use crate::path::fault::{PathError, fault_at};
 use crate::path::options::PathOptions;
 
 /// The motions of a program, and what their moves need beside them.

@@ -4,24 +4,9 @@ use crate::model::frame::FrameUse;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::path::far_places::too_far;
-use crate::path::fault::PathError;
+use crate::path::fault::{PathError, fault_at};
 use crate::path::tools::{same_frame, tools_of};
 use crate::path::turning_faults::turning_otherwise;
-
-/// A fault of a motion.
-pub(crate) fn fault_at(
-    program: &RobotProgram,
-    motion: &Motion,
-    reason: String,
-    remedy: &str,
-) -> PathError {
-    PathError {
-        file: program.files[motion.file].name().to_owned(),
-        line: motion.line,
-        reason,
-        remedy: remedy.to_owned(),
-    }
-}
 
 /// The motions to poses.
 pub(crate) fn motions_to_poses(program: &RobotProgram) -> Vec<&Motion> {

@@ -9,10 +9,10 @@ use crate::model::motion::{Motion, Runs};
 use crate::model::program::{Language, RobotProgram};
 use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::first_leaning;
-use crate::path::fault::PathError;
+use crate::path::fault::{PathError, fault_at};
 use crate::path::maker::Maker;
 use crate::path::motion_faults::{
-    fault_at, faults_of_motions, faults_of_written, has_one_work_object, motions_to_poses,
+    faults_of_motions, faults_of_written, has_one_work_object, motions_to_poses,
 };
 use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};

@@ -2,8 +2,7 @@
 
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
-use crate::path::fault::PathError;
-use crate::path::motion_faults::fault_at;
+use crate::path::fault::{PathError, fault_at};
 
 /// Turns below this are none, rad.
 const TURN_RAD: f64 = 1e-5;

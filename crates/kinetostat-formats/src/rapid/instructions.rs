@@ -106,7 +106,8 @@ impl Walker<'_, '_> {
             Some(_) => {
                 let name = String::from_utf8_lossy(file.word(tokens.start));
                 let written = String::from_utf8_lossy(file.source.part(&span));
-                self.now.modes = self.now.modes.behind(&name, &written);
+                let moment = self.next_moment();
+                self.now.modes = self.now.modes.after(&name, &written, moment);
                 self.has_ended |= name.eq_ignore_ascii_case("ExitCycle");
                 let effects = EFFECTS
                     .iter()

@@ -12,21 +12,26 @@ use crate::text::name::Name;
 impl Walker<'_, '_> {
     /// A jump begins here.
     pub(super) fn jump_to(&mut self, label: Name, at: Place) {
-        self.jumps.push(Jump { label, at });
+        let modes = self.now.modes;
+        self.jumps.push(Jump { label, at, modes });
     }
 
     /// Where the tool is at a label: after what stands before it, where that runs, and after all jumps that lead here.
     pub(super) fn arrive(&mut self, at: usize, before: Option<Place>) -> Option<Place> {
         let label = Name::of(self.file().word(at));
-        let mut place = before;
+        let mut met = before.map(|place| (place, self.now.modes));
         self.jumps.retain(|jump| {
             let leads_here = Some(jump.label) == label;
             if leads_here {
-                place = Some(place.map_or(jump.at, |place| merge(place, jump.at)));
+                met = Some(met.map_or((jump.at, jump.modes), |(place, modes)| {
+                    (merge(place, jump.at), modes.met(jump.modes))
+                }));
             }
             !leads_here
         });
-        place
+        let (place, modes) = met?;
+        self.now.modes = modes;
+        Some(place)
     }
 
     /// How often a statement runs in a block that runs so often: behind a RETURN in a branch, an EXIT anywhere, or a jump that has not come

@@ -4,13 +4,16 @@ use std::collections::BTreeSet;
 
 use crate::rapid::calls::Place;
 use crate::rapid::tree::{Statement, TokenFile};
+use crate::rapid::turning::Modes;
 use crate::text::name::Name;
 
 /// A jump that has not come to its label yet.
-pub(crate) struct Jump {
+pub(super) struct Jump {
     pub label: Name,
     /// Where the tool is as it jumps.
     pub at: Place,
+    /// What is in force there.
+    pub modes: Modes,
 }
 
 /// The label of a statement, where it is one.

@@ -16,7 +16,7 @@ use crate::rapid::labels::destination;
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement};
-use crate::rapid::turning::Modes;
+use crate::rapid::turning::{Modes, Moment};
 use crate::rapid::walker::{Now, Walker, stays};
 use crate::text::name::Name;
 
@@ -68,9 +68,10 @@ pub(crate) fn walk(
             depth: 0,
             modes: Modes::BASIC,
         },
-        modes_at_entry: vec![Modes::BASIC; count],
+        modes_at_entry: vec![(Modes::BASIC, 0); count],
         modes_behind: vec![Modes::NOTHING; count],
         modes: Vec::new(),
+        moment: 0,
     };
     for routine in main.into_iter().chain(0..count) {
         if !walker.summaries[routine].begun {
@@ -97,14 +98,15 @@ impl Walker<'_, '_> {
         );
         let outer_jumps = std::mem::take(&mut self.jumps);
         self.summaries[index].begun = true;
-        self.modes_at_entry[index] = self.now.modes;
+        self.modes_at_entry[index] = (self.now.modes, self.next_moment());
         let before = self.motions.len();
         if home.routine.jumps {
             self.now.runs = Runs::Repeatedly;
         }
         let mut place = self.block(&home.routine.body, Place::Entry);
-        if let Some(left) = self.now.left {
+        if let Some((left, modes)) = self.now.left {
             place = merge(place, left);
+            self.now.modes = self.now.modes.met(modes);
         }
         let in_body = self.motions.len();
         self.jumps.clear();
@@ -178,7 +180,10 @@ impl Walker<'_, '_> {
                     return place;
                 }
                 self.has_ended |= self.file().word(tokens.start).eq_ignore_ascii_case(b"EXIT");
-                let left = self.now.left.map_or(place, |left| merge(left, place));
+                let modes = self.now.modes;
+                let left = self.now.left.map_or((place, modes), |(left, before)| {
+                    (merge(left, place), before.met(modes))
+                });
                 self.now.left = Some(left);
                 place
             }
@@ -194,7 +199,7 @@ impl Walker<'_, '_> {
                 let mut after = (*choice != Choice::OneOfAll).then_some(place);
                 // A block that is left out is a way, too.
                 let modes = self.now.modes;
-                let mut met = modes;
+                let mut met = (*choice != Choice::OneOfAll).then_some(modes);
                 for block in blocks {
                     self.now.modes = modes;
                     let end = match (choice, block.as_slice()) {
@@ -203,10 +208,11 @@ impl Walker<'_, '_> {
                         }
                         _ => self.block(block, place),
                     };
-                    met = met.met(self.now.modes);
+                    let here = self.now.modes;
+                    met = Some(met.map_or(here, |met| met.met(here)));
                     after = Some(after.map_or(end, |after| merge(after, end)));
                 }
-                self.now.modes = met;
+                self.now.modes = met.unwrap_or(modes);
                 self.now.runs = runs;
                 self.now.depth -= 1;
                 after.unwrap_or(place)
@@ -221,10 +227,11 @@ impl Walker<'_, '_> {
                 };
                 self.now.depth += 1;
                 let (modes, first) = (self.now.modes, self.motions.len());
+                let begun = self.next_moment();
                 let end = self.block(block, inside);
                 // What holds at its end holds at its next pass, too.
                 let met = modes.met(self.now.modes);
-                self.meet_modes(first, met);
+                self.meet_modes(first, begun, met);
                 self.now.modes = met;
                 self.now.depth -= 1;
                 self.now.runs = runs;
@@ -274,9 +281,10 @@ impl Walker<'_, '_> {
             self.routine(called, now.depth + 1);
         } else {
             // It was walked with what held at its first call, and may change what holds.
-            let met = self.modes_at_entry[called].met(now.modes);
-            self.meet_modes(0, met);
-            self.now.modes = met.met(self.modes_behind[called]);
+            let (modes, begun) = self.modes_at_entry[called];
+            let met = modes.met(now.modes);
+            self.meet_modes(0, begun, met);
+            self.now.modes = self.modes_behind[called].met_before(begun, met);
         }
         let summary = &mut self.summaries[called];
         match summary.leaves {
@@ -289,10 +297,10 @@ impl Walker<'_, '_> {
         }
     }
 
-    /// Of motions from one on, only this is sure beside what was.
-    fn meet_modes(&mut self, first: usize, modes: Modes) {
+    /// Of motions from one on, only this is sure beside what was in force at a moment; what is stated after it is sure.
+    fn meet_modes(&mut self, first: usize, moment: Moment, modes: Modes) {
         for own in &mut self.modes[first..] {
-            *own = own.met(modes);
+            *own = own.met_before(moment, modes);
         }
     }
 

@@ -11,7 +11,7 @@ use crate::rapid::labels::Jump;
 use crate::rapid::table::row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Statement, TokenFile};
-use crate::rapid::turning::{MODES, Modes};
+use crate::rapid::turning::{MODES, Modes, Moment};
 use crate::table::Treatment;
 use crate::text::name::Name;
 
@@ -21,8 +21,8 @@ pub(super) struct Now {
     pub routine: usize,
     /// Of the statement in its routine.
     pub runs: Runs,
-    /// Where a RETURN left it.
-    pub left: Option<Place>,
+    /// Where a RETURN left it, and what was in force there.
+    pub left: Option<(Place, Modes)>,
     pub depth: usize,
     /// How the tool turns.
     pub modes: Modes,
@@ -52,12 +52,14 @@ pub(super) struct Walker<'w, 'p> {
     pub finished: Vec<usize>,
     /// Of the routine that is walked: jumps that have not come to their labels.
     pub jumps: Vec<Jump>,
-    /// By routine, what is in force as it begins, at the calls seen before it was walked.
-    pub modes_at_entry: Vec<Modes>,
+    /// By routine, what is in force as it begins, at the calls seen before it was walked, and when it was walked.
+    pub modes_at_entry: Vec<(Modes, Moment)>,
     /// By routine, what is in force behind it.
     pub modes_behind: Vec<Modes>,
     /// Of each motion that runs once, or at every pass of a loop: what is in force.
     pub modes: Vec<Modes>,
+    /// The last one.
+    pub moment: Moment,
     pub now: Now,
 }
 
@@ -85,6 +87,12 @@ pub(super) fn stays(values: &Values<'_>, routine: usize, block: &[Statement]) ->
 }
 
 impl<'p> Walker<'_, 'p> {
+    /// A moment after all that were.
+    pub(super) fn next_moment(&mut self) -> Moment {
+        self.moment += 1;
+        self.moment
+    }
+
     /// The file of the routine that is walked.
     pub(super) fn file(&self) -> &'p TokenFile<'p> {
         let files: &'p [TokenFile<'p>] = self.values.files;

@@ -89,7 +89,12 @@ impl Writer<'_> {
         if let Some((at, text)) = restored {
             self.edits[motion.file].replace(at..at, text);
         }
-        if before.is_empty() && !becomes_straight {
+        let stays_circle = is_circle && !becomes_straight;
+        let mode = match stays_circle && pieces.iter().any(|p| p.orientation.is_some_and(turns)) {
+            true => self.syntax.turns_evenly(motion),
+            false => None,
+        };
+        if before.is_empty() && !becomes_straight && mode.is_none() {
             self.state_speed(motion, own_speed);
             return Ok(());
         }
@@ -109,7 +114,10 @@ impl Writer<'_> {
             let edits = &mut self.edits[motion.file];
             self.syntax.straighten(self.program, motion, edits);
         }
-        let mut inserted = Vec::new();
+        let mut inserted = match mode {
+            Some(statement) => self.on_own_line(motion, statement.into()),
+            None => Vec::new(),
+        };
         for (piece, axes) in before {
             let speed = speed_of(motion, piece, stated)?.map(|(_, text)| text);
             inserted.extend(self.inserted(motion, (piece, axes), speed.as_deref())?);
@@ -152,10 +160,14 @@ impl Writer<'_> {
         let statement = self
             .syntax
             .piece(program, motion, &literals, speed, options);
-        let mut statement = statement.ok_or(NO_END)?;
-        let file = &program.files[motion.file];
+        Ok(self.on_own_line(motion, statement.ok_or(NO_END)?))
+    }
+
+    /// A statement before a motion, with what parts the two.
+    fn on_own_line(&self, motion: &Motion, mut statement: Vec<u8>) -> Vec<u8> {
+        let file = &self.program.files[motion.file];
         statement.extend_from_slice(file.line_ending());
         statement.extend_from_slice(file.indentation(motion.span.start));
-        Ok(statement)
+        statement
     }
 }

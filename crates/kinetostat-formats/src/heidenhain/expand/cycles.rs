@@ -1,9 +1,9 @@
 //! Cycles: what they define, and the holes that their calls drill.
 
-use crate::heidenhain::expand::expression::Parameters;
 use crate::heidenhain::expand::hole::{Hole, Retract, Stroke};
 use crate::heidenhain::expand::numbers::{length, trimmed};
 use crate::heidenhain::expand::run::{Fault, Run};
+use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::expand::values::begins_value;
 use crate::heidenhain::words::{Value, Word, words_of};
 use crate::options::UnknownTargets;

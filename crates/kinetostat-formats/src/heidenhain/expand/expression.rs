@@ -1,15 +1,10 @@
 //! Expressions of Q parameters: `+Q1 DIV +3`, `(Q2 + 5) * SIN Q3`. Angles are in degrees.
 
-use crate::heidenhain::expand::values::no_value;
+use crate::heidenhain::expand::values::{Parameters, no_value};
 use crate::heidenhain::words::parameter_at;
 
 /// Deepest nesting of brackets and functions.
 const DEEPEST: usize = 64;
-
-/// Values of parameters by their names in capitals; none where there is none.
-pub(crate) trait Parameters {
-    fn value(&self, name: &str) -> Option<f64>;
-}
 
 /// Why an expression has no value.
 pub(crate) type Fault = String;

@@ -1,8 +1,9 @@
 //! Q parameters: what gives them values, and blocks with values in their place.
 
-use crate::heidenhain::expand::expression::{Parameters, value_of};
+use crate::heidenhain::expand::expression::value_of;
 use crate::heidenhain::expand::numbers::{length, trimmed};
 use crate::heidenhain::expand::run::{Fault, Run};
+use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::expand::values::{begins_value, no_value};
 use crate::heidenhain::words::{Value, Word};
 use crate::text::edits::Edits;

@@ -1,7 +1,7 @@
 //! Blocks that go somewhere or take a tool: their values, their calls of a cycle, the feed behind a hole.
 
-use crate::heidenhain::expand::expression::Parameters;
 use crate::heidenhain::expand::run::{Fault, Frame, Next, Run};
+use crate::heidenhain::expand::values::Parameters;
 use crate::heidenhain::flow::label_name;
 use crate::heidenhain::path_words::{FeedWord, PathWords};
 use crate::heidenhain::words::{Value, Word, words_of};

@@ -2,8 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::heidenhain::expand::expression::Parameters;
 use crate::heidenhain::words::Word;
+
+/// Values of parameters by their names in capitals; none where there is none.
+pub(crate) trait Parameters {
+    fn value(&self, name: &str) -> Option<f64>;
+}
 
 /// Values of parameters; none where the machine alone knows it.
 ///

@@ -9,6 +9,7 @@ mod control;
 mod corners;
 mod drilling;
 mod expand;
+mod frames;
 mod holes;
 mod modes;
 mod names;

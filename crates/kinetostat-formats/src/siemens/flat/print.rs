@@ -2,10 +2,10 @@
 
 use crate::siemens::block::{Block, Item, What};
 use crate::siemens::expression::Expression;
+use crate::siemens::flat::frames::is_frame;
 use crate::siemens::flat::holes::drilling_of;
 use crate::siemens::flat::numbers::number;
 use crate::siemens::flat::runner::{Fault, Runner};
-use crate::siemens::flat::saved::is_frame;
 use crate::siemens::flat::structure::Line;
 use crate::siemens::values::Value;
 use crate::text::edits::Edits;
@@ -116,7 +116,7 @@ impl Runner<'_> {
         let text = overlap(edits.applied_to_part(file.bytes(), &block.line))?;
         self.write_line(&text);
         if let Some((name, text)) = words {
-            self.keep_frame(&name, &text);
+            self.frames.state(&name, &text, self.modes);
         }
         Ok(())
     }

@@ -102,3 +102,68 @@ fn with_the_joints_of_the_wrist_no_motion_turns_evenly() {
         "",
     );
 }
+
+#[test]
+fn what_is_stated_within_a_loop_or_a_routine_is_sure_there() {
+    let set = "CirPathMode\\ObjectFrame;";
+    carried(
+        &format!("FOR i FROM 1 TO 2 DO\n{START}\n{set}\n{TURNED}\nENDFOR"),
+        "",
+    );
+    carried("other;\nother;", &format!("{START}\n{set}\n{TURNED}"));
+    let one_way =
+        format!("FOR i FROM 1 TO 2 DO\nIF reg1=i THEN\n{set}\nENDIF\n{START}\n{TURNED}\nENDFOR");
+    refused(&one_way, "", 8, "turns with the path");
+}
+
+#[test]
+fn a_jump_and_a_return_bring_what_was_in_force_there() {
+    let set = "CirPathMode\\ObjectFrame;";
+    let left_out = format!("IF reg1=1 GOTO on;\n{set}\non:\n{START}\n{TURNED}");
+    refused(&left_out, "", 7, "turns with the path");
+    let both = format!("{set}\nIF reg1=1 GOTO on;\n{set}\non:\n{START}\n{TURNED}");
+    carried(&both, "");
+    let main = format!("other;\n{START}\n{TURNED}");
+    refused(
+        &main,
+        &format!("IF reg1=1 RETURN;\n{set}"),
+        5,
+        "turns with the path",
+    );
+}
+
+/// A correction turns the tool by little on each circle, and the frame of the path would turn it otherwise.
+#[test]
+fn circles_that_a_correction_turns_state_the_object_frame_and_are_read_again() {
+    let text = format!("MODULE M\nPROC main()\n  {START}\n  {EVEN}\nENDPROC\nENDMODULE\n");
+    let read = |text: &str| {
+        read_rapid(
+            vec![SourceFile::new("m.mod", text)],
+            &ReadOptions::default(),
+        )
+        .unwrap()
+    };
+    let program = read(&text);
+    let own = program.motions[1].target.pose().unwrap().orientation;
+    let turned = own * nalgebra::UnitQuaternion::from_euler_angles(1e-3, 0.0, 0.0);
+    let mut piece = Piece::to(1, nalgebra::Vector3::new(10.0, 0.0, 0.1));
+    piece.via_mm = Some(nalgebra::Vector3::new(5.0, 5.0, 0.1));
+    let written = |piece: &Piece| {
+        let files = write(
+            &program,
+            std::slice::from_ref(piece),
+            &WriteOptions::default(),
+        );
+        String::from_utf8(files.unwrap().remove(0).1).unwrap()
+    };
+    let placed = written(&piece);
+    assert!(!placed.contains("CirPathMode"), "{placed}");
+    piece.orientation = Some(turned);
+    let output = written(&piece);
+    let line = "  CirPathMode\\ObjectFrame;\n  MoveC [[5,5,0.1";
+    assert!(output.contains(line), "{output}");
+    let again = read(&output);
+    assert!(path_of(&again, &PathOptions::default()).is_ok());
+    let pose = again.motions[1].target.pose().unwrap();
+    assert!(pose.orientation.angle_to(&turned) < 1e-6);
+}
