@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::siemens::steps_behind_frames::Counted;
 use crate::standing::Standing;
 
 /// How the tool goes to the next place.
@@ -127,8 +128,8 @@ pub(crate) struct State {
     pub direction: Option<Vector3<f64>>,
     /// Where the tool is, in the frame's axes, mm.
     pub place: [Option<f64>; 3],
-    /// Axes along which the frame was shifted since a word stated where they are.
-    pub shifted: [bool; 3],
+    /// Numbers of the axes' last words, from which steps count.
+    pub counted: [Option<Counted>; 3],
     /// The last motion.
     pub last: Option<usize>,
     pub others: BTreeMap<Vec<u8>, OtherAxis>,
@@ -167,7 +168,7 @@ impl State {
             standing,
             direction: None,
             place: [None; 3],
-            shifted: [false; 3],
+            counted: [None; 3],
             last: None,
             others: BTreeMap::new(),
             ended: false,
