@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::siemens::steps_behind_frames::Counted;
 use crate::standing::Standing;
 
 /// How the tool goes to the next place.
@@ -87,6 +86,13 @@ pub(crate) struct OtherAxis {
     pub at: Option<f64>,
     /// A place of the machine was stated behind that.
     pub elsewhere: bool,
+}
+
+/// The number of an axis where its last word was, and how the frame of it was turned.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Counted {
+    pub number_mm: f64,
+    pub turn: UnitQuaternion<f64>,
 }
 
 /// What is in force.

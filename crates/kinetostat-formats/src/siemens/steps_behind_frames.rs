@@ -5,9 +5,8 @@
 //! Controls come with 1 (Siemens, list manual, setting data; CEAD's open interpreter of SINUMERIK programs takes it so, too), and so it is
 //! taken here: a step adds to the number of its axis. Of frames that are turned the manuals say nothing, and neither is said here.
 
-use nalgebra::UnitQuaternion;
-
 use crate::model::program::Finding;
+use crate::siemens::state::Counted;
 use crate::siemens::walker::Reader;
 use crate::siemens::words::Words;
 use crate::text::line_words::in_words;
@@ -20,13 +19,6 @@ const NO_TURN: f64 = 1e-9;
 /// Why the end of a step is not known.
 const TURNED: &str = "a step (G91, IC) is the first word of its axis behind a frame that is turned otherwise (ROT, AROT), and from where the machine counts it is not documented";
 const ON_ARC: &str = "a step (G91, IC) of an arc is the first word of its axis behind a frame (TRANS, ATRANS), and whether the machine goes the offset of the frame with it is a setting (SD42440 $SC_FRAME_OFFSET_INCR_PROG)";
-
-/// The number of an axis where its last word was, and how the frame of it was turned.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Counted {
-    number_mm: f64,
-    turn: UnitQuaternion<f64>,
-}
 
 impl Reader<'_> {
     /// From which numbers the steps of a motion count: those of the axes' last words.
