@@ -196,6 +196,7 @@ fn speed(
         span,
         before: "[".to_owned(),
         after: format!(",{turning},{linear},{rotating}]"),
+        unit_mm_per_s: 1.0,
     });
     match arguments.option("T") {
         Some(_) => (

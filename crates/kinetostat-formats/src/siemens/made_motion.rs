@@ -264,6 +264,7 @@ fn site_of(
             span: feed_word(),
             before: "F".to_owned(),
             after: String::new(),
+            unit_mm_per_s: 1.0,
         }),
         zone: None,
         external: Vec::new(),
