@@ -4,7 +4,7 @@ use crate::ls::ends::MotionPlace;
 use crate::ls::found::Reader;
 use crate::ls::motion::{MotionText, Way};
 use crate::model::motion::{Motion, MotionKind, Runs};
-use crate::model::site::MotionSite;
+use crate::model::site::{MotionSite, TurnsOtherwise};
 
 impl Reader<'_> {
     pub(super) fn motion_of(
@@ -65,7 +65,11 @@ impl Reader<'_> {
                 external: end.external,
                 external_moved_behind: false,
                 indivisible: text.indivisible,
-                turns_otherwise: text.turns_otherwise,
+                turns_otherwise: text.turns_otherwise.map(|(reason, remedy)| TurnsOtherwise {
+                    reason,
+                    remedy,
+                    evenly: None,
+                }),
             },
         })
     }

@@ -158,6 +158,17 @@ pub(crate) struct MotionSite {
     pub external_moved_behind: bool,
     /// Why it cannot become several statements.
     pub indivisible: Option<&'static str>,
-    /// Why the tool does not turn evenly from its start to its end, and what to do: it is refused where it turns.
-    pub turns_otherwise: Option<(&'static str, &'static str)>,
+    /// Why the tool does not turn evenly from its start to its end: it is refused where it turns.
+    pub turns_otherwise: Option<TurnsOtherwise>,
+}
+
+/// Why a tool does not turn evenly from the start of a motion to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TurnsOtherwise {
+    /// Why.
+    pub reason: &'static str,
+    /// What to do.
+    pub remedy: &'static str,
+    /// The statement before the motion with which it does, where it may be written.
+    pub evenly: Option<&'static str>,
 }
