@@ -63,6 +63,7 @@ impl Reader<'_> {
                 speed: text.speed_site.clone(),
                 zone: text.zone_span.clone(),
                 external: end.external,
+                other_speeds: None,
                 external_moved_behind: false,
                 indivisible: text.indivisible,
                 turns_otherwise: text.turns_otherwise.map(|(reason, remedy)| TurnsOtherwise {

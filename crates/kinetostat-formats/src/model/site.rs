@@ -150,6 +150,8 @@ pub(crate) struct MotionSite {
     pub via: Option<(Range<usize>, TargetSite)>,
     /// None where another speed cannot be written.
     pub speed: Option<SpeedSite>,
+    /// Speeds of turning, deg/s, and of external axes, mm/s and deg/s, as in `500,5000,1000` (RAPID); none where they are not known.
+    pub other_speeds: Option<String>,
     /// Where the zone stands.
     pub zone: Option<Range<usize>>,
     /// External axes at the end as the text states them, of poses and of joint values.
