@@ -236,6 +236,7 @@ impl Reader<'_, '_> {
                 speed: None,
                 zone: None,
                 external: Vec::new(),
+                other_speeds: None,
                 external_moved_behind: false,
                 indivisible: None,
                 turns_otherwise: None,

@@ -119,6 +119,7 @@ pub(crate) fn follow(
             speed: None,
             zone: rest.zone,
             external: end.external,
+            other_speeds: None,
             external_moved_behind: false,
             indivisible: joint.then_some("this motion cannot be divided"),
             turns_otherwise: None,

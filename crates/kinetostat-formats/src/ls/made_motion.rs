@@ -4,7 +4,7 @@ use crate::ls::ends::MotionPlace;
 use crate::ls::found::Reader;
 use crate::ls::motion::{MotionText, Way};
 use crate::model::motion::{Motion, MotionKind, Runs};
-use crate::model::site::MotionSite;
+use crate::model::site::{MotionSite, TurnsOtherwise};
 
 impl Reader<'_> {
     pub(super) fn motion_of(
@@ -63,9 +63,14 @@ impl Reader<'_> {
                 speed: text.speed_site.clone(),
                 zone: text.zone_span.clone(),
                 external: end.external,
+                other_speeds: None,
                 external_moved_behind: false,
                 indivisible: text.indivisible,
-                turns_otherwise: text.turns_otherwise,
+                turns_otherwise: text.turns_otherwise.map(|(reason, remedy)| TurnsOtherwise {
+                    reason,
+                    remedy,
+                    evenly: None,
+                }),
             },
         })
     }

@@ -7,13 +7,24 @@ use crate::siemens::values::{Variables, whole};
 use crate::text::source::SourceFile;
 
 /// A line in the order of the run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Running {
     pub line: usize,
     /// It runs once, on no condition.
     pub is_certain: bool,
-    /// What it calls stands behind it.
-    pub is_followed: bool,
+    /// What of it runs here.
+    pub part: Part,
+}
+
+/// What of a line runs at a place of the run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The rest of it: what stands on it behind the calls that are followed.
+    Rest,
+    /// A call and no more; what it calls stands behind it.
+    Call,
+    /// What stands before the call of a routine (its name in capitals), which stands behind it.
+    Before(String),
 }
 
 /// Of a Heidenhain program, with the labels that it calls.
@@ -35,7 +46,10 @@ pub(crate) fn running_blocks(source: &SourceFile) -> Vec<Running> {
         (source.line_of(lines.start)..=last).map(move |line| Running {
             line,
             is_certain: true,
-            is_followed,
+            part: match is_followed {
+                true => Part::Call,
+                false => Part::Rest,
+            },
         })
     };
     (0..first).chain(ordered).flat_map(lines).collect()
@@ -47,7 +61,7 @@ pub(crate) fn until_end(source: &SourceFile) -> Vec<Running> {
     let certain = |line: usize| Running {
         line,
         is_certain: true,
-        is_followed: false,
+        part: Part::Rest,
     };
     (1..=last).map(certain).collect()
 }

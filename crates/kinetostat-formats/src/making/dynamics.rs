@@ -77,9 +77,13 @@ pub(crate) fn dynamics(program: &RobotProgram, file: usize) -> Option<MakeFindin
 
 /// Speeds of turning and of external axes in the data of a RAPID speed, where they are not those of the speeds with names.
 fn own_speeds(motion: &Motion) -> Option<&str> {
-    let site = motion.site.speed.as_ref()?;
-    let others = site.after.strip_prefix(',')?.strip_suffix(']')?;
+    let others = motion.site.other_speeds.as_deref()?;
     (others != OTHER_SPEEDS).then_some(others)
+}
+
+/// Whether a made program has them.
+fn has_them(program: &RobotProgram, language: MakeLanguage) -> bool {
+    (program.language, language) == (Language::Rapid, MakeLanguage::Rapid)
 }
 
 /// Those of every move of a path, where the made program can state them.
@@ -88,7 +92,7 @@ pub(crate) fn other_speeds(
     robot: &RobotPath,
     language: MakeLanguage,
 ) -> Vec<Option<Box<str>>> {
-    if (program.language, language) != (Language::Rapid, MakeLanguage::Rapid) {
+    if !has_them(program, language) {
         return Vec::new();
     }
     let motions = robot.motions.iter();
@@ -97,28 +101,46 @@ pub(crate) fn other_speeds(
 }
 
 /// The lines where they are lost.
-pub(crate) fn turning_speeds(
-    program: &RobotProgram,
-    language: MakeLanguage,
-) -> Option<MakeFinding> {
-    if (program.language, language) == (Language::Rapid, MakeLanguage::Rapid) {
-        return None;
+pub(crate) fn turning_speeds(program: &RobotProgram, language: MakeLanguage) -> Vec<MakeFinding> {
+    if program.language != Language::Rapid {
+        return Vec::new();
     }
-    let is_of_speed = program.language == Language::Rapid;
-    let own = |motion: &&Motion| {
-        is_of_speed && motion.kind != MotionKind::Joint && own_speeds(motion).is_some()
+    let with = |is_one: &dyn Fn(&Motion) -> bool| {
+        let feeds = (program.motions.iter()).filter(|motion| motion.kind != MotionKind::Joint);
+        let mut lines: Vec<usize> = feeds
+            .filter(|motion| is_one(motion))
+            .map(|motion| motion.line)
+            .collect();
+        lines.sort_unstable();
+        lines.dedup();
+        lines
     };
-    let mut lines: Vec<usize> = (program.motions.iter().filter(own))
-        .map(|motion| motion.line)
-        .collect();
-    lines.sort_unstable();
-    lines.dedup();
-    let stated = program.motions.iter().find(own).and_then(own_speeds)?;
-    Some(MakeFinding::of(
-        *lines.first()?,
-        format!(
-            "the speeds of turning and of external axes that the source states ({stated}; {}) are not kept: where the tool turns, check how fast it does",
-            in_words(&lines)
+    let is_lost = |motion: &Motion| !has_them(program, language) && own_speeds(motion).is_some();
+    let (lost, unknown) = (
+        with(&is_lost),
+        with(&|motion| motion.site.other_speeds.is_none()),
+    );
+    let first = program.motions.iter().find(|motion| is_lost(motion));
+    let stated = first.and_then(own_speeds).unwrap_or_default();
+    let said = [
+        (
+            lost,
+            format!("the speeds of turning and of external axes that the source states ({stated}; "),
         ),
-    ))
+        (
+            unknown,
+            "the speeds of turning and of external axes of the source are not known: its data of the speed are declared elsewhere, or change (".to_owned(),
+        ),
+    ];
+    let named = said.into_iter().filter_map(|(lines, what)| {
+        let first = *lines.first()?;
+        Some(MakeFinding::of(
+            first,
+            format!(
+                "{what}{}) are not kept: where the tool turns, check how fast it does",
+                in_words(&lines)
+            ),
+        ))
+    });
+    named.collect()
 }

@@ -78,6 +78,14 @@ fn events_of_motion(
         let text = words(source.part(&(begin..motion.span.start.max(begin))));
         events.extend(of_line(language, motion.line, &text));
     }
+    if language == Language::Rapid {
+        let inside = comments_inside(source, motion).into_iter();
+        events.extend(inside.map(|(line, text)| SourceEvent {
+            motion: number,
+            place: format!("line {line}"),
+            ..SourceEvent::words_alone(motion.line, EventKind::Comment, text)
+        }));
+    }
     if let Some((text, is_behind)) = found {
         events.push(SourceEvent {
             is_behind,
@@ -126,6 +134,28 @@ fn behind(
     })
 }
 
+/// The comments within a statement of RAPID over several lines, with their lines.
+fn comments_inside(source: &SourceFile, motion: &Motion) -> Vec<(usize, String)> {
+    let text = String::from_utf8_lossy(source.part(&motion.span)).into_owned();
+    let first = source.line_of(motion.span.start);
+    let comments = text.lines().enumerate().filter_map(|(index, line)| {
+        let comment = line[code_of(line).len()..].trim();
+        (comment.len() > 1).then(|| (first + index, comment.to_owned()))
+    });
+    comments.collect()
+}
+
+/// A line of RAPID up to its comment.
+fn code_of(line: &str) -> &str {
+    let mut in_text = false;
+    let begins = |(_, letter): &(usize, char)| {
+        in_text ^= *letter == '"';
+        !in_text && *letter == '!'
+    };
+    let at = line.char_indices().find(begins);
+    &line[..at.map_or(line.len(), |(at, _)| at)]
+}
+
 /// What an instruction of RAPID does beside its motion, and whether it does so behind it.
 fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
     let keyword = words(source.part(&motion.site.keyword));
@@ -141,7 +171,10 @@ fn of_rapid(source: &SourceFile, motion: &Motion) -> Option<(String, bool)> {
         }
         _ => return None,
     } + usize::from(is_circle);
-    let statement = words(source.part(&(motion.site.keyword.end..motion.span.end)));
+    let statement = source.part(&(motion.site.keyword.end..motion.span.end));
+    let statement = String::from_utf8_lossy(statement).into_owned();
+    let code: Vec<&str> = statement.lines().map(code_of).collect();
+    let statement = words(code.join(" ").as_bytes());
     let arguments = arguments_of(statement.trim_end_matches(';'));
     let to = match upper.starts_with("TRIGG") {
         // Zone and tool follow.

@@ -1,13 +1,16 @@
 //! In which order motions, events and changes of tools of a robot's program run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
+use crate::making::block_order::Part;
 use crate::making::course::{Course, at, counted_on_lines, place_of};
+use crate::making::event_kind::EventKind;
 use crate::making::events::SourceEvent;
 use crate::making::of_tools::changes_of_source;
 use crate::making::robot_events::events_of_robot;
 use crate::making::routines::running_lines;
-use crate::model::program::RobotProgram;
+use crate::making::statements::comment_behind;
+use crate::model::program::{Language, RobotProgram};
 use crate::path::of_program::RobotPath;
 
 /// The course of a program along its path.
@@ -23,18 +26,20 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         course.language = Some(program.language);
         return course;
     };
-    let mut by_line: BTreeMap<usize, Vec<SourceEvent>> = BTreeMap::new();
+    let mut by_line: BTreeMap<usize, VecDeque<SourceEvent>> = BTreeMap::new();
     for event in events {
-        by_line.entry(event.line).or_default().push(event);
+        by_line.entry(event.line).or_default().push_back(event);
     }
     let mut placed = Vec::new();
     let mut order: BTreeMap<usize, usize> = BTreeMap::new();
     for (index, running) in running.iter().enumerate() {
-        order.entry(running.line).or_insert(index);
-        for mut event in by_line.remove(&running.line).into_iter().flatten() {
-            if running.is_followed {
-                continue;
-            }
+        if running.part == Part::Rest {
+            order.entry(running.line).or_insert(index);
+        }
+        let Some(own) = by_line.get_mut(&running.line) else {
+            continue;
+        };
+        for mut event in part_of(program.language, own, &running.part) {
             if !running.is_certain {
                 event.only_words();
             }
@@ -53,6 +58,39 @@ pub(crate) fn course_of(program: &RobotProgram, robot: &RobotPath) -> Course {
         other_speeds: Vec::new(),
         lost_speeds: BTreeMap::new(),
     }
+}
+
+/// Takes what runs at a part of a line out of the events of that line; of a call that is followed its comment alone.
+fn part_of(
+    language: Language,
+    events: &mut VecDeque<SourceEvent>,
+    part: &Part,
+) -> Vec<SourceEvent> {
+    let name = match part {
+        Part::Rest => return events.drain(..).collect(),
+        Part::Call => {
+            events.clear();
+            return Vec::new();
+        }
+        Part::Before(name) => name,
+    };
+    let mut taken = Vec::new();
+    while let Some(event) = events.pop_front() {
+        let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let mut words = event.text.split(|c| !is_word(c));
+        if words
+            .next()
+            .is_some_and(|word| word.eq_ignore_ascii_case(name))
+        {
+            let comment = comment_behind(language, &event.text);
+            taken.extend(
+                comment.map(|text| SourceEvent::words_alone(event.line, EventKind::Comment, text)),
+            );
+            break;
+        }
+        taken.push(event);
+    }
+    taken
 }
 
 /// The numbers of all moves, with the place of their lines in the order in which they run.

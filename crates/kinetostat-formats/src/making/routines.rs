@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use crate::making::block_order::{Running, running_blocks, until_end};
+use crate::making::block_order::{Part, Running, running_blocks, until_end};
 use crate::making::blocks::Blocks;
 use crate::making::robot_events::{body, instructions};
+use crate::making::statements::statements;
 use crate::model::program::{Language, RobotProgram};
 use crate::text::source::SourceFile;
 
@@ -29,8 +30,10 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
     moving.dedup();
     let set: BTreeSet<usize> = moving.iter().copied().collect();
     let is_order = |lines: &[Running]| {
+        // The motions of a line stand behind what it calls.
         let own = lines
             .iter()
+            .filter(|running| running.part == Part::Rest)
             .map(|running| running.line)
             .filter(|line| set.contains(line));
         own.eq(moving.iter().copied())
@@ -71,7 +74,7 @@ pub(crate) fn running_lines(program: &RobotProgram, file: usize) -> Option<Vec<R
                 .map(|line| Running {
                     line: *line,
                     is_certain: false,
-                    is_followed: false,
+                    part: Part::Rest,
                 })
                 .collect(),
         };
@@ -133,6 +136,10 @@ pub(crate) fn words_of(language: Language, source: &SourceFile, line: usize) -> 
         Language::Apt => code.split("$$").next().unwrap_or_default(),
         _ => code.split(comment).next().unwrap_or_default(),
     };
+    words_in(code)
+}
+
+fn words_in(code: &str) -> Vec<String> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let words = code.split(|c| !is_word(c)).filter(|word| !word.is_empty());
     words.map(str::to_owned).collect()
@@ -159,26 +166,34 @@ impl Walk<'_> {
             let words = words_of(self.language, self.source, line);
             blocks.enter(&words);
             let is_certain = is_certain && blocks.is_certain();
-            let called = self
-                .called(line, &words)
-                .filter(|called| !self.seen[*called] && depth < DEEPEST);
+            let text = String::from_utf8_lossy(self.source.line(line).unwrap_or_default());
+            let text = text.to_ascii_uppercase();
+            for statement in statements(self.language, body(self.language, &text)) {
+                let called = self.called(statement);
+                let Some(called) = called.filter(|called| !self.seen[*called] && depth < DEEPEST)
+                else {
+                    continue;
+                };
+                self.lines.push(Running {
+                    line,
+                    is_certain,
+                    part: Part::Before(self.routines[called].name.clone()),
+                });
+                self.routine(called, is_certain, depth + 1);
+            }
             self.lines.push(Running {
                 line,
                 is_certain,
-                is_followed: called.is_some(),
+                part: Part::Rest,
             });
-            if let Some(called) = called {
-                self.routine(called, is_certain, depth + 1);
-            }
         }
     }
 
     /// The routine that a statement calls.
-    fn called(&self, line: usize, words: &[String]) -> Option<usize> {
-        let index = *self.names.get(words.first()?.as_str())?;
-        let text = String::from_utf8_lossy(self.source.line(line)?);
-        let text = text.trim_start();
-        let behind = text.get(words.first()?.len()..)?.trim_start();
+    fn called(&self, statement: &str) -> Option<usize> {
+        let name = words_in(statement).into_iter().next()?;
+        let index = *self.names.get(name.as_str())?;
+        let behind = statement.strip_prefix(name.as_str())?.trim_start();
         let calls = match self.language {
             Language::Rapid => !behind.starts_with(":=") && !behind.starts_with(':'),
             _ => behind.starts_with('('),

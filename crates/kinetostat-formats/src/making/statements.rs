@@ -48,7 +48,7 @@ pub(crate) fn comment_behind(language: Language, text: &str) -> Option<&str> {
 }
 
 /// The statements of a line of RAPID and its comment; the whole line of others, and of what belongs to a block.
-fn statements(language: Language, text: &str) -> Vec<&str> {
+pub(crate) fn statements(language: Language, text: &str) -> Vec<&str> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let capitals = text.to_ascii_uppercase();
     let is_of_block = (capitals.split(|c| !is_word(c))).any(|word| OF_BLOCKS.contains(&word));

@@ -152,6 +152,8 @@ pub(crate) struct MotionSite {
     pub via: Option<(Range<usize>, TargetSite)>,
     /// None where another speed cannot be written.
     pub speed: Option<SpeedSite>,
+    /// Speeds of turning, deg/s, and of external axes, mm/s and deg/s, as in `500,5000,1000` (RAPID); none where they are not known.
+    pub other_speeds: Option<String>,
     /// Where the zone stands.
     pub zone: Option<Range<usize>>,
     /// External axes at the end as the text states them, of poses and of joint values.
@@ -160,6 +162,17 @@ pub(crate) struct MotionSite {
     pub external_moved_behind: bool,
     /// Why it cannot become several statements.
     pub indivisible: Option<&'static str>,
-    /// Why the tool does not turn evenly from its start to its end, and what to do: it is refused where it turns.
-    pub turns_otherwise: Option<(&'static str, &'static str)>,
+    /// Why the tool does not turn evenly from its start to its end: it is refused where it turns.
+    pub turns_otherwise: Option<TurnsOtherwise>,
+}
+
+/// Why a tool does not turn evenly from the start of a motion to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TurnsOtherwise {
+    /// Why.
+    pub reason: &'static str,
+    /// What to do.
+    pub remedy: &'static str,
+    /// The statement before the motion with which it does, where it may be written.
+    pub evenly: Option<&'static str>,
 }

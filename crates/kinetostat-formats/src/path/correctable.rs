@@ -16,10 +16,11 @@ use crate::model::site::TargetSite;
 use crate::options::{ReadOptions, WriteOptions};
 use crate::path::fault::broken;
 use crate::path::header::{mark_line, with_header};
-use crate::path::of_program::{RobotPath, path_of_written};
+use crate::path::of_program::{RobotPath, path_of};
 use crate::path::options::PathOptions;
 use crate::path::read_again::check;
 use crate::path::turned_axes::{angles_as_written, angles_of_piece, by_angles, refuse_lost_turn};
+use crate::path::turned_by_correction::refuse_lost_orientation;
 use crate::text::source::SourceFile;
 use crate::writing::piece::Piece;
 
@@ -276,7 +277,7 @@ impl Correctable<'_> {
             .map(|(name, bytes)| SourceFile::new(name.clone(), bytes.clone()));
         let program =
             read(self.program.language, sources.collect(), self.reading).map_err(unreadable)?;
-        let path = path_of_written(&program, self.making).map_err(unreadable)?;
+        let path = path_of(&program, self.making).map_err(unreadable)?;
         Ok((program, path))
     }
 
@@ -355,6 +356,7 @@ impl MachineProgram for Correctable<'_> {
         };
         let plan = Plan::with_circles(&self.path.path, field, (options, &circles), monitor)?;
         refuse_lost_turn(&self.path.path, &plan)?;
+        refuse_lost_orientation(self.program, self.path, &plan)?;
         let half_mm = 0.5 * options.last_digit_mm(1.0);
         let planned = plan.moves().iter().enumerate();
         let pieces: Vec<Vec<Piece>> = planned

@@ -2,7 +2,7 @@
 //!
 //! [`of_program`] makes the path of a program of the moves of its motions ([`maker`], [`made_move`]) unless [`motion_faults`] finds some
 //! that cannot stand in one, [`circle`] the arcs of its circular motions, [`axis_turns`] says how the tool stands
-//! where the text states its axis alone, [`correctable`] writes corrections of the path as pieces of motions and reads them again,
+//! where the text states its axis alone, [`turned_by_correction`] refuses corrections by which it would be lost, [`correctable`] writes corrections of the path as pieces of motions and reads them again,
 //! [`all_faults`] says all that keeps a program from that,
 //! and [`read_again`] with [`kept_lines`] checks what was read.
 
@@ -24,4 +24,5 @@ pub(crate) mod path_warnings;
 pub(crate) mod read_again;
 pub(crate) mod tools;
 pub(crate) mod turned_axes;
-mod turning_faults;
+pub(crate) mod turned_by_correction;
+pub(crate) mod turning_faults;

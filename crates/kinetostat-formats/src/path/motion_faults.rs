@@ -27,13 +27,6 @@ pub(crate) fn has_one_work_object(poses: &[&Motion]) -> bool {
 
 /// All that keeps motions out of one path, in order of files and lines. It holds for programs of which a part was refused, too.
 pub(crate) fn faults_of_motions(program: &RobotProgram) -> Vec<PathError> {
-    let mut faults = faults_of_written(program);
-    faults.extend(turning_otherwise(program));
-    in_order(program, faults)
-}
-
-/// Those of a program that is written here: its source was asked how the tool turns, and what a correction adds is small.
-pub(crate) fn faults_of_written(program: &RobotProgram) -> Vec<PathError> {
     let poses = motions_to_poses(program);
     let mut faults = Vec::new();
     faults.extend(in_another_file(program));
@@ -45,6 +38,7 @@ pub(crate) fn faults_of_written(program: &RobotProgram) -> Vec<PathError> {
         Some(fault_at(program, motion, reason, remedy))
     }));
     faults.extend(closed_circles(program));
+    faults.extend(turning_otherwise(program));
     in_order(program, faults)
 }
 

@@ -11,9 +11,7 @@ use crate::model::stated_axes::AxesStated;
 use crate::path::axis_turns::first_leaning;
 use crate::path::fault::{PathError, fault_at};
 use crate::path::maker::Maker;
-use crate::path::motion_faults::{
-    faults_of_motions, faults_of_written, has_one_work_object, motions_to_poses,
-};
+use crate::path::motion_faults::{faults_of_motions, has_one_work_object, motions_to_poses};
 use crate::path::options::PathOptions;
 use crate::path::path_warnings::{by_rule, turns_alone, warnings_of};
 use crate::path::tools::{changes, same_frame, tools_of};
@@ -76,22 +74,7 @@ impl RobotPath {
 /// # Errors
 /// All motions that cannot stand in one path: of several tools, of work objects that are not known, in several files.
 pub fn path_of(program: &RobotProgram, options: &PathOptions) -> Result<RobotPath, Vec<PathError>> {
-    path_without(faults_of_motions(program), program, options)
-}
-
-/// The path of a program that is written here, read again.
-pub(crate) fn path_of_written(
-    program: &RobotProgram,
-    options: &PathOptions,
-) -> Result<RobotPath, Vec<PathError>> {
-    path_without(faults_of_written(program), program, options)
-}
-
-fn path_without(
-    faults: Vec<PathError>,
-    program: &RobotProgram,
-    options: &PathOptions,
-) -> Result<RobotPath, Vec<PathError>> {
+    let faults = faults_of_motions(program);
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -5,12 +5,12 @@ use crate::model::program::RobotProgram;
 use crate::path::fault::{PathError, fault_at};
 
 /// Turns below this are none, rad.
-const TURN_RAD: f64 = 1e-5;
+pub(crate) const TURN_RAD: f64 = 1e-5;
 
 /// All motions whose tool turns, and not evenly. Where a motion begins at no known pose it has no way in a path, either.
 pub(crate) fn turning_otherwise(program: &RobotProgram) -> Vec<PathError> {
     let fault = |motion: &Motion| {
-        let (reason, remedy) = motion.site.turns_otherwise?;
+        let otherwise = motion.site.turns_otherwise?;
         if motion.kind == MotionKind::Joint {
             return None;
         }
@@ -28,10 +28,11 @@ pub(crate) fn turning_otherwise(program: &RobotProgram) -> Vec<PathError> {
         let is_none = turn < TURN_RAD;
         (!is_none).then(|| {
             let reason = format!(
-                "the tool turns by {:.3} deg, and {reason}",
-                turn.to_degrees()
+                "the tool turns by {:.3} deg, and {}",
+                turn.to_degrees(),
+                otherwise.reason
             );
-            fault_at(program, motion, reason, remedy)
+            fault_at(program, motion, reason, otherwise.remedy)
         })
     };
     program.motions.iter().filter_map(fault).collect()

@@ -354,6 +354,7 @@ impl Reader<'_> {
                     }),
                 zone: None,
                 external,
+                other_speeds: None,
                 external_moved_behind: false,
                 indivisible: row.indivisible,
                 turns_otherwise: None,

@@ -9,7 +9,8 @@ use crate::options::ExternalAxes;
 use crate::rapid::calls::Place;
 use crate::rapid::motion::{Instruction, follow};
 use crate::rapid::table::{EXTERNAL, MotionRow, row};
-use crate::rapid::tree::Choice;
+use crate::rapid::tree::{Choice, TokenFile};
+use crate::rapid::turning::mode_of;
 use crate::rapid::walker::Walker;
 use crate::table::Treatment;
 use crate::text::name::Name;
@@ -105,9 +106,11 @@ impl Walker<'_, '_> {
             }
             Some(_) => {
                 let name = String::from_utf8_lossy(file.word(tokens.start));
-                let written = String::from_utf8_lossy(file.source.part(&span));
-                let moment = self.next_moment();
-                self.now.modes = self.now.modes.after(&name, &written, moment);
+                if mode_of(file, tokens).is_some() {
+                    let moment = self.next_moment();
+                    self.now.modes = self.now.modes.after(file, tokens, moment);
+                    self.modes_stated += 1;
+                }
                 self.has_ended |= name.eq_ignore_ascii_case("ExitCycle");
                 let effects = EFFECTS
                     .iter()
@@ -123,14 +126,25 @@ impl Walker<'_, '_> {
             }
             None => {
                 let called = crate::error::excerpt(file.word(tokens.start));
+                let is_computed = is_computed(file, tokens);
+                if is_computed {
+                    // It may be any routine of these files.
+                    self.now.modes = self.now.modes.met(self.anywhere);
+                }
                 self.outside_calls.push(OutsideCall {
                     file: file.index,
                     line: file.source.line_of(span.start),
-                    name: (called != "%").then_some(called),
+                    name: (!is_computed).then_some(called),
                     speeds_behind: Vec::new(),
                 });
                 Place::Unknown
             }
         }
     }
+}
+
+/// Whether the run computes which routine is called: `%"name"%`, `CallByVar`.
+pub(super) fn is_computed(file: &TokenFile<'_>, tokens: &Range<usize>) -> bool {
+    let word = file.word(tokens.start);
+    word == b"%" || word.eq_ignore_ascii_case(b"CallByVar")
 }

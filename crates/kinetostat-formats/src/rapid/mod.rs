@@ -2,7 +2,7 @@
 //!
 //! From tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
 //! [`literals`], [`frames`]), to motions ([`motion`], [`targets`]) in the order in which they run ([`walk`], [`walker`],
-//! [`instructions`], [`calls`], [`labels`], [`jumps`]).
+//! [`instructions`], [`calls`], [`labels`], [`jumps`]), with what is in force there ([`turning`], [`modes`]).
 //!
 //! Source: ABB, Technical reference manual - RAPID kernel, and - RAPID Instructions, Functions and Data types (3HAC050917).
 
@@ -10,12 +10,14 @@ pub(crate) mod arguments;
 pub(crate) mod calls;
 pub(crate) mod expression;
 pub(crate) mod frames;
+mod functions;
 mod instructions;
 pub(crate) mod jumps;
 pub(crate) mod labels;
 pub(crate) mod lex;
 pub(crate) mod literals;
 pub(crate) mod loads;
+mod modes;
 pub(crate) mod motion;
 pub(crate) mod parser;
 pub(crate) mod reader;

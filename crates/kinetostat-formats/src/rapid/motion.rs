@@ -76,7 +76,7 @@ pub(crate) fn follow(
             (MotionKind::Circular { via }, Some((span, site)))
         }
     };
-    let (speed, speed_site) = speed(values, routine, &arguments, ends);
+    let (speed, speed_site, other_speeds) = speed(values, routine, &arguments, ends);
     let zone = zone(values, routine, &arguments, tool_at - 1);
     let tool = &arguments.ordered[tool_at];
     let tool = values.frame(routine, Role::Tool, tool, text(values, routine, tool))?;
@@ -120,6 +120,7 @@ pub(crate) fn follow(
             speed: speed_site,
             zone: Some(file.span(&arguments.ordered[tool_at - 1].tokens)),
             external,
+            other_speeds,
             external_moved_behind: false,
             indivisible,
             turns_otherwise: None,
@@ -172,51 +173,35 @@ fn joints(values: &Values<'_>, routine: usize, expression: &Expression) -> End {
     }
 }
 
+/// The speed, where it can be written otherwise, and what else the data of the speed state.
 fn speed(
     values: &mut Values<'_>,
     routine: usize,
     arguments: &Arguments,
     at: usize,
-) -> (Speed, Option<SpeedSite>) {
+) -> (Speed, Option<SpeedSite>, Option<String>) {
     let expression = &arguments.ordered[at];
-    let written = text(values, routine, expression);
+    let text = text(values, routine, expression);
+    let known = values.speed(routine, expression);
+    let others =
+        known.map(|[_, turning, linear, rotating]| format!("{turning},{linear},{rotating}"));
     if let Some(stated) = arguments.option("V").flatten() {
         let mm_per_s = values.number(routine, stated);
-        return (
-            Speed {
-                mm_per_s,
-                text: written,
-            },
-            None,
-        );
+        return (Speed { mm_per_s, text }, None, others);
     }
-    let known = values.speed(routine, expression);
+    if arguments.option("T").is_some() {
+        let mm_per_s = None;
+        return (Speed { mm_per_s, text }, None, others);
+    }
     let span = values.files[values.symbols.routines[routine].file].span(&expression.tokens);
-    let site = known.map(|[_, turning, linear, rotating]| SpeedSite {
+    let site = others.as_ref().map(|others| SpeedSite {
         span,
         before: "[".to_owned(),
-        after: format!(",{turning},{linear},{rotating}]"),
+        after: format!(",{others}]"),
         unit_mm_per_s: 1.0,
     });
-    match arguments.option("T") {
-        Some(_) => (
-            Speed {
-                mm_per_s: None,
-                text: written,
-            },
-            None,
-        ),
-        None => {
-            let mm_per_s = known.map(|speed| speed[0]);
-            (
-                Speed {
-                    mm_per_s,
-                    text: written,
-                },
-                site,
-            )
-        }
-    }
+    let mm_per_s = known.map(|speed| speed[0]);
+    (Speed { mm_per_s, text }, site, others)
 }
 
 fn zone(values: &mut Values<'_>, routine: usize, arguments: &Arguments, at: usize) -> Zone {

@@ -23,6 +23,10 @@ const AT_RUN_TIME: Treatment = Refused {
     reason: "it corrects the path while it runs",
     remedy: "take this statement into a program of its own",
 };
+const BY_NAME: Treatment = Refused {
+    reason: "it changes data by names that are texts: which targets, tools and work objects change is not followed",
+    remedy: "write the assignment by the name of the datum, or take this statement into a program of its own",
+};
 const OWN_WAY: Treatment = Refused {
     reason: "its motion is not followed",
     remedy: "write it as MoveL, MoveC or MoveJ, or take it into a program of its own",
@@ -178,7 +182,7 @@ const fn sorted() -> [StatementRow; COUNT] {
 }
 
 #[rustfmt::skip]
-const OTHERS: [StatementRow; 204] = [
+const OTHERS: [StatementRow; 205] = [
     line("MODULE", Understood, KERNEL),
     line("RECORD", Understood, KERNEL),
     line("PROC", Understood, KERNEL),
@@ -275,7 +279,8 @@ const OTHERS: [StatementRow; 204] = [
     line("Rewind", Carried, INSTRUCTIONS),
     line("Save", Carried, INSTRUCTIONS),
     line("Set", Carried, INSTRUCTIONS),
-    line("SetAllDataVal", Carried, INSTRUCTIONS),
+    line("SetAllDataVal", BY_NAME, INSTRUCTIONS),
+    line("SetDataVal", BY_NAME, INSTRUCTIONS),
     line("SetAO", Carried, INSTRUCTIONS),
     line("SetDO", Carried, INSTRUCTIONS),
     line("SetGO", Carried, INSTRUCTIONS),

@@ -121,7 +121,8 @@ pub(crate) enum Statement {
     /// An instruction or the call of a procedure, with its semicolon.
     Call { tokens: Range<usize> },
     Branches {
-        header: Range<usize>,
+        /// Of IF and each ELSEIF; what TEST compares, and the values of each CASE.
+        conditions: Vec<Range<usize>>,
         choice: Choice,
         blocks: Vec<Vec<Statement>>,
     },

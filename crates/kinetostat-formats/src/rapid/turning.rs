@@ -3,10 +3,20 @@
 //! Source: ABB, Technical reference manual, RAPID Instructions (3HAC050917): without `CirPathMode` the tool turns with the path
 //! (`\PathFrame`); without `SingArea` it turns evenly (`\Off`).
 
+use std::ops::Range;
+
 use crate::model::motion::{Motion, MotionKind};
+use crate::model::site::TurnsOtherwise;
+use crate::rapid::arguments::Arguments;
+use crate::rapid::symbols::Symbols;
+use crate::rapid::tree::{Statement, TokenFile};
+use crate::text::name::Name;
+
+const CIRCLES: &str = "CirPathMode";
+const SINGULAR: &str = "SingArea";
 
 /// What puts them in force.
-pub(super) const MODES: [&str; 2] = ["CirPathMode", "SingArea"];
+pub(super) const MODES: [&str; 2] = [CIRCLES, SINGULAR];
 
 /// Something that is in force for sure, or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,34 +87,82 @@ impl Modes {
         }
     }
 
+    /// Whether the same is sure, whenever it was stated.
+    pub(super) fn holds_as(self, other: Self) -> bool {
+        self.object_frame.holds == other.object_frame.holds
+            && self.keeps_orientation.holds == other.keeps_orientation.holds
+    }
+
     /// After `CirPathMode` or `SingArea` with its arguments.
-    pub(super) fn after(mut self, name: &str, arguments: &str, moment: Moment) -> Self {
-        let arguments = arguments.to_ascii_uppercase();
+    pub(super) fn after(
+        mut self,
+        file: &TokenFile<'_>,
+        tokens: &Range<usize>,
+        moment: Moment,
+    ) -> Self {
+        let arguments = Arguments::of(file, tokens.start + 1..tokens.end);
+        // What is given on a condition (`\Off?switch`) is not sure.
         let stated = |word: &str| Sure {
-            holds: arguments.contains(word),
+            holds: matches!(arguments.option(word), Some(None)),
             stated: moment,
         };
-        if name.eq_ignore_ascii_case("CirPathMode") {
-            self.object_frame = stated("OBJECTFRAME");
-        } else if name.eq_ignore_ascii_case("SingArea") {
-            self.keeps_orientation = stated("OFF");
+        match mode_of(file, tokens) {
+            Some(CIRCLES) => self.object_frame = stated("OBJECTFRAME"),
+            Some(SINGULAR) => self.keeps_orientation = stated("OFF"),
+            _ => {}
         }
         self
     }
 
+    /// What is sure at a place that the program may come to from any other: all that is stated anywhere puts it in force.
+    pub(super) fn anywhere(files: &[TokenFile<'_>], symbols: &Symbols<'_>) -> Self {
+        let mut met = Self::at_first(true, true);
+        for home in &symbols.routines {
+            let file = &files[home.file];
+            let mut see = |tokens: &Range<usize>| met = met.met(met.after(file, tokens, 0));
+            each_call(&home.routine.body, &mut see);
+            each_call(&home.routine.handlers, &mut see);
+        }
+        met
+    }
+
     /// Why the tool does not turn evenly in a motion.
-    pub(super) fn otherwise(self, motion: &Motion) -> Option<(&'static str, &'static str)> {
+    pub(super) fn otherwise(self, motion: &Motion) -> Option<TurnsOtherwise> {
         match motion.kind {
             MotionKind::Joint => None,
-            _ if !self.keeps_orientation.holds => Some((
-                "the joints of the wrist turn evenly (SingArea\\Wrist or \\LockAxis4), and with them the tool does not",
-                "write SingArea\\Off, or one orientation at both ends",
-            )),
-            MotionKind::Circular { .. } if !self.object_frame.holds => Some((
-                "on a circle it does not turn evenly: it turns with the path (CirPathMode\\PathFrame, which holds without another), or by the orientation of the place on the circle",
-                "write CirPathMode\\ObjectFrame before it, with the orientations that the tool is to have",
-            )),
+            _ if !self.keeps_orientation.holds => Some(TurnsOtherwise {
+                reason: "the joints of the wrist turn evenly (SingArea\\Wrist or \\LockAxis4), and with them the tool does not",
+                remedy: "write SingArea\\Off, or one orientation at both ends",
+                evenly: None,
+            }),
+            MotionKind::Circular { .. } if !self.object_frame.holds => Some(TurnsOtherwise {
+                reason: "on a circle it does not turn evenly: it turns with the path (CirPathMode\\PathFrame, which holds without another), or by the orientation of the place on the circle",
+                remedy: "write CirPathMode\\ObjectFrame before it, with the orientations that the tool is to have",
+                evenly: Some("CirPathMode\\ObjectFrame;"),
+            }),
             _ => None,
+        }
+    }
+}
+
+/// The word of a statement that puts one in force.
+pub(super) fn mode_of(file: &TokenFile<'_>, tokens: &Range<usize>) -> Option<&'static str> {
+    let name = Name::of(file.word(tokens.start))?;
+    MODES
+        .into_iter()
+        .find(|mode| name.letters().eq_ignore_ascii_case(mode.as_bytes()))
+}
+
+/// Sees all calls of a block, in order.
+fn each_call(block: &[Statement], see: &mut impl FnMut(&Range<usize>)) {
+    for statement in block {
+        match statement {
+            Statement::Call { tokens } => see(tokens),
+            Statement::Branches { blocks, .. } => {
+                blocks.iter().for_each(|block| each_call(block, see));
+            }
+            Statement::Loop { block, .. } => each_call(block, see),
+            Statement::Assignment { .. } | Statement::Label { .. } | Statement::Leaves { .. } => {}
         }
     }
 }

@@ -2,12 +2,16 @@
 
 use std::ops::Range;
 
+use crate::rapid::functions::leaves_arguments;
 use crate::rapid::lex::Kind;
 use crate::rapid::symbols::{Meaning, Symbols};
 use crate::rapid::table::{Ends, motion_row, row};
 use crate::rapid::tree::{Change, Statement, TokenFile};
 use crate::table::Treatment;
 use crate::text::name::Name;
+
+/// Instructions that are carried and change the numbers that they are given.
+const CHANGE_THEIRS: [&str; 3] = ["Clear", "Decr", "Incr"];
 
 /// Notes it in the symbols, for all statements of all routines.
 pub(crate) fn note_usage(files: &[TokenFile<'_>], symbols: &mut Symbols<'_>) {
@@ -52,20 +56,30 @@ impl Notes<'_, '_, '_, '_> {
                 Statement::Assignment { tokens, assign } => {
                     self.assign(tokens.start);
                     self.keep(tokens.start + 1..*assign);
+                    self.functions(tokens.clone());
                     self.keep(*assign..tokens.end);
                 }
                 Statement::Call { tokens } => self.call(tokens),
-                Statement::Branches { header, blocks, .. } => {
-                    self.keep(header.clone());
+                Statement::Branches {
+                    conditions, blocks, ..
+                } => {
+                    for condition in conditions {
+                        self.keep(condition.clone());
+                        self.functions(condition.clone());
+                    }
                     for block in blocks {
                         self.statements(block);
                     }
                 }
                 Statement::Loop { header, block } => {
                     self.keep(header.clone());
+                    self.functions(header.clone());
                     self.statements(block);
                 }
-                Statement::Leaves { tokens } => self.keep(tokens.clone()),
+                Statement::Leaves { tokens } => {
+                    self.keep(tokens.clone());
+                    self.functions(tokens.clone());
+                }
                 Statement::Label { .. } => {}
             }
         }
@@ -102,7 +116,51 @@ impl Notes<'_, '_, '_, '_> {
         }
     }
 
+    /// What functions in an expression may change: own ones with parameters for it, and those that are not known.
+    fn functions(&mut self, tokens: Range<usize>) {
+        for at in tokens.clone() {
+            let opens = self.kind(at + 1) == Some(Kind::Symbol(b'(')) && at + 1 < tokens.end;
+            if self.kind(at) != Some(Kind::Word) || !opens {
+                continue;
+            }
+            let name = Name::of(self.file.word(at));
+            let changes = name.is_none_or(|name| {
+                let own = self.symbols.routine(self.routine, &name);
+                own.map_or_else(|| !leaves_arguments(&name), |own| self.has_changing(own))
+            });
+            if changes {
+                self.assign_arguments(at + 2..tokens.end);
+            }
+        }
+    }
+
+    /// Whether a routine has a parameter by which it may change what is given.
+    fn has_changing(&self, routine: usize) -> bool {
+        let parameters = &self.symbols.routines[routine].routine.parameters;
+        parameters.iter().any(|parameter| parameter.changes)
+    }
+
+    /// Up to the end, or to the bracket that was open before.
+    fn assign_arguments(&mut self, tokens: Range<usize>) {
+        let mut open = 0_usize;
+        for at in tokens {
+            match self.kind(at) {
+                Some(Kind::Symbol(b'(' | b'[')) => open += 1,
+                Some(Kind::Symbol(b')' | b']')) if open == 0 => return,
+                Some(Kind::Symbol(b')' | b']')) => open -= 1,
+                // What stands deeper is computed with.
+                _ if open == 0 && self.is_whole_argument(at) => self.assign(at),
+                _ => {}
+            }
+        }
+    }
+
+    fn kind(&self, at: usize) -> Option<Kind> {
+        self.file.tokens.get(at).map(|token| token.kind)
+    }
+
     fn call(&mut self, tokens: &Range<usize>) {
+        self.functions(tokens.start + 1..tokens.end);
         let Some(name) = Name::of(self.file.word(tokens.start)) else {
             return self.keep(tokens.clone());
         };
@@ -115,25 +173,19 @@ impl Notes<'_, '_, '_, '_> {
         }
         self.keep(tokens.start + 1..tokens.end);
         let changes = match self.symbols.routine(self.routine, &name) {
-            Some(index) => {
-                let parameters = &self.symbols.routines[index].routine.parameters;
-                parameters.iter().any(|parameter| parameter.changes)
-            }
+            Some(index) => self.has_changing(index),
             // Of an instruction that is refused nothing else is to be said.
-            None => row(&name).is_none_or(|row| row.treatment == Treatment::Understood),
+            None => row(&name).is_none_or(|row| {
+                row.treatment == Treatment::Understood || CHANGE_THEIRS.contains(&row.name)
+            }),
         };
         if changes {
-            for at in tokens.start + 1..tokens.end {
-                if self.is_whole_argument(at) {
-                    self.assign(at);
-                }
-            }
+            self.assign_arguments(tokens.start + 1..tokens.end);
         }
     }
 
     /// A name between commas: what a routine could change.
     fn is_whole_argument(&self, at: usize) -> bool {
-        let kind = |at: usize| self.file.tokens.get(at).map(|token| token.kind);
         let is_after = |kind| {
             matches!(
                 kind,
@@ -143,10 +195,11 @@ impl Notes<'_, '_, '_, '_> {
         let is_before = |kind| {
             matches!(
                 kind,
-                Some(Kind::Symbol(b',' | b'(') | Kind::Word | Kind::Assign)
+                Some(Kind::Symbol(b',' | b'(' | b'%') | Kind::Word | Kind::Assign)
             )
         };
-        kind(at) == Some(Kind::Word) && is_after(kind(at + 1)) && is_before(kind(at - 1))
+        let [before, own, after] = [at - 1, at, at + 1].map(|at| self.kind(at));
+        own == Some(Kind::Word) && is_after(after) && is_before(before)
     }
 
     /// The ends of a motion are followed by the writer; what an offset begins at is kept.

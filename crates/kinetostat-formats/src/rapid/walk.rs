@@ -16,7 +16,7 @@ use crate::rapid::labels::destination;
 use crate::rapid::table::motion_row;
 use crate::rapid::targets::Targets;
 use crate::rapid::tree::{Choice, RoutineKind, Statement};
-use crate::rapid::turning::{Modes, Moment};
+use crate::rapid::turning::Modes;
 use crate::rapid::walker::{Now, Walker, stays};
 use crate::text::name::Name;
 
@@ -45,6 +45,7 @@ pub(crate) fn walk(
             home.routine.kind == RoutineKind::Function && !stays(values, index, &home.routine.body)
         })
         .collect();
+    let anywhere = Modes::anywhere(values.files, &values.symbols);
     let mut walker = Walker {
         values,
         targets,
@@ -71,19 +72,22 @@ pub(crate) fn walk(
         modes_at_entry: vec![(Modes::BASIC, 0); count],
         modes_behind: vec![Modes::NOTHING; count],
         modes: Vec::new(),
+        anywhere,
+        modes_stated: 0,
         moment: 0,
+        active: Vec::new(),
+        called_again: 0,
     };
     for routine in main.into_iter().chain(0..count) {
         if !walker.summaries[routine].begun {
-            walker.now.modes = Modes::BASIC;
-            walker.routine(routine, 0);
+            walker.root(routine, Some(routine) == main);
         }
     }
     walker.resolve(main)
 }
 
 impl Walker<'_, '_> {
-    fn routine(&mut self, index: usize, depth: usize) {
+    pub(super) fn routine(&mut self, index: usize, depth: usize) {
         let home = self.values.symbols.routines[index];
         let modes = self.now.modes;
         let outer = std::mem::replace(
@@ -98,8 +102,9 @@ impl Walker<'_, '_> {
         );
         let outer_jumps = std::mem::take(&mut self.jumps);
         self.summaries[index].begun = true;
+        self.active.push(index);
         self.modes_at_entry[index] = (self.now.modes, self.next_moment());
-        let before = self.motions.len();
+        let (before, stated) = (self.motions.len(), self.modes_stated);
         if home.routine.jumps {
             self.now.runs = Runs::Repeatedly;
         }
@@ -112,7 +117,7 @@ impl Walker<'_, '_> {
         self.jumps.clear();
         self.now.runs = Runs::OnCondition.max(self.now.runs);
         let has_ended = self.has_ended;
-        self.block(&home.routine.handlers, Place::Unknown);
+        self.handlers(&home.routine.handlers, before..in_body, stated);
         // Handlers run where something went wrong.
         self.has_ended = has_ended;
         // Where handlers move or jumps lead back, no place of the routine is sure.
@@ -121,8 +126,11 @@ impl Walker<'_, '_> {
             for motion in own.collect::<Vec<_>>() {
                 self.places[motion].1 = Place::Unknown;
             }
+            let calls = self.summaries.iter_mut().flat_map(|of| &mut of.calls);
+            (calls.filter(|call| call.from == index)).for_each(|call| call.at = Place::Unknown);
             place = Place::Unknown;
         }
+        self.active.pop();
         self.summaries[index].leaves = Some(place);
         self.finished.push(index);
         self.jumps = outer_jumps;
@@ -131,7 +139,7 @@ impl Walker<'_, '_> {
         self.now = Now { modes, ..outer };
     }
 
-    fn block(&mut self, statements: &[Statement], mut place: Place) -> Place {
+    pub(super) fn block(&mut self, statements: &[Statement], mut place: Place) -> Place {
         let runs = self.now.runs;
         // Behind a GOTO of this block nothing runs up to a label.
         let mut is_left_out = false;
@@ -169,7 +177,11 @@ impl Walker<'_, '_> {
         match statement {
             Statement::Call { tokens } => self.call(tokens, place, Choice::OneOfAll),
             Statement::Assignment { tokens, .. } => self.behind_functions(tokens.clone(), place),
-            Statement::Label { .. } => Place::Unknown,
+            Statement::Label { .. } => {
+                // A jump from anywhere in the routine leads here.
+                self.now.modes = self.now.modes.met(self.anywhere);
+                Place::Unknown
+            }
             // Nothing is left where nothing runs.
             Statement::Leaves { .. } if self.now.runs == Runs::Elsewhere => place,
             Statement::Leaves { tokens } => {
@@ -188,11 +200,13 @@ impl Walker<'_, '_> {
                 place
             }
             Statement::Branches {
-                header,
+                conditions,
                 choice,
                 blocks,
             } => {
-                let place = self.behind_functions(header.clone(), place);
+                let place = (conditions.iter().cloned()).fold(place, |place, condition| {
+                    self.behind_functions(condition, place)
+                });
                 self.now.depth += 1;
                 let runs = self.now.runs;
                 self.now.runs = runs.max(Runs::OnCondition);
@@ -226,13 +240,9 @@ impl Walker<'_, '_> {
                     false => Place::Unknown,
                 };
                 self.now.depth += 1;
-                let (modes, first) = (self.now.modes, self.motions.len());
-                let begun = self.next_moment();
+                let pass = self.pass();
                 let end = self.block(block, inside);
-                // What holds at its end holds at its next pass, too.
-                let met = modes.met(self.now.modes);
-                self.meet_modes(first, begun, met);
-                self.now.modes = met;
+                self.next_pass(&pass);
                 self.now.depth -= 1;
                 self.now.runs = runs;
                 merge(place, end)
@@ -281,10 +291,7 @@ impl Walker<'_, '_> {
             self.routine(called, now.depth + 1);
         } else {
             // It was walked with what held at its first call, and may change what holds.
-            let (modes, begun) = self.modes_at_entry[called];
-            let met = modes.met(now.modes);
-            self.meet_modes(0, begun, met);
-            self.now.modes = self.modes_behind[called].met_before(begun, met);
+            self.modes_of_another_call(called);
         }
         let summary = &mut self.summaries[called];
         match summary.leaves {
@@ -294,13 +301,6 @@ impl Walker<'_, '_> {
                 summary.recursive = true;
                 Place::Unknown
             }
-        }
-    }
-
-    /// Of motions from one on, only this is sure beside what was in force at a moment; what is stated after it is sure.
-    fn meet_modes(&mut self, first: usize, moment: Moment, modes: Modes) {
-        for own in &mut self.modes[first..] {
-            *own = own.met_before(moment, modes);
         }
     }
 

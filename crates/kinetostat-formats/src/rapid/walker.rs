@@ -58,8 +58,16 @@ pub(super) struct Walker<'w, 'p> {
     pub modes_behind: Vec<Modes>,
     /// Of each motion that runs once, or at every pass of a loop: what is in force.
     pub modes: Vec<Modes>,
+    /// What is sure of them wherever the program comes from.
+    pub anywhere: Modes,
+    /// How many statements of modes were walked.
+    pub modes_stated: usize,
     /// The last one.
     pub moment: Moment,
+    /// The routines that are walked, each called by the one before it.
+    pub active: Vec<usize>,
+    /// How often a routine was called that had been walked before.
+    pub called_again: usize,
     pub now: Now,
 }
 

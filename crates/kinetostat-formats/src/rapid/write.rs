@@ -57,11 +57,6 @@ impl Syntax for RapidSyntax {
         true
     }
 
-    fn turns_evenly(&self, motion: &Motion) -> Option<&'static str> {
-        // Of a circle as read the ends have one orientation, which every mode keeps: the frame matters to corrected ones alone.
-        (motion.site.turns_otherwise).map(|_| "CirPathMode\\ObjectFrame;")
-    }
-
     fn piece(
         &self,
         program: &RobotProgram,

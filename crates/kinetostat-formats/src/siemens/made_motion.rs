@@ -268,6 +268,7 @@ fn site_of(
         }),
         zone: None,
         external: Vec::new(),
+        other_speeds: None,
         external_moved_behind: false,
         indivisible: None,
         turns_otherwise: None,

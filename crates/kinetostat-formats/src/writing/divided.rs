@@ -16,7 +16,7 @@ use crate::writing::syntax::PieceLiterals;
 use crate::writing::target_texts::{span_of, text_of};
 
 /// Orientations nearer than this are the same: the text of the orientation stays.
-const SAME_RAD: f64 = 1e-9;
+pub(crate) const SAME_RAD: f64 = 1e-9;
 
 impl Writer<'_> {
     /// Writes a motion with its pieces; without pieces it stays.
@@ -90,10 +90,10 @@ impl Writer<'_> {
             self.edits[motion.file].replace(at..at, text);
         }
         let stays_circle = is_circle && !becomes_straight;
-        let mode = match stays_circle && pieces.iter().any(|p| p.orientation.is_some_and(turns)) {
-            true => self.syntax.turns_evenly(motion),
-            false => None,
-        };
+        // A circle as read has one orientation, or it turns evenly already: what turns the tool is the correction.
+        let is_turned = stays_circle && pieces.iter().any(|p| p.orientation.is_some_and(turns));
+        let mode = (motion.site.turns_otherwise.filter(|_| is_turned))
+            .and_then(|otherwise| otherwise.evenly);
         if before.is_empty() && !becomes_straight && mode.is_none() {
             self.state_speed(motion, own_speed);
             return Ok(());

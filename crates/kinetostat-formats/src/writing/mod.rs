@@ -6,7 +6,7 @@
 //! `Syntax`, a table of statements, a variant of `Language`, and one arm each in `document.rs`. Nothing here changes.
 
 pub(crate) mod declared;
-mod divided;
+pub(crate) mod divided;
 mod ends;
 pub(crate) mod external_axes;
 pub(crate) mod joints;

@@ -49,12 +49,6 @@ pub(crate) trait Syntax {
         false
     }
 
-    /// The statement by which the tool turns evenly on a circle whose corrected ends turn it, where what is in force does
-    /// otherwise.
-    fn turns_evenly(&self, _motion: &Motion) -> Option<&'static str> {
-        None
-    }
-
     /// A statement that goes to a pose (its literal) before the end of a motion, as that motion is written otherwise: straight, or
     /// on a circle through a place in place of that of the motion; without line ending. Where pieces are declared, the literals
     /// are the declared names.

@@ -166,6 +166,7 @@ impl Reader<'_> {
                 }),
                 zone: None,
                 external: Vec::new(),
+                other_speeds: None,
                 external_moved_behind: false,
                 indivisible: None,
                 turns_otherwise: None,

@@ -112,9 +112,8 @@ impl Parser<'_, '_> {
     }
 
     pub(super) fn test(&mut self, start: usize, depth: usize) -> Statement {
-        let header = self
-            .up_to(&["CASE", "DEFAULT", "ENDTEST"])
-            .unwrap_or(start..start);
+        let header = self.up_to(&["CASE", "DEFAULT", "ENDTEST"]);
+        let mut conditions: Vec<Range<usize>> = header.into_iter().collect();
         let mut blocks = Vec::new();
         let mut choice = Choice::AtMostOne;
         loop {
@@ -129,6 +128,7 @@ impl Parser<'_, '_> {
             {
                 self.at += 1;
             }
+            conditions.push(case + 1..self.at);
             if !self.takes_symbol(b':') {
                 self.fault(
                     case..case + 1,
@@ -145,15 +145,14 @@ impl Parser<'_, '_> {
         }
         self.close(start, "ENDTEST");
         Statement::Branches {
-            header,
+            conditions,
             choice,
             blocks,
         }
     }
 
     pub(super) fn branches(&mut self, start: usize, depth: usize) -> Option<Statement> {
-        let condition = self.condition();
-        let header = condition.clone();
+        let mut conditions = vec![self.condition()];
         if !self.takes("THEN") {
             // One statement without THEN.
             let mut block = Vec::new();
@@ -169,7 +168,7 @@ impl Parser<'_, '_> {
                 block.extend(self.simple());
             }
             return Some(Statement::Branches {
-                header,
+                conditions,
                 choice: Choice::Compact,
                 blocks: vec![block],
             });
@@ -181,7 +180,8 @@ impl Parser<'_, '_> {
             self.block(&mut block, depth + 1);
             blocks.push(block);
             if self.takes("ELSEIF") {
-                self.condition();
+                let condition = self.condition();
+                conditions.push(condition);
                 if !self.takes("THEN") {
                     self.fault(
                         self.at..self.at + 1,
@@ -197,7 +197,7 @@ impl Parser<'_, '_> {
         }
         self.close(start, "ENDIF");
         Some(Statement::Branches {
-            header,
+            conditions,
             choice,
             blocks,
         })

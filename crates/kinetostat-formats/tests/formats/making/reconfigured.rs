@@ -153,4 +153,23 @@ fn speeds_of_turning_are_kept_in_rapid_and_named_elsewhere() {
     );
     let made = of_robot(Language::Rapid, &rapid(""), MakeLanguage::Krl);
     assert!(!found(&made, "speeds of turning"), "{:?}", made.findings);
+    // The speed of the tip may be stated beside the data.
+    let text = rapid("").replace("v20,fine", "[20,15,77,1000]\\V:=30,fine");
+    let made = of_robot(Language::Rapid, &text, MakeLanguage::Rapid);
+    let own = text_of(&made, 0);
+    assert!(own.contains(":=[30,15,77,1000];"), "{own}");
+    let made = of_robot(Language::Rapid, &text, MakeLanguage::Krl);
+    assert!(
+        found(&made, "(15,77,1000; lines 4, 6) are not kept"),
+        "{:?}",
+        made.findings
+    );
+    // What data of another module state is not known, in any language.
+    let text = rapid("").replace("v20,fine", "vElsewhere\\V:=30,fine");
+    for into in [MakeLanguage::Rapid, MakeLanguage::Krl] {
+        let made = of_robot(Language::Rapid, &text, into);
+        let said =
+            "are not known: its data of the speed are declared elsewhere, or change (lines 4, 6)";
+        assert!(found(&made, said), "{:?}", made.findings);
+    }
 }

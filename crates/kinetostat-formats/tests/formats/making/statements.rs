@@ -179,3 +179,73 @@ fn faults_of_the_program_are_none_of_the_template() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((found[0].0, found[0].1), (None, true));
 }
+
+/// Comments within a statement, calls with further statements on their line, and comments behind them.
+#[test]
+fn what_stands_within_statements_and_beside_calls_comes_along_in_order() {
+    let text = format!(
+        "MODULE b\nPROC main()\n{}\nMoveL ! first\n[[10,0,50],[0,0,1,0],[0,0,0,0],{NONE}], ! second \"x\"\nv20,fine,tool0; ! behind\n\
+         SetDO a,1; one; SetDO b,1; two; ! both\none2; {} ! last\nENDPROC\nPROC one()\n{} ! in one\nENDPROC\nPROC two()\n{}\nENDPROC\n\
+         PROC one2()\nWaitTime 1;\nENDPROC\nENDMODULE\n",
+        line("MoveJ", 0),
+        line("MoveL", 40),
+        line("MoveL", 20),
+        line("MoveL", 30),
+    );
+    let made = of_robot(Language::Rapid, &text, MakeLanguage::Krl);
+    assert_eq!(
+        course(&made),
+        [
+            "PTP",
+            "; line 4: ! first",
+            "; line 5: ! second  x",
+            "LIN",
+            "; line 6: ! behind",
+            "; line 7: SetDO a,1",
+            "LIN",
+            "; line 11: ! in one",
+            "; line 7: SetDO b,1",
+            "LIN",
+            "; line 7: ! both",
+            "; line 17: WaitTime 1",
+            "WAIT SEC 1",
+            "LIN",
+            "; line 8: ! last",
+            "END"
+        ]
+    );
+    let xs = |text: &str| {
+        let lines = text.lines().filter(|line| line.starts_with("LIN {X"));
+        let x = |line: &str| line[7..].split('.').next().unwrap().to_owned();
+        lines.map(x).collect::<Vec<String>>()
+    };
+    assert_eq!(xs(&text_of(&made, 0)), ["10", "20", "30", "40"]);
+    // What stands beside the arguments of a trigger is no argument.
+    let text = format!(
+        "MODULE b\nPROC main()\n{}\nTriggL [[10,0,50],[0,0,1,0],[0,0,0,0],{NONE}], ! a, b\nv20, trig1, ! c\nfine, tool0;\nENDPROC\nENDMODULE\n",
+        line("MoveJ", 0)
+    );
+    let made = of_robot(Language::Rapid, &text, MakeLanguage::Krl);
+    assert_eq!(
+        course(&made),
+        [
+            "PTP",
+            "; line 4: ! a, b",
+            "; line 5: ! c",
+            "; line 4: TriggL trig1",
+            "LIN",
+            "END"
+        ]
+    );
+}
+
+/// A comment behind a call of KRL, whose routine stands in the same file.
+#[test]
+fn comments_behind_calls_of_krl_come_along() {
+    let text = "DEF part()\n$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\n$VEL.CP=0.02\nLIN {X 0,Y 0,Z 50,A 0,B 0,C 180}\nsub() ; the second\nEND\n\
+        DEF sub()\nLIN {X 9,Y 0,Z 50,A 0,B 0,C 180}\nEND\n";
+    let made = of_robot(Language::Krl, text, MakeLanguage::Rapid);
+    let own = text_of(&made, 0);
+    assert!(own.contains("! line 6: the second\n"), "{own}");
+    assert!(!own.contains("sub()"), "{own}");
+}

@@ -1,5 +1,6 @@
 //! ABB RAPID.
 
+mod assigned;
 mod broken;
 mod corrections;
 mod frames;
@@ -9,6 +10,7 @@ mod pieces;
 mod properties;
 mod random;
 mod table;
+mod turned;
 mod turning;
 mod zero_change;
 

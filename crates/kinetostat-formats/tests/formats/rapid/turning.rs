@@ -132,6 +132,105 @@ fn a_jump_and_a_return_bring_what_was_in_force_there() {
     );
 }
 
+/// What a later pass, a later call or a jump out of a loop brings.
+#[test]
+fn later_passes_and_calls_bring_what_is_in_force_then() {
+    let (set, left) = ("CirPathMode\\ObjectFrame;", "CirPathMode\\PathFrame;");
+    let other = format!("{START}\n{TURNED}");
+    // Walked before the loop, called again in it.
+    let main = format!("{set}\nother;\nWHILE reg1=1 DO\nother;\n{left}\nENDWHILE");
+    refused(&main, &other, 12, "turns with the path");
+    // The second pass leaves the routine, or jumps out of the loop, with the path frame.
+    let returned = format!("WHILE TRUE DO\nIF reg1=1 RETURN;\n{left}\nENDWHILE\n{set}");
+    let main = format!("{set}\nother;\n{START}\n{TURNED}");
+    refused(&main, &returned, 6, "turns with the path");
+    let jumped = format!(
+        "{set}\nWHILE TRUE DO\nIF reg1=1 GOTO on;\n{left}\nENDWHILE\n{set}\non:\n{START}\n{TURNED}"
+    );
+    refused(&jumped, "", 11, "turns with the path");
+    // A jump backward leads to a label before what it passed.
+    let back = format!("{set}\nback:\nother;\n{left}\nIF reg1=1 GOTO back;");
+    refused(&back, &other, 11, "turns with the path");
+    let still = format!("{set}\nback:\nother;\nIF reg1=1 GOTO back;");
+    carried(&still, &other);
+    // What the caller did before is not what a later call finds.
+    let main = format!("{set}\n{START}\n{TURNED}\nother;\n{left}\nother;");
+    carried(&main, &format!("{START}\n{EVEN}"));
+}
+
+/// Handlers and interrupts come from anywhere, and leave in force what they state.
+#[test]
+fn handlers_traps_and_functions_come_from_anywhere() {
+    let (set, left) = ("CirPathMode\\ObjectFrame;", "CirPathMode\\PathFrame;");
+    let turned = format!("other;\n{START}\n{TURNED}");
+    // Nothing went wrong: the handler did not state it.
+    refused(
+        &turned,
+        &format!("SetDO x,1;\nERROR\n{set}"),
+        5,
+        "turns with the path",
+    );
+    refused(
+        &turned,
+        &format!("SetDO x,1;\nUNDO\n{set}"),
+        5,
+        "turns with the path",
+    );
+    // RETRY comes back to the circle.
+    let retried = format!("{set}\n{START}\n{TURNED}\nERROR\n{left}\nRETRY;");
+    refused(&retried, "", 5, "turns with the path");
+    carried(&format!("{set}\n{START}\n{TURNED}\nERROR\nRETRY;"), "");
+    // The handler leaves the routine before it stated it.
+    let main = format!("{set}\nother;\n{START}\n{TURNED}");
+    let leaves = format!("{left}\nWaitDI x,1;\n{set}\nERROR\nRETURN;");
+    refused(&main, &leaves, 6, "turns with the path");
+    // An interrupt between statement and circle.
+    let main = format!("{set}\n{START}\n{TURNED}");
+    let trap = format!("ENDPROC\nTRAP t\n{left}\nENDTRAP\nPROC last()");
+    refused(&main, &trap, 5, "turns with the path");
+    let function = format!("ENDPROC\nFUNC num f()\n{left}\nRETURN 1;\nENDFUNC\nPROC last()");
+    refused(&main, &function, 5, "turns with the path");
+    // In an interrupt what main states somewhere may be in force.
+    let wrist = format!("SingArea\\Wrist;\n{START}\nSingArea\\Off;");
+    let trap = format!("ENDPROC\nTRAP t\n{START}\n{LINE}\nENDTRAP\nPROC last()");
+    refused(&wrist, &trap, 11, "the joints of the wrist");
+    carried(START, &trap);
+}
+
+/// Which routine a computed name calls, the run decides: all of these files may be it.
+#[test]
+fn behind_a_computed_call_what_any_statement_puts_in_force_may_be() {
+    let set = "CirPathMode\\ObjectFrame;";
+    let left = "CirPathMode\\PathFrame;";
+    for call in ["%\"other\"%;", "CallByVar \"other\",reg1;"] {
+        let main = format!("{set}\n{call}\n{START}\n{TURNED}");
+        refused(&main, left, 6, "turns with the path");
+        carried(&main, set);
+    }
+}
+
+#[test]
+fn a_mode_on_a_condition_or_in_a_comment_is_not_stated() {
+    refused(
+        &format!("CirPathMode\\PathFrame ! not ObjectFrame\n;\n{START}\n{TURNED}"),
+        "",
+        6,
+        "turns with the path",
+    );
+}
+
+/// A routine whose caller moves in a handler may be called from there, too.
+#[test]
+fn what_a_handler_moves_before_a_call_is_not_sure() {
+    let text = format!(
+        "MODULE M\nPROC main()\n{START}\nother;\nERROR\n{LINE}\nRETRY;\nENDPROC\nPROC other()\n{LINE}\nENDPROC\nENDMODULE\n"
+    );
+    let files = vec![SourceFile::new("m.mod", text)];
+    let program = read_rapid(files, &ReadOptions::default()).unwrap();
+    let of_other = program.motions.iter().find(|motion| motion.line == 10);
+    assert_eq!(of_other.unwrap().follows, None);
+}
+
 /// A correction turns the tool by little on each circle, and the frame of the path would turn it otherwise.
 #[test]
 fn circles_that_a_correction_turns_state_the_object_frame_and_are_read_again() {
