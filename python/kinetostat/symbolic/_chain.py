@@ -13,6 +13,7 @@ from kinetostat.symbolic._condensed import Bordered, condensed
 from kinetostat.symbolic._expression import Formula, Stiffness
 from kinetostat.symbolic._linear import UnsolvableError, solved
 from kinetostat.symbolic._placement import rotation
+from kinetostat.symbolic._stepwise import Sprung, loaded_in_steps, unloaded_in_steps
 
 __all__ = ["Chain"]
 
@@ -382,8 +383,9 @@ class Chain:
             Wrenches on nodes, dead (fixed in base axes).
         steps : bool
             Give intermediate results names (``definitions`` of what comes back) instead of one formula in lowest terms. For more than
-            about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second. They hold for general
-            values; at special ones (all links in line) a step may divide by zero: build the chain with these numbers then.
+            about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second. They hold for all values
+            of angles and lengths, special ones (all links in line) too, and for all stiffnesses that are not zero. At values that hold
+            the end rigidly somewhere, or at which loads make it buckle, entries are infinite or NaN.
 
         Returns
         -------
@@ -415,19 +417,21 @@ class Chain:
         ['L1', 'L2', 'L3', 'k1', 'k2', 'k3', 'q1', 'q2', 'q3']
         """
         rows = _rows(directions)
-        loaded = wrench is not None or bool(loads)
         linear, angular = self._columns(self._place, len(self._motions))
-        j = linear.col_join(angular).extract(rows, list(range(len(self._motions))))
-        if loaded or steps:
-            h = self.hessian(wrench if wrench is not None else [0] * 6, loads).matrix if loaded else sp.zeros(len(self._motions))
-            inner, moving = self._spring_matrix() - h, list(range(len(self._motions)))
-            corner = sp.zeros(len(rows))
+        jacobian, names = linear.col_join(angular), [m.name for m in self._motions]
+        loaded = wrench is not None or bool(loads)
+        hessian = self.hessian(wrench if wrench is not None else [0] * 6, loads).matrix if loaded else None
+        if steps:
+            own = Sprung(self.name, tuple(directions), rows, jacobian, self._springs, names)
+            return unloaded_in_steps(own) if hessian is None else loaded_in_steps(own, hessian)
+        if hessian is not None:
+            every = list(range(len(names)))
+            bordered = Bordered(sp.zeros(len(rows)), jacobian.extract(rows, every), self._spring_matrix() - hessian, names)
         else:
             moving = [i for i, m in enumerate(self._motions) if m.passive]
-            inner, corner = sp.zeros(len(moving)), self.compliance(directions=directions).matrix
-            j = j.extract(list(range(len(rows))), moving)
-        names = [self._motions[i].name for i in moving]
-        return condensed(self.name, Bordered(corner, j, inner, names), tuple(directions), steps=steps, symmetric=not loaded)
+            corner = self.compliance(directions=directions).matrix
+            bordered = Bordered(corner, jacobian.extract(rows, moving), sp.zeros(len(moving)), [names[i] for i in moving])
+        return condensed(self.name, bordered, tuple(directions))
 
     def __repr__(self) -> str:
         return f"<Chain {self.name!r}: {len(self._motions)} coordinates>"

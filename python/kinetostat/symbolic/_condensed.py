@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import sympy as sp
 
 from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._expression import Stiffness
 from kinetostat.symbolic._linear import UnsolvableError, solved
-from kinetostat.symbolic._steps import Steps, trimmed
 
-__all__ = ["Bordered", "condensed"]
+__all__ = ["Bordered", "condensed", "held_rigidly"]
 
 _NOTHING = 1e-20
 """Smaller entries of a null vector of numbers of 80 digits are zero."""
@@ -39,36 +39,28 @@ class Bordered:
         return Bordered(self.corner, jacobian, self.inner.extract(keep, keep), [self.names[i] for i in keep])
 
 
-def condensed(chain: str, system: Bordered, directions: tuple[str, ...], *, steps: bool, symmetric: bool) -> Stiffness:
-    """First block of the inverse, redundant coordinates held: held or not, they do not change the stiffness."""
+def held_rigidly(chain: str, directions: Sequence[str]) -> ArgumentError:
+    """What is said of an end that is held rigidly along a combination of directions."""
+    told = f"{chain}: held rigidly along a combination of {', '.join(directions)}: the stiffness there is infinite"
+    return ArgumentError(f"{told}; leave such directions out, or give the chain the spring that is missing")
+
+
+def condensed(chain: str, system: Bordered, directions: tuple[str, ...]) -> Stiffness:
+    """First block of the inverse in lowest terms, redundant coordinates held: held or not, they do not change the stiffness."""
     n, redundant = len(directions), []
     while True:
         try:
-            matrix, definitions = _with_steps(system.matrix, n, symmetric) if steps else (_lowest_terms(system.matrix, n), ())
+            matrix = solved(system.matrix, _units(system.matrix.shape[0], n))[:n, :].applyfunc(sp.simplify)
         except UnsolvableError as singular:
             force = [d for d, f in zip(directions, singular.null[:n], strict=True) if abs(f) > _NOTHING]
             if force:
-                told = f"{chain}: held rigidly along a combination of {', '.join(force)}: the stiffness there is infinite"
-                raise ArgumentError(f"{told}; leave such directions out, or give the chain the spring that is missing") from None
+                raise held_rigidly(chain, force) from None
             drop = [i for i, x in enumerate(singular.null[n:]) if abs(x) > _NOTHING][-1]
             redundant.append(system.names[drop])
             system = system.without(drop)
             continue
-        return Stiffness(matrix, directions, tuple(reversed(redundant)), definitions=definitions)
+        return Stiffness(matrix, directions, tuple(reversed(redundant)))
 
 
 def _units(size: int, n: int) -> sp.Matrix:
     return sp.eye(n).col_join(sp.zeros(size - n, n))
-
-
-def _lowest_terms(system: sp.Matrix, n: int) -> sp.Matrix:
-    return solved(system, _units(system.shape[0], n))[:n, :].applyfunc(sp.simplify)
-
-
-def _with_steps(system: sp.Matrix, n: int, symmetric: bool) -> tuple[sp.Matrix, tuple[tuple[sp.Symbol, sp.Expr], ...]]:
-    steps = Steps(system)
-    found = solved(steps.system, _units(system.shape[0], n), steps.definitions, steps.kept)[:n, :]
-    if symmetric:
-        # Both halves are equal in value, not in their steps: one of them is enough.
-        found = sp.Matrix(n, n, lambda i, j: found[min(i, j), max(i, j)])
-    return trimmed(found, steps.definitions)

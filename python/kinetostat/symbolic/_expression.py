@@ -235,6 +235,9 @@ class _RustPrinter(RustCodePrinter):  # type: ignore[misc]
     def _print_Integer(self, expr: sp.Integer, type_cast: bool = False) -> str:  # noqa: N802
         return f"{int(expr)}.0"
 
+    def _print_Infinity(self, expr: sp.Expr) -> str:  # noqa: N802
+        return "f64::INFINITY"
+
     # Before 1.13 SymPy prints these on their own.
     _print_Zero = _print_One = _print_NegativeOne = _print_Integer  # noqa: N815
 

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import mpmath
 import sympy as sp
 
-__all__ = ["Definitions", "UnsolvableError", "at_random", "numbers", "solved", "tidy"]
+__all__ = ["DIGITS", "Definitions", "UnsolvableError", "at_random", "numbers", "solved", "tidy"]
 
 Definitions: TypeAlias = tuple[tuple[sp.Symbol, sp.Expr], ...]
 """Symbols that stand for intermediate results, each in terms of those before it."""
 
-_DIGITS = 80
+DIGITS = 80
+"""Of numbers at which zero is decided."""
+
 _ZERO = mpmath.mpf(10) ** -25
 
 
@@ -41,25 +43,21 @@ def numbers(matrix: sp.Matrix, definitions: Definitions = ()) -> Any:
     def steps(matrix: sp.Matrix) -> tuple[Any, Any]:
         return (definitions, matrix) if definitions else sp.cse(matrix, list=False)
 
-    with mpmath.workdps(_DIGITS):
+    with mpmath.workdps(DIGITS):
         given = [mpmath.mpf(int(v.p)) / int(v.q) for v in values.values()]
         return mpmath.matrix(sp.lambdify(list(values), matrix, modules="mpmath", cse=steps)(*given))
 
 
-def solved(
-    matrix: sp.Matrix, right: sp.Matrix, definitions: Definitions = (), kept: Callable[[sp.Expr], sp.Expr] | None = None
-) -> sp.Matrix:
-    """``matrix^-1 right`` by Gauss-Jordan; whether a formula is zero is decided by its value at random numbers of 80 digits.
+def solved(matrix: sp.Matrix, right: sp.Matrix) -> sp.Matrix:
+    """``matrix^-1 right`` by Gauss-Jordan, in lowest terms; whether a formula is zero is decided by its value at random numbers.
 
-    ``kept`` makes of a new entry what stands for it from there on: a fraction in lowest terms without it. Raises
-    :class:`UnsolvableError` where the matrix is singular for all values of the symbols.
+    Raises :class:`UnsolvableError` where the matrix is singular for all values of the symbols.
     """
-    kept = kept or tidy
     n = matrix.shape[0]
     work = matrix.row_join(right).as_mutable()
-    with mpmath.workdps(_DIGITS):
+    with mpmath.workdps(DIGITS):
         # The same steps in numbers: a formula need not be looked at to know whether it is zero.
-        value = numbers(sp.Matrix(work), definitions)
+        value = numbers(sp.Matrix(work))
         order: list[int] = []
         for column in range(n):
             step = len(order)
@@ -73,7 +71,7 @@ def solved(
             best = min(rows, key=lambda r: (not work[r, column].is_Number, sp.count_ops(work[r, column]), -abs(value[r, column])))
             work.row_swap(step, best)
             _swap(value, step, best)
-            _reduce(work, value, step, column, kept)
+            _reduce(work, value, step, column)
             order.append(column)
     return sp.Matrix(work[:, n:])
 
@@ -83,12 +81,12 @@ def _swap(value: Any, i: int, j: int) -> None:
         value[i, c], value[j, c] = value[j, c], value[i, c]
 
 
-def _reduce(work: sp.Matrix, value: Any, step: int, column: int, kept: Callable[[sp.Expr], sp.Expr]) -> None:
+def _reduce(work: sp.Matrix, value: Any, step: int, column: int) -> None:
     """One pivot: its row divided by it, its column cleared in all others."""
     pivot, size = work[step, column], value[step, column]
     there: Sequence[int] = [c for c in range(column, work.shape[1]) if work[step, c] != 0]
     for c in there:
-        work[step, c] = kept(work[step, c] / pivot) if c != column else sp.S.One
+        work[step, c] = tidy(work[step, c] / pivot) if c != column else sp.S.One
         value[step, c] = value[step, c] / size
     for r in range(work.shape[0]):
         factor, share = work[r, column], value[r, column]
@@ -99,7 +97,7 @@ def _reduce(work: sp.Matrix, value: Any, step: int, column: int, kept: Callable[
             value[r, c] = before - less
             gone = c == column or abs(value[r, c]) <= _ZERO * max(abs(before), abs(less), 1)
             value[r, c] = mpmath.mpf(0) if gone else value[r, c]
-            work[r, c] = sp.S.Zero if gone else kept(work[r, c] - factor * work[step, c])
+            work[r, c] = sp.S.Zero if gone else tidy(work[r, c] - factor * work[step, c])
 
 
 def tidy(entry: sp.Expr) -> sp.Expr:

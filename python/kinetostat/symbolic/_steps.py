@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from kinetostat.symbolic._linear import Definitions
+from kinetostat.symbolic._reciprocal import Reciprocal
 from kinetostat.symbolic._substitution import by_name
 
 __all__ = ["Steps", "expanded", "joined", "put_in", "symbols_of", "trimmed"]
@@ -74,6 +75,8 @@ def _count(entry: sp.Expr, uses: dict[sp.Symbol, int]) -> None:
     for node in sp.preorder_traversal(entry):
         if node.is_Symbol:
             uses[node] = uses.get(node, 0) + 1
+        elif isinstance(node, Reciprocal):  # It is printed with its pivot twice.
+            _count(node.args[0], uses)
 
 
 def put_in(matrix: sp.Matrix, definitions: Definitions, values: Mapping[str | sp.Symbol, Any]) -> tuple[sp.Matrix, Definitions]:
