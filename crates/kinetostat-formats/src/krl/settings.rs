@@ -6,7 +6,9 @@ use crate::krl::aggregate::{aggregate_of, number_of};
 use crate::krl::lex::TokenFile;
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
-use crate::krl::turning::{auxiliary_turn, data_turn_as_followed, turns_as_followed};
+use crate::krl::turning::{
+    auxiliary_turn, data_turn_as_followed, keeps_its_orientation, turns_as_followed,
+};
 use crate::krl::values::{Reason, Values};
 use crate::model::motion::Speed;
 
@@ -133,6 +135,9 @@ impl Setter<'_, '_> {
             }
             b"$ORI_TYPE" | b"$CIRC_TYPE" => {
                 turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+            }
+            b"$SINGUL_STRATEGY" => {
+                keeps_its_orientation(self.values.number(self.routine, &value))?;
             }
             b"FDAT_ACT" => {
                 let point = self.values.point_data(self.routine, &value);
