@@ -32,7 +32,7 @@ from kinetostat.spatial import pose, rotation_from_vector, rotation_vector, wren
 from kinetostat.status import DirectionKind, FoundBy, Status
 
 if _TYPE_CHECKING:
-    from kinetostat import assembly, commands, compensation, curves, cutting, maps, plot, shapes, shares, sweep, tolerance, view
+    from kinetostat import assembly, commands, compensation, curves, cutting, maps, measured, plot, shapes, shares, sweep, tolerance, view
     from kinetostat import symbolic as symbolic
 
 __version__ = _core.VERSION
@@ -73,6 +73,7 @@ __all__ = [
     "equilibrium_under",
     "errors",
     "maps",
+    "measured",
     "plot",
     "pose",
     "preset_names",
@@ -99,6 +100,7 @@ _WHEN_ASKED = (
     "curves",
     "cutting",
     "maps",
+    "measured",
     "plot",
     "shapes",
     "shares",

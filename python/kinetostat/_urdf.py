@@ -14,7 +14,7 @@ import numpy as np
 from kinetostat._arrays import Floats, numbers
 from kinetostat.errors import ArgumentError
 
-__all__ = ["in_words_of_python", "stiffness_table", "text_of"]
+__all__ = ["in_words_of_python", "stiffness_table", "text_of", "with_ratings"]
 
 _WRITERS = ("write_xml_string", "to_xml_string")
 _UNIT = 1e-12
@@ -153,6 +153,26 @@ def stiffness_table(stiffness: Mapping[str, tuple[float, str]]) -> str:
             raise ArgumentError(f"{told}; units: {', '.join(_STIFFNESS_UNITS)}")
         lines.append(f"{name},{float(numbers(f'stiffness[{name!r}]', pair[0]))!r},{pair[1]}")
     return "\n".join([*lines, ""])
+
+
+def with_ratings(document: dict[str, Any], text: str) -> dict[str, Any]:
+    """A model with the ``effort`` of the limits of a URDF as the ratings of its drives, where it is above 0."""
+    efforts = {str(joint.get("name")).strip(): _effort(joint) for joint in ElementTree.fromstring(text).iter("joint")}
+    for chain in document.get("chain", {}).values():
+        for element in chain["elements"]:
+            effort = efforts.get(element.get("name"), 0.0)
+            if "actuator" in element and 0 < effort < _ENDLESS:
+                element["rated_torque_n_m" if element["actuator"] == "revolute" else "rated_force_n"] = effort
+    return document
+
+
+def _effort(joint: ElementTree.Element) -> float:
+    limit = joint.find("limit")
+    stated = "0" if limit is None else limit.get("effort", "0")
+    try:
+        return float(stated)
+    except ValueError:
+        raise ArgumentError(f"effort of the joint {joint.get('name')!r} is {stated!r}, expected a number, N m or N") from None
 
 
 def in_words_of_python(text: str) -> str:

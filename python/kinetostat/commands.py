@@ -934,8 +934,8 @@ def map(
     model : path | Machine
         Preset or model file
     x : float | Sequence[float]
-        Places along x of the base, mm: from, to, and how many [default: 21]; or one value. Without
-        it, as at home
+        Places along x of the base, mm: from, to (they rise whichever end is named first), and how
+        many [default: 21]; or one value. Without it, as at home
     y : float | Sequence[float]
         The same along y
     z : float | Sequence[float]

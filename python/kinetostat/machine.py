@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinetostat import _core
 from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
 from kinetostat._document import plain, without_none
-from kinetostat._urdf import in_words_of_python, stiffness_table, text_of
+from kinetostat._urdf import in_words_of_python, stiffness_table, text_of, with_ratings
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
 from kinetostat.posture import Posture
@@ -175,6 +175,7 @@ class Machine:
         passive: Sequence[str] = (),
         home: Mapping[str, tuple[Literal["revolute", "prismatic"], float]] | None = None,
         stiffness: float | Mapping[str, tuple[float, str]] | None = None,
+        efforts_are_ratings: bool = False,
     ) -> Machine:
         """A machine from a URDF: geometry, masses and limits; what bends is given here or stays rigid.
 
@@ -195,6 +196,8 @@ class Machine:
         stiffness : float or mapping, optional
             One stiffness for all drives that turn, N m/rad, or by joint with its unit: ``{"joint": (2e5, "N m/rad")}``; units are
             N m/rad, N mm/rad, N m/deg, N/m, N/mm, N/um. Drives without one are rigid.
+        efforts_are_ratings : bool
+            The ``effort`` of a ``<limit>``, where it is above 0, is the rating of its drive, N m or N.
 
         Returns
         -------
@@ -203,9 +206,8 @@ class Machine:
 
         Notes
         -----
-        The ``effort`` of a ``<limit>`` is not taken as the rating of a drive: it is the largest effort that a controller may ask for,
-        often 0 or a placeholder, and programs that need more than a rating are refused. Where it is the true one, add
-        ``rated_torque_n_m`` or ``rated_force_n`` to the actuator in :meth:`to_dict`, and read that with :meth:`from_dict`.
+        The ``effort`` of a ``<limit>`` is not taken as the rating of a drive unless ``efforts_are_ratings`` says that it is one: it is the
+        largest effort that a controller may ask for, often 0 or a placeholder, and programs that need more than a rating are refused.
 
         Examples
         --------
@@ -228,13 +230,12 @@ class Machine:
         except ModelError as wrong:
             raise ModelError(in_words_of_python(str(wrong))) from None
         made = cls._of(_core.Machine.from_toml(toml, file))
-        if gravity is None:
-            return made
         document = made.to_dict()
-        if document["mechanism"].get("gravity_m_per_s2") == gravity.tolist():
-            return made
-        document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
-        return cls.from_dict(document, file)
+        if efforts_are_ratings:
+            document = with_ratings(document, text)
+        if gravity is not None:
+            document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
+        return made if document == made.to_dict() else cls.from_dict(document, file)
 
     # What it is ----------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -116,3 +117,97 @@ def test_other_endings_of_vtk_files_are_refused_in_words(tmp_path):
     with pytest.raises(ks.ArgumentError, match=r"map\.vtr', expected an ending of \.vtu, \.vtk"):
         ks.maps.to_vtk(found, tmp_path / "map.vtr")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_names_with_spaces_are_read_by_all(tmp_path):
+    """Names of the user's loads and orientations; of a VTK file without a unit nobody knows what a number is."""
+    meshio = pytest.importorskip("meshio")
+    loads = {"mill down": [215.0, -10, -25, 0, 0, 0], "mill_down": [0.0, 80, -25, 0, 0, 0], '50 % "fast" <a&b> --': [10.0, 20, 30, 0, 0, 0]}
+    found = ks.Machine.preset("heavy_6r").map(x=[1.4, 1.5, 1.6], y=[0.1, 0.2], z=0.9, loads=loads)
+    names = ["deflection[load=mill_down]", "deflection[load=mill_down]_2", "deflection[load=50_fast_a_b_--]"]
+    for ending in ("vtu", "vtk"):
+        path = tmp_path / f"map.{ending}"
+        ks.maps.to_vtk(found, path)
+        data = meshio.read(path).point_data
+        assert not any(re.search(r"\s", name) for name in data)
+        for load, name in zip(loads, names, strict=True):
+            np.testing.assert_array_equal(data[name], found.deflection.sel(load=load).values.reshape(-1))
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["map.vtk", "map.vtu"]
+    xml = pytest.importorskip("vtkmodules.vtkIOXML")
+    reader = xml.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(tmp_path / "map.vtu"))
+    reader.Update()
+    arrays = reader.GetOutput().GetPointData()
+    units = {"deflection": "m", "deflection_xyz": "m", "stiffness_x": "N/m"}
+    key = pytest.importorskip("vtkmodules.vtkCommonCore").vtkDataArray.UNITS_LABEL()
+    seen = 0
+    for k in range(arrays.GetNumberOfArrays()):
+        unit = units.get(arrays.GetArray(k).GetName().partition("[")[0])
+        if unit is not None:
+            assert arrays.GetArray(k).GetInformation().Get(key) == unit
+            seen += 1
+    assert seen == 9
+    np.testing.assert_array_equal([arrays.GetArray(names[0]).GetValue(i) for i in range(6)], found.deflection[0].values.reshape(-1))
+    text = (tmp_path / "map.vtu").read_text(encoding="utf-8")
+    assert f"{names[0]}: {found.deflection.attrs['long_name']} [load=mill down], m" in text
+
+
+def test_falling_axes_rise_in_files_for_vtk(tmp_path):
+    """Coordinates may fall in a map; cells of VTK turn inside out where they do."""
+    meshio = pytest.importorskip("meshio")
+    x, y, z = np.linspace(-0.06, 0.05, 4), np.linspace(-0.05, 0.06, 3), np.array([-0.02, 0.01, 0.04])
+    machine = ks.Machine.preset("orthoglide")
+    load = [100.0, -20, 30, 0, 0, 0]
+    rising = machine.map(x=x, y=y, z=z, loads=load)
+    falling = machine.map(x=x[::-1], y=y, z=z[::-1], loads=load)
+    np.testing.assert_array_equal(falling.x, x[::-1])
+    np.testing.assert_array_equal(falling.deflection_xyz, rising.deflection_xyz.values[::-1, :, ::-1])
+    for ending in ("vtu", "vtk"):
+        meshes = []
+        for name, found in (("rising", rising), ("falling", falling)):
+            ks.maps.to_vtk(found, tmp_path / f"{name}.{ending}")
+            meshes.append(meshio.read(tmp_path / f"{name}.{ending}"))
+        np.testing.assert_array_equal(meshes[0].points, meshes[1].points)
+        assert set(meshes[0].point_data) == set(meshes[1].point_data)
+        for name, values in meshes[0].point_data.items():
+            np.testing.assert_array_equal(meshes[1].point_data[name], values, err_msg=name)
+        corners = meshes[1].points[meshes[1].cells[0].data]
+        edges = [corners[:, k] - corners[:, 0] for k in (1, 3, 4)]
+        assert (np.einsum("ni,ni->n", edges[2], np.cross(edges[0], edges[1])) > 0).all()
+    one = machine.posture([x[0], y[2], z[1]]).deflected_by(load).displacement[:3]
+    at = np.flatnonzero((abs(meshes[1].points - [x[0], y[2], z[1]]) < 1e-12).all(axis=1))
+    np.testing.assert_allclose(meshes[1].point_data["deflection_xyz"][at[0]], one, rtol=0, atol=1e-12)
+
+
+def test_falling_axes_in_grids_of_pyvista():
+    pytest.importorskip("pyvista")
+    x = np.array([0.05, 0.01, -0.06])
+    found = ks.Machine.preset("orthoglide").map(x=x, y=[0.0, 0.03], z=[0.02, -0.02])
+    grid = ks.maps.to_pyvista(found)
+    np.testing.assert_array_equal(grid.x, x[::-1])
+    np.testing.assert_array_equal(grid.z, [-0.02, 0.02])
+    for index, point in enumerate(grid.points):
+        own = found.stiffness_x.sel(dict(zip("xyz", point, strict=True)), method="nearest")
+        assert grid.point_data["stiffness_x"][index] == float(own)
+
+
+def test_pictures_of_falling_axes_are_those_of_rising_ones():
+    pyplot = pytest.importorskip("matplotlib.pyplot", reason="matplotlib (extra plot) is not installed")
+    x, y = np.linspace(-0.06, 0.05, 9), np.linspace(-0.04, 0.06, 7)
+    machine = ks.Machine.preset("orthoglide")
+    drawn = []
+    for places in ((x, y), (x[::-1], y[::-1])):
+        found = machine.map(x=places[0], y=places[1], z=0.02)
+        ends = ks.maps.best_and_worst(found, "stiffness_x")
+        ax = ks.maps.plot(found, "stiffness_x")
+        marks = {line.get_label(): line.get_xydata().tolist() for line in ax.lines}
+        levels = next(each for each in ax.collections if hasattr(each, "levels"))
+        lines = [np.sort(path.vertices, axis=0) for path in levels.get_paths()]
+        drawn.append((ends, marks, levels.levels.tolist(), lines, ax.get_xlim(), ax.get_ylim()))
+    pyplot.close("all")
+    assert drawn[0][:3] == drawn[1][:3]
+    assert drawn[0][4] == drawn[1][4]
+    assert drawn[0][5] == drawn[1][5]
+    assert len(drawn[0][3]) == len(drawn[1][3]) > 3
+    for one, other in zip(drawn[0][3], drawn[1][3], strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-9)

@@ -19,6 +19,7 @@ LATER = (
     "curves",
     "cutting",
     "maps",
+    "measured",
     "plot",
     "shapes",
     "shares",

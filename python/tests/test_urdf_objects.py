@@ -118,6 +118,21 @@ def test_efforts_are_no_ratings_and_ratings_can_be_added():
     assert [a.rating for a in ks.Machine.from_dict(document).actuators] == [500.0, None, None]
 
 
+def test_efforts_are_ratings_where_that_is_said():
+    machine = ks.Machine.from_urdf(URDF, stiffness=STIFFNESS, efforts_are_ratings=True)
+    # What turns has a torque, what slides a force; j2 states none.
+    assert [(a.name, a.kind, a.rating) for a in machine.actuators] == [
+        ("j1", "revolute", 500.0),
+        ("j2", "revolute", None),
+        ("j3", "prismatic", 900.0),
+    ]
+    same(machine, ks.Machine.from_urdf(URDF, stiffness=STIFFNESS))
+    # Placeholders are no ratings.
+    assert [a.rating for a in ks.Machine.from_urdf(CRANE, tip="hook", efforts_are_ratings=True).actuators] == [None, None]
+    with pytest.raises(ks.ArgumentError, match="effort of the joint 'shoulder' is 'much', expected a number, N m or N"):
+        ks.Machine.from_urdf(CRANE.replace('effort="0"', 'effort="much"'), tip="hook", efforts_are_ratings=True)
+
+
 CRANE = """<robot name="crane"><link name="post"/>
 <joint name="shoulder" type="revolute"><parent link="post"/><child link="boom"/><origin xyz="0 0 1.5"/><axis xyz="0 1 0"/>
 <limit lower="-1" upper="1" effort="0" velocity="1"/></joint>

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details, Status, Table};
 use kinetostat::spatial::pose_residual;
-use kinetostat::{Directions, Mechanism, Pose, PostureRequest, Wrench};
+use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -226,14 +226,11 @@ impl Places {
         }
     }
 
-    /// Where the tool is commanded to, as drawn.
-    fn target(&self, machine: &Mechanism, i: usize) -> Option<Pose> {
+    /// Where the tool is commanded to, as drawn, of the i-th of all postures and the row of a block.
+    fn target(&self, i: usize, found: &BatchEquilibrium, row: usize) -> Option<Pose> {
         match self {
             Self::Poses(poses) => Some(poses[i]),
-            Self::Joints(commands, each) => {
-                let own = PostureRequest::commands(&commands[i * each..(i + 1) * each]);
-                Some(*machine.posture(own).ok()?.target())
-            }
+            Self::Joints(..) => found.target_pose(row),
         }
     }
 
@@ -322,8 +319,7 @@ pub fn equilibrium_of_many<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = Places::of(machine, poses.as_ref(), joints.as_ref(), threads)?;
-    let (batch, mechanism) = (machine.batch(), machine.mechanism.clone());
-    let limits = Limits::of(&mechanism);
+    let (batch, limits) = (machine.batch(), Limits::of(&machine.mechanism));
     let (count, actuators) = (places.len(), machine.mechanism.actuator_count());
     let wrenches = each_wrench(count, &wrenches)?;
     let details = match details {
@@ -358,7 +354,7 @@ pub fn equilibrium_of_many<'py>(
                 }
                 put_poses(&found.tool, out[0]);
                 for (i, row) in out[1].chunks_exact_mut(6).enumerate() {
-                    let target = places.target(&mechanism, first + i);
+                    let target = places.target(first + i, found, i);
                     match target.filter(|_| found.status[i].is_solved()) {
                         Some(target) => {
                             let moved = pose_residual(&found.tool_pose(i), &target);

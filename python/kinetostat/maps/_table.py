@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
+import itertools
 import os
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +21,9 @@ if TYPE_CHECKING:
 __all__ = ["to_parquet", "to_vtk"]
 
 _ROWS = 65536
-_VTK = (".vtu", ".vtk", ".xdmf", ".xmf")
+_VTK = (".vtu", ".vtk")
+_UNFIT = re.compile(r"""[\s%"'<>&]+""")
+"""What readers of VTK's forms take for the end of a name or for a code of another character."""
 
 
 def to_parquet(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
@@ -59,8 +64,10 @@ def to_parquet(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
 def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     """Writes a map for ParaView and its like: points with their values, joined to cells of the grid.
 
-    Values of several loads or orientations are arrays with their names: ``deflection[load=mill]``. Written by meshio, which joins
-    cells one by one; the ending of the path says how (``.vtu`` compressed, ``.vtk``, ``.xdmf``).
+    Values of several loads or orientations are arrays with their names: ``deflection[load=mill]``; spaces, quotes, ``%``, ``<``, ``>`` and
+    ``&`` in names become ``_``. Written by meshio, which joins cells one by one; the ending of the path says how (``.vtu`` compressed,
+    ``.vtk``). A ``.vtu`` holds the unit of each array (VTK's ``UNITS_LABEL``), and in a comment what it is. Points rise along all axes,
+    also where the coordinates of the map fall.
 
     Parameters
     ----------
@@ -73,6 +80,8 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     ------
     ArgumentError
         The path has another ending.
+    ImportError
+        meshio is not installed (``pip install 'kinetostat[io]'``).
 
     Examples
     --------
@@ -86,31 +95,93 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         import meshio
     except ImportError as absent:
         raise ImportError("VTK files are written by meshio: pip install 'kinetostat[io]'") from absent
-    if os.path.splitext(path)[1].lower() not in _VTK:
+    ending = os.path.splitext(path)[1].lower()
+    if ending not in _VTK:
         raise ArgumentError(f"path is {os.fspath(path)!r}, expected an ending of {', '.join(_VTK)}")
     axes = grid_axes(found)
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     kind, cells = _cells([len(axis) for axis in axes])
-    data = {name: values.reshape(len(points), *values.shape[3:]) for name, values in grid_values(found)}
+    parts = list(grid_values(found))
+    data = {part.name: part.values.reshape(len(points), *part.values.shape[3:]) for part in parts}
     mesh = meshio.Mesh(points, [(kind, cells)], point_data=data)
-    _whole(path, lambda beside: meshio.write(beside, mesh))
+
+    def write(beside: Path) -> None:
+        meshio.write(beside, mesh)
+        if ending == ".vtu":
+            _with_units(beside, {part.name: part for part in parts})
+
+    _whole(path, write)
 
 
 def grid_axes(found: xarray.Dataset) -> list[Any]:
-    """Coordinates along x, y and z, m; one where a map has one place."""
-    return [np.atleast_1d(found[name].values) for name in "xyz"]
+    """Coordinates along x, y and z, m, rising; one where a map has one place."""
+    return [np.sort(np.atleast_1d(found[name].values)) for name in "xyz"]
 
 
-def grid_values(found: xarray.Dataset) -> Iterator[tuple[str, Any]]:
-    """Every variable, by loads and orientations, as (x, y, z) or (x, y, z, columns)."""
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """A variable of one load and orientation on the grid."""
+
+    name: str
+    """Without spaces, each name once."""
+    long_name: str
+    unit: str
+    values: Any
+    """(x, y, z) or (x, y, z, columns), along rising coordinates."""
+
+
+def grid_values(found: xarray.Dataset) -> Iterator[Part]:
+    """Every variable, by loads and orientations."""
     along = [name for name in "xyz" if name in found["status"].dims]
+    falls = [name for name in along if found[name].size > 1 and found[name].values[0] > found[name].values[-1]]
+    rising = found.isel({name: slice(None, None, -1) for name in falls})
     counts = tuple(len(axis) for axis in grid_axes(found))
-    for name, array in found.data_vars.items():
+    taken: set[str] = set()
+    for name, array in rising.data_vars.items():
         other: list[str] = [dim for dim in ("load", "orientation") if dim in array.dims]
+        about, unit = str(array.attrs.get("long_name", name)), str(array.attrs.get("units", "1"))
         for label, part in _parts(array, other):
             values = part.transpose(*along, ...).values
             columns = (int(np.prod(values.shape[len(along) :])),) if values.ndim > len(along) else ()
-            yield f"{name}{label}", values.reshape(counts + columns)
+            yield Part(_spelled(f"{name}{label}", taken), f"{about} {label}".strip(), unit, values.reshape(counts + columns))
+
+
+def _spelled(name: str, taken: set[str]) -> str:
+    """A name that all readers take, and that no other has."""
+    plain = _UNFIT.sub("_", name)
+    tries = (plain if k == 1 else f"{plain}_{k}" for k in itertools.count(1))
+    found = next(each for each in tries if each not in taken)
+    taken.add(found)
+    return found
+
+
+def _with_units(path: Path, parts: Mapping[str, Part]) -> None:
+    """Adds to a file of VTK's XML the units of its arrays, as VTK keeps them, and what they are, as comments."""
+    beside = path.with_name(f"{path.name}.part")
+    try:
+        with open(path, encoding="utf-8") as written, open(beside, "w", encoding="utf-8", newline="\n") as file:
+            file.writelines(_lines_with_units(written, parts))
+        os.replace(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _lines_with_units(lines: Iterable[str], parts: Mapping[str, Part]) -> Iterator[str]:
+    from xml.sax.saxutils import escape
+
+    within: Part | None = None
+    for line in lines:
+        if line.startswith("<UnstructuredGrid>"):
+            # Two dashes end a comment.
+            about = (f"{part.name}: {part.long_name}, {part.unit}".replace("--", "- -") for part in parts.values())
+            yield from (f"<!-- {escape(each)} -->\n" for each in about)
+        if line.startswith("<DataArray "):
+            name = re.search(r' Name="([^"]*)"', line)
+            within = parts.get(name[1]) if name else None
+        if within is not None and line.startswith("</DataArray>"):
+            yield f'<InformationKey name="UNITS_LABEL" location="vtkDataArray">{escape(within.unit)}</InformationKey>\n'
+            within = None
+        yield line
 
 
 def _parts(array: Any, dims: list[str]) -> list[tuple[str, Any]]:

@@ -27,7 +27,8 @@ def to_pyvista(found: xarray.Dataset) -> Any:
     -------
     pyvista.RectilinearGrid
         In m, base axes; variables are point data in SI units, several columns as (n, columns); of several loads or orientations by
-        their names, ``deflection[load=mill]``. Units stand in the field data ``units``. Places without an answer are NaN.
+        their names, ``deflection[load=mill]``, with ``_`` for spaces. Points rise along all axes. Units stand in the field data
+        ``units``. Places without an answer are NaN.
 
     Raises
     ------
@@ -44,10 +45,11 @@ def to_pyvista(found: xarray.Dataset) -> Any:
     ((3, 3, 3), (27,))
     """
     grid = library().RectilinearGrid(*(np.array(axis, dtype=float) for axis in grid_axes(found)))
-    for name, values in grid_values(found):
+    for part in grid_values(found):
+        values = part.values
         # Points of PyVista run along x first.
         turned = np.ascontiguousarray(values.transpose(2, 1, 0, *range(3, values.ndim)))
-        grid.point_data[name] = turned.reshape(grid.n_points, *values.shape[3:])
+        grid.point_data[part.name] = turned.reshape(grid.n_points, *values.shape[3:])
     units = [f"{name}: {array.attrs['units']}" for name, array in found.data_vars.items() if "units" in array.attrs]
     grid.field_data["units"] = units or ["none"]
     return grid

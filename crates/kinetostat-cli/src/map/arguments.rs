@@ -17,8 +17,8 @@ pub(crate) struct MapArgs {
     /// Preset or model file
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
-    /// Places along x of the base, mm: from, to, and how many [default: 21]; or one value. Without
-    /// it, as at home
+    /// Places along x of the base, mm: from, to (they rise whichever end is named first), and how many
+    /// [default: 21]; or one value. Without it, as at home
     #[arg(long, num_args = 1..=3, value_names = ["FROM", "TO", "N"], allow_negative_numbers = true, help_heading = "Grid", value_parser = number)]
     pub(crate) x: Option<Vec<f64>>,
     /// The same along y

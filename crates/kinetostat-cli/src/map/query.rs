@@ -54,6 +54,10 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
                 )));
             }
         };
+        // Files and drawings of grids want places that rise.
+        if grid.from_mm[k] > grid.to_mm[k] {
+            std::mem::swap(&mut grid.from_mm[k], &mut grid.to_mm[k]);
+        }
     }
     if grid.len() > MOST_PLACES {
         return Err(Failure::input(format!(

@@ -165,6 +165,31 @@ fn one_thread_and_two_write_the_same_bytes() {
     assert!(count("unreachable") > 0 && count("regular") > 0, "{answer}");
 }
 
+/// Whichever end of an axis is named first: the same places, files and drawing, and no drawing without places.
+#[test]
+fn falling_axes_are_the_same_map() {
+    let here = workplace();
+    let files = |name: &str, x: &str, y: &str| {
+        let line = format!(
+            "orthoglide --x {x} --y {y} --z 10 --csv {name}.csv --plot {name}.svg --vtk {name}.vtk"
+        );
+        map(here.path(), &line).answered();
+        ["csv", "svg", "vtk"]
+            .map(|end| std::fs::read(here.path().join(format!("{name}.{end}"))).expect("a file"))
+    };
+    let rising = files("rising", "-60 40 6", "-30 50 5");
+    assert_eq!(files("falling", "40 -60 6", "50 -30 5"), rising);
+    let table = String::from_utf8_lossy(&rising[0]);
+    let xs = table.lines().skip(1).map(|l| l.split(',').next());
+    let wanted = ["-60", "-40", "-20", "0", "20", "40"];
+    assert!(
+        xs.eq(wanted.into_iter().cycle().take(30).map(Some)),
+        "{table}"
+    );
+    let svg = String::from_utf8_lossy(&rising[1]);
+    assert!(svg.contains("best") && !svg.contains("no places"), "{svg}");
+}
+
 #[test]
 fn what_makes_no_map_is_refused_and_leaves_nothing() {
     let here = workplace();

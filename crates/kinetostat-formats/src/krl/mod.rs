@@ -1,8 +1,8 @@
 //! KUKA KRL: programs and data lists read together, and what the writer must know of the language.
 //!
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`touched`]),
-//! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`]) in the order in which they run ([`walking`], [`calls`],
+//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`moving_settings`], [`touched`]),
+//! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`], [`speed_place`], [`with_list`]) in the order in which they run ([`walking`], [`calls`],
 //! [`resolve`], [`unsettled`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
 //! Source: KUKA, Expert Programming KR C2 / KR C3 (KSS 5.x), and KUKA System Software 8.x, Operating and Programming
@@ -18,11 +18,13 @@ pub(crate) mod kept;
 pub(crate) mod lex;
 pub(crate) mod loads;
 pub(crate) mod motion;
+pub(crate) mod moving_settings;
 pub(crate) mod parser;
 pub(crate) mod reader;
 pub(crate) mod resolve;
 pub(crate) mod role;
 pub(crate) mod settings;
+pub(crate) mod speed_place;
 pub(crate) mod state;
 pub(crate) mod steps;
 pub(crate) mod symbols;
@@ -35,4 +37,5 @@ pub(crate) mod unsettled;
 pub(crate) mod usage;
 pub(crate) mod values;
 pub(crate) mod walking;
+pub(crate) mod with_list;
 pub(crate) mod writing;

@@ -6,13 +6,14 @@ use nalgebra::Vector3;
 
 use crate::krl::behind_ends::rest_of;
 use crate::krl::lex::TokenFile;
-use crate::krl::settings::Setter;
+use crate::krl::speed_place::SpeedPlace;
 use crate::krl::state::{Settings, State, Thing};
 use crate::krl::steps::{by_step, step_of};
 use crate::krl::table::{Ends, MotionRow};
 use crate::krl::targets::{End, Targets};
 use crate::krl::usage::ends_of;
 use crate::krl::values::{Reason, Values};
+use crate::krl::with_list::with;
 use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Speed, Zone};
 use crate::model::site::{MotionSite, TargetSite};
@@ -27,8 +28,7 @@ pub(crate) struct Followed {
     pub state: State,
     /// Which rounding it asks for.
     pub rounding: Option<Thing>,
-    /// Its own WITH states the speed.
-    pub own_speed: bool,
+    pub speed_place: SpeedPlace,
     /// By how much its end is off the pose before, in the axes of the base, mm.
     pub step_mm: Option<Vector3<f64>>,
     /// Members that its end leaves open, and those of the pose on its circle.
@@ -41,6 +41,8 @@ pub(crate) struct Statement<'r> {
     pub row: &'static MotionRow,
     pub routine: usize,
     pub tokens: &'r Range<usize>,
+    /// It stands in a spline block.
+    pub in_block: bool,
 }
 
 /// What a statement does, or why it is refused.
@@ -56,6 +58,7 @@ pub(crate) fn follow(
         row,
         routine,
         tokens,
+        in_block,
     } = *statement;
     let file = values.file(routine);
     let ends = ends_of(file, tokens, row.ends);
@@ -63,9 +66,8 @@ pub(crate) fn follow(
     are_apart(file, (row, tokens), &ends, &end_tokens)?;
     let behind = behind_end(file, row, end_tokens.end)?;
     let rest = rest_of(file, behind..tokens.end)?;
-    let speed_before = state.get(Thing::Speed);
     with((values, settings, routine), &rest.with, &mut state)?;
-    let own_speed = state.get(Thing::Speed) != speed_before;
+    let speed_place = SpeedPlace::of(file, &end_tokens, &rest.with, in_block);
     let (step_mm, end) = match row.ends {
         Ends::Step => {
             let step = step_of(file, &end_tokens)?;
@@ -129,7 +131,7 @@ pub(crate) fn follow(
         routine,
         state,
         rounding: rest.rounding,
-        own_speed,
+        speed_place,
         step_mm,
         open: end.open,
         via_open,
@@ -181,29 +183,6 @@ fn behind_end(file: &TokenFile<'_>, row: &MotionRow, mut behind: usize) -> Resul
         behind += 1;
     }
     Ok(behind)
-}
-
-/// Takes what WITH puts in force.
-pub(crate) fn with(
-    (values, settings, routine): (&Values<'_>, &mut Settings, usize),
-    tokens: &Range<usize>,
-    state: &mut State,
-) -> Result<(), Reason> {
-    let file = values.file(routine);
-    let mut start = tokens.start;
-    while start < tokens.end {
-        let end = file.find(start..tokens.end, b',').unwrap_or(tokens.end);
-        if let Some(equals) = file.assign(&(start..end)) {
-            let mut setter = Setter {
-                values,
-                settings,
-                routine,
-            };
-            setter.assign(&(start..end), equals, state)?;
-        }
-        start = end + 1;
-    }
-    Ok(())
 }
 
 /// A frame that nothing before it sets.

@@ -14,7 +14,7 @@ use crate::model::frame::{Frame, FrameUse};
 use crate::model::motion::{Motion, MotionKind, Runs, Zone};
 use crate::model::outside_call::OutsideCall;
 use crate::model::program::Finding;
-use crate::model::site::{Declaration, SpeedSite, TargetSite};
+use crate::model::site::{Declaration, TargetSite};
 use crate::model::target::{PoseTarget, Target};
 use crate::options::UnknownTargets;
 
@@ -93,7 +93,7 @@ impl Resolver<'_, '_> {
         let Followed {
             mut motion,
             rounding,
-            own_speed,
+            speed_place,
             step_mm,
             open,
             via_open,
@@ -118,11 +118,8 @@ impl Resolver<'_, '_> {
             let source = self.values.files[motion.file].source;
             let start = motion.span.start;
             let line_end = [source.line_ending(), source.indentation(start)].concat();
-            motion.site.speed = (!own_speed && speed.mm_per_s.is_some()).then(|| SpeedSite {
-                span: start..start,
-                before: "$VEL.CP=".to_owned(),
-                after: format!("/1000.0{}", String::from_utf8_lossy(&line_end)),
-            });
+            let line_end = String::from_utf8_lossy(&line_end);
+            motion.site.speed = (speed.mm_per_s).and_then(|_| speed_place.site(start, &line_end));
         }
         if let Some(thing) = rounding
             && let Some(number) = self.settings.numbers.get(state.get(thing))

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::krl::aggregate::{aggregate_of, number_of};
 use crate::krl::lex::TokenFile;
+use crate::krl::moving_settings::{EXTERNAL_TOOL, TAKE_OUT, moves_no_points};
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
 use crate::krl::turning::{
@@ -25,11 +26,6 @@ const ROUNDINGS: [(&str, Thing); 3] = [
     ("CPTP", Thing::Percent),
     ("CVEL", Thing::VelocityPercent),
 ];
-
-/// The tool stands still and the part is in the hand: base and tool change their parts.
-const EXTERNAL_TOOL: &str =
-    "the tool stands still and the robot holds the part (#TCP), which is not followed";
-const TAKE_OUT: &str = "take the motions of such a tool into a program of their own";
 
 /// What an assignment to a name may change.
 pub(crate) fn touched(file: &TokenFile<'_>, at: usize) -> Things {
@@ -130,9 +126,7 @@ impl Setter<'_, '_> {
                 called.is_some(),
                 state,
             ),
-            b"$IPO_MODE" if file.text(&value).to_uppercase().contains("#TCP") => {
-                return Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT));
-            }
+            b"$IPO_MODE" if called.is_some() => self.mode_of_point(&argument)?,
             b"$ORI_TYPE" | b"$CIRC_TYPE" => {
                 turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
             }
@@ -167,9 +161,20 @@ impl Setter<'_, '_> {
                 });
                 auxiliary_turn(&file.text(tokens), of_data.as_deref())?;
             }
-            _ => {}
+            _ => moves_no_points(file, (&name, tokens, &value))?,
         }
         Ok(())
+    }
+
+    /// `$IPO_MODE=SIPO_MODE(FP1.IPO_FRAME)`.
+    fn mode_of_point(&self, argument: &Range<usize>) -> Result<(), Reason> {
+        let file = self.values.file(self.routine);
+        let end = file.find(argument.clone(), b'.').unwrap_or(argument.end);
+        let point = self.values.point_data(self.routine, &(argument.start..end));
+        match point.is_some_and(|point| point.is_external) {
+            true => Err((EXTERNAL_TOOL.to_owned(), TAKE_OUT)),
+            false => Ok(()),
+        }
     }
 
     /// `$APO.CDIS=3`, `$APO={CDIS 3}`, `$APO=SAPO(LCPDAT1)`.

@@ -59,6 +59,37 @@ pub(crate) const OPERATORS: [&str; 15] = [
     "CASE", "WHEN", "DO",
 ];
 
+/// Functions of the controller that change nothing of what they are given: of the inline forms, and of numbers.
+const READERS: [&str; 22] = [
+    "SVEL_CP",
+    "SVEL_JOINT",
+    "SACC_CP",
+    "SACC_JOINT",
+    "STOOL2",
+    "SBASE",
+    "SLOAD",
+    "SIPO_MODE",
+    "SORI_TYP",
+    "SCIRC_TYP",
+    "SCIRC_M",
+    "SAPO",
+    "SAPO_PTP",
+    "SJERK",
+    "SGEAR_JERK",
+    "ABS",
+    "SQRT",
+    "SIN",
+    "COS",
+    "TAN",
+    "ACOS",
+    "ATAN2",
+];
+
+/// Whether a call of such a function leaves its arguments as they are.
+pub(crate) fn only_reads(called: &Name) -> bool {
+    READERS.iter().any(|name| called.is(name))
+}
+
 const fn motion(
     name: &'static str,
     ends: Ends,

@@ -7,7 +7,7 @@ use crate::krl::assigned_frames::{Assignment, MOST};
 use crate::krl::lex::{Kind, TokenFile};
 use crate::krl::role::Role;
 use crate::krl::symbols::{Meaning, Symbols};
-use crate::krl::table::{Ends, motion_row};
+use crate::krl::table::{Ends, motion_row, only_reads};
 use crate::krl::tree::Statement;
 use crate::text::name::Name;
 
@@ -242,7 +242,7 @@ impl Notes<'_, '_, '_, '_> {
                     .get(argument)
                     .is_none_or(|parameter| parameter.changes)
             }
-            None => true,
+            None => !only_reads(called),
         }
     }
 }

@@ -201,6 +201,7 @@ impl Reader<'_> {
             span: span.clone(),
             before: String::new(),
             after: "mm/sec".to_owned(),
+            unit_mm_per_s: 1.0,
         });
         Some((self.speed_text(&span, mm_per_s), site, false))
     }

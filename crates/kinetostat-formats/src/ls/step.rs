@@ -101,8 +101,36 @@ fn inner(bytes: &[u8], span: Range<usize>, depth: usize) -> Step {
         ("END", _) => Step::End,
         ("ABORT", _) => Step::Abort,
         ("RUN", _) => Step::Run,
+        ("$", _) if sets_frame(text) => Step::Refused(FRAME_OF_SYSTEM),
         _ => Step::Carried,
     }
+}
+
+const FRAME_OF_SYSTEM: Reason = (
+    "a system variable moves a frame or a tool, and all points with it",
+    "set the frame on the controller and take this statement into a program of its own",
+);
+
+/// Members of system variables that hold frames and tools, and their numbers.
+const FRAMES_OF_SYSTEM: [&[u8]; 7] = [
+    b"UFRAME",
+    b"UTOOL",
+    b"UFRAMENUM",
+    b"UTOOLNUM",
+    b"MNUFRAME",
+    b"MNUTOOL",
+    b"TCPFRAME",
+];
+
+/// Whether an assignment to a system variable sets a frame: `$GROUP[1].$UFRAME=PR[1]`.
+fn sets_frame(text: &[u8]) -> bool {
+    let set = text.split(|byte| *byte == b'=').next().unwrap_or_default();
+    let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let names = set.split(|byte| !is_part(byte));
+    names.into_iter().any(|name| {
+        let known = FRAMES_OF_SYSTEM.iter();
+        known.into_iter().any(|one| name.eq_ignore_ascii_case(one))
+    })
 }
 
 /// Deepest nesting of conditions in one instruction.

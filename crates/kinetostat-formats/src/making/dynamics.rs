@@ -42,7 +42,13 @@ fn states(language: Language, words: &[String]) -> bool {
     match (language, words.as_slice()) {
         (Language::Krl, ["VEL", "ORI1" | "ORI2", ..]) => true,
         (Language::Krl, ["BAS", what, ..]) => OF_BAS.contains(what),
-        (Language::Krl, [first, _, ..]) => OF_KRL.contains(first),
+        (Language::Krl, [first, rest @ ..]) => {
+            // Behind WITH they hold for a motion.
+            let with = rest.iter().position(|word| *word == "WITH");
+            let own = with.map_or(&[][..], |with| &rest[with..]);
+            (OF_KRL.contains(first) && !rest.is_empty())
+                || own.iter().any(|word| OF_KRL.contains(word))
+        }
         (Language::Rapid, all) => all.iter().any(|word| OF_RAPID.contains(word)),
         (Language::FanucLs, [first, ..]) if OF_TP.contains(first) => true,
         // Behind the zone of a motion.

@@ -60,6 +60,13 @@ fn of_form(language: Language) -> &'static [&'static str] {
             "FRAME ",
             "POS ",
             "$ACC",
+            // Followed, or refused where the tool would go or turn otherwise.
+            "SPLINE",
+            "ENDSPLINE",
+            "$IPO_MODE",
+            "$ORI_TYPE",
+            "$CIRC_TYPE",
+            "$CIRC_MODE",
         ],
         Language::FanucLs => &["/", "UFRAME_NUM", "UTOOL_NUM"],
         Language::Apt => &[

@@ -136,6 +136,8 @@ pub(crate) struct SpeedSite {
     pub span: Range<usize>,
     pub before: String,
     pub after: String,
+    /// How many mm/s one of the number is.
+    pub unit_mm_per_s: f64,
 }
 
 /// Where the parts of a motion statement stand.

@@ -123,28 +123,29 @@ impl Correctable<'_> {
     fn pieces(&self, index: usize, plan: &PlannedMove, half_mm: f64) -> Vec<Piece> {
         let motion = &self.path.path.moves[index];
         let number = self.path.motions[index];
-        // The text of an arc changes with its start.
+        let own = &self.program.motions[number];
+        // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
+        let same_speed =
+            |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
+        // The text of an arc changes with its start, and so does a speed where the way becomes longer or shorter.
         let unchanged = plan.pieces.len() == 1
             && motion.curve == Curve::Line
             && plan.pieces.iter().all(|piece| {
                 let turned = piece.orientation.zip(motion.orientation(1.0));
                 (piece.position_mm - motion.end).amax() <= half_mm
+                    && same_speed(piece.speed_factor)
                     && turned.is_none_or(|(to, from)| self.path.turned(&to, &from) <= SAME_RAD)
             });
         if plan.kept || unchanged {
             return Vec::new();
         }
         let to_own = self.work_object_from_path(number);
-        let own = &self.program.motions[number];
         // Between two ends the tool stands as halfway between them.
         let mut last = motion.orientation(0.0);
         let mut halfway = |to: Option<UnitQuaternion<f64>>| {
             let from = std::mem::replace(&mut last, to);
             from.zip(to).map(|(from, to)| from.slerp(&to, 0.5))
         };
-        // A speed that stands elsewhere (FEDRAT) is not another one from piece to piece.
-        let same_speed =
-            |factor: f64| own.site.speed.is_none() || (factor - 1.0).abs() <= SAME_SPEED;
         let angles = by_angles(motion);
         let mut pieces: Vec<Piece> = plan
             .pieces

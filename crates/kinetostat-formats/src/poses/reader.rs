@@ -350,6 +350,7 @@ impl Reader<'_> {
                         span,
                         before: String::new(),
                         after: String::new(),
+                        unit_mm_per_s: 1.0,
                     }),
                 zone: None,
                 external,

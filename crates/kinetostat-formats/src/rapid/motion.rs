@@ -198,6 +198,7 @@ fn speed(
         span,
         before: "[".to_owned(),
         after: format!(",{others}]"),
+        unit_mm_per_s: 1.0,
     });
     let mm_per_s = known.map(|speed| speed[0]);
     (Speed { mm_per_s, text }, site, others)

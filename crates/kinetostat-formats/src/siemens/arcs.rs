@@ -138,6 +138,7 @@ pub(crate) fn arc(
 /// The angle of an arc over a chord by its radius or opening angle, rad.
 fn opened(chord: f64, stated: &Stated) -> Result<f64, String> {
     match (stated.radius, stated.opening) {
+        (Some(radius), None) if radius.abs() < SAME_MM => Err("its radius is zero".to_owned()),
         (Some(radius), None) => {
             let half = 0.5 * chord / radius.abs();
             if half > 1.0 + RADIUS_TOLERANCE_MM / radius.abs() || half.is_nan() {

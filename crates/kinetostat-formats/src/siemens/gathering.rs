@@ -158,9 +158,9 @@ impl Reader<'_> {
             "F" => {
                 let number = matches!(value, Expression::Number(_)).then(|| span.clone());
                 words.feed = Some((item.span.clone(), number));
-                if words.purpose != Purpose::Dwell
-                    && let Some(value) = self.number(&item.span, value)
-                {
+                if words.purpose == Purpose::Dwell {
+                    self.not_below_zero(item, value, "the dwell");
+                } else if let Some(value) = self.number(&item.span, value) {
                     let text = String::from_utf8_lossy(self.file.part(&item.span)).into_owned();
                     self.state.feed = Some(Feed { value, text });
                     self.state.feed_stated = true;
@@ -168,10 +168,7 @@ impl Reader<'_> {
             }
             "T" => self.tool(item, value),
             "D" => {
-                let edge = self
-                    .number(&item.span, value)
-                    .and_then(whole)
-                    .map(u64::from);
+                let edge = self.whole_number(item, value).map(u64::from);
                 if edge != self.state.edge {
                     // The tool's length counts otherwise: along it the tip is elsewhere.
                     match self.state.oriented {
@@ -208,8 +205,13 @@ impl Reader<'_> {
                 };
                 words.corner = Some((item.span.clone(), cut));
             }
-            "S" | "H" => {}
-            _ if numbered && matches!(first, b'S' | b'H' | b'M') => {}
+            "S" => self.not_below_zero(item, value, "S"),
+            "H" => {}
+            _ if numbered && first == b'S' => self.not_below_zero(item, value, "S"),
+            _ if numbered && first == b'M' => {
+                self.whole_number(item, value);
+            }
+            _ if numbered && first == b'H' => {}
             _ if numbered && first == b'T' => self.tool(item, value),
             _ if name.len() == 1 && OTHER_AXES.contains(&first)
                 || numbered
@@ -227,7 +229,7 @@ impl Reader<'_> {
     }
 
     fn m_word(&mut self, item: &Item, value: &Expression, words: &mut Words) {
-        match self.number(&item.span, value).and_then(whole) {
+        match self.whole_number(item, value) {
             Some(6) => words.changes_tool = true,
             Some(2 | 17 | 30) => {
                 words.at_end.push(item.span.clone());
@@ -238,8 +240,37 @@ impl Reader<'_> {
         }
     }
 
+    /// The number of a code, a tool or an edge.
+    fn whole_number(&mut self, item: &Item, value: &Expression) -> Option<u32> {
+        let number = self.number(&item.span, value)?;
+        let found = whole(number);
+        if found.is_none() {
+            self.fault(
+                &item.span,
+                format!("{number} is no whole number of zero or above"),
+                "mend the number",
+            );
+        }
+        found
+    }
+
+    /// Times and speeds, as far as they are known.
+    fn not_below_zero(&mut self, item: &Item, value: &Expression, what: &str) {
+        let number = self.variables.number(self.file.bytes(), value);
+        if let Ok(number) = number
+            && number < 0.0
+        {
+            let reason = format!("{what} is below zero ({number})");
+            self.fault(&item.span, reason, "write zero or more");
+        }
+    }
+
     fn tool(&mut self, item: &Item, value: &Expression) {
         let name = match self.variables.value(self.file.bytes(), value) {
+            Ok(Value::Number(number)) if whole(number).is_none() => {
+                self.whole_number(item, value);
+                return;
+            }
             Ok(Value::Number(number)) => format!("T{number}"),
             Ok(Value::Text(text)) => format!("T {}", String::from_utf8_lossy(&text)),
             Err(why) => {

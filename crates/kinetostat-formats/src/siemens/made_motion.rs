@@ -107,6 +107,7 @@ impl Reader<'_> {
         self.note_axes(&block.span);
         self.out.motions.push(motion);
         self.out.written.push(written);
+        self.count_from(words, end);
         self.state.place = end;
         self.state.last = Some(self.out.motions.len() - 1);
         self.state.code_stated = false;
@@ -263,6 +264,7 @@ fn site_of(
             span: feed_word(),
             before: "F".to_owned(),
             after: String::new(),
+            unit_mm_per_s: 1.0,
         }),
         zone: None,
         external: Vec::new(),

@@ -109,8 +109,6 @@ impl Reader<'_> {
             })
         });
         let frame = change.applied(&self.state.frame, values, words.in_plane, self.state.normal);
-        let between = frame.inverse() * self.state.frame;
-        self.note_shift(between.translation.vector.into());
         self.state.set_frame(frame);
     }
 
@@ -155,17 +153,23 @@ impl Reader<'_> {
     }
 
     fn motion(&mut self, block: &Block, words: &Words, stated: (bool, bool)) {
-        let start = self.state.place;
-        self.note_steps(words);
         if self.no_place_by_axes(block) {
             let reason = "its places are not those of the tool's tip in the part";
             return self.unknown(block, words, stated, [None; 3], reason);
         }
+        let from = self.steps_from(words);
+        let start = from.unwrap_or(self.state.place);
         let mut end = [0, 1, 2].map(|axis| match &words.axes[axis] {
             Some(word) if word.step => start[axis].map(|at| at + word.mm),
             Some(word) => Some(word.mm),
-            None => start[axis],
+            None => self.state.place[axis],
         });
+        if let Err((reason, axes)) = from {
+            for (end, unknown) in end.iter_mut().zip(axes) {
+                *end = end.filter(|_| !unknown);
+            }
+            return self.unknown(block, words, stated, end, reason);
+        }
         if words.has_arc() && !self.state.code.is_arc() {
             self.fault(
                 &block.span,

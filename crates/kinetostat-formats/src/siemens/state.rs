@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::standing::Standing;
 
@@ -88,6 +88,13 @@ pub(crate) struct OtherAxis {
     pub elsewhere: bool,
 }
 
+/// The number of an axis where its last word was, and how the frame of it was turned.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Counted {
+    pub number_mm: f64,
+    pub turn: UnitQuaternion<f64>,
+}
+
 /// What is in force.
 #[derive(Debug, Clone)]
 pub(crate) struct State {
@@ -127,8 +134,8 @@ pub(crate) struct State {
     pub direction: Option<Vector3<f64>>,
     /// Where the tool is, in the frame's axes, mm.
     pub place: [Option<f64>; 3],
-    /// Axes along which the frame was shifted since a word stated where they are.
-    pub shifted: [bool; 3],
+    /// Numbers of the axes' last words, from which steps count.
+    pub counted: [Option<Counted>; 3],
     /// The last motion.
     pub last: Option<usize>,
     pub others: BTreeMap<Vec<u8>, OtherAxis>,
@@ -167,7 +174,7 @@ impl State {
             standing,
             direction: None,
             place: [None; 3],
-            shifted: [false; 3],
+            counted: [None; 3],
             last: None,
             others: BTreeMap::new(),
             ended: false,

@@ -2,33 +2,75 @@
 //!
 //! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, fundamentals, "Incremental dimensions (G91, IC)": with SD42440
 //! $SC_FRAME_OFFSET_INCR_PROG = 0 the first step of an axis behind a frame change is gone alone; with 1 the offset of the frame as well.
+//! Controls come with 1 (Siemens, list manual, setting data; CEAD's open interpreter of SINUMERIK programs takes it so, too), and so it is
+//! taken here: a step adds to the number of its axis. Of frames that are turned the manuals say nothing, and neither is said here.
 
 use crate::model::program::Finding;
+use crate::siemens::state::Counted;
 use crate::siemens::walker::Reader;
 use crate::siemens::words::Words;
 use crate::text::line_words::in_words;
 
 /// Shift of a frame that is none, mm.
 const NO_SHIFT_MM: f64 = 1e-9;
+/// Turn of a frame that is none, rad.
+const NO_TURN: f64 = 1e-9;
+
+/// Why the end of a step is not known.
+const TURNED: &str = "a step (G91, IC) is the first word of its axis behind a frame that is turned otherwise (ROT, AROT), and from where the machine counts it is not documented";
+const ON_ARC: &str = "a step (G91, IC) of an arc is the first word of its axis behind a frame (TRANS, ATRANS), and whether the machine goes the offset of the frame with it is a setting (SD42440 $SC_FRAME_OFFSET_INCR_PROG)";
 
 impl Reader<'_> {
-    /// A frame takes the place of another one: by how much its zero is elsewhere along each of its axes.
-    pub(crate) fn note_shift(&mut self, shift_mm: [f64; 3]) {
-        for (open, shift) in self.state.shifted.iter_mut().zip(shift_mm) {
-            *open |= shift.abs() > NO_SHIFT_MM;
+    /// From which numbers the steps of a motion count: those of the axes' last words.
+    ///
+    /// # Errors
+    /// Why that is not known, and of which axes.
+    pub(crate) fn steps_from(
+        &mut self,
+        words: &Words,
+    ) -> Result<[Option<f64>; 3], (&'static str, [bool; 3])> {
+        let mut from = self.state.place;
+        let mut unknown = [false; 3];
+        let mut reason = TURNED;
+        for (axis, word) in words.axes.iter().enumerate() {
+            let (Some(word), Some(counted), Some(place)) =
+                (word, self.state.counted[axis], from[axis])
+            else {
+                continue;
+            };
+            if !word.step || (counted.number_mm - place).abs() <= NO_SHIFT_MM {
+                continue;
+            }
+            let turn = counted.turn.angle_to(&self.state.frame.rotation);
+            if turn > NO_TURN || self.state.code.is_arc() {
+                unknown[axis] = true;
+                if turn <= NO_TURN {
+                    reason = ON_ARC;
+                }
+                continue;
+            }
+            from[axis] = Some(counted.number_mm);
+            let line = self.file.line_of(word.word.start);
+            self.out.steps_behind_frames.push(line);
+        }
+        match unknown.contains(&true) {
+            true => Err((reason, unknown)),
+            false => Ok(from),
         }
     }
 
-    /// Notes a motion that steps along an axis which no place was stated of since its frame was shifted.
-    pub(crate) fn note_steps(&mut self, words: &Words) {
-        for (axis, word) in words.axes.iter().enumerate() {
-            let Some(word) = word else {
+    /// A motion ends: steps count from there, but along axes that no word was of.
+    pub(crate) fn count_from(&mut self, words: &Words, end: [Option<f64>; 3]) {
+        let state = &mut self.state;
+        for axis in 0..3 {
+            let stays = words.axes[axis].is_none() && end[axis] == state.place[axis];
+            if stays && state.counted[axis].is_some() && end[axis].is_some() {
                 continue;
-            };
-            if std::mem::take(&mut self.state.shifted[axis]) && word.step {
-                let line = self.file.line_of(word.word.start);
-                self.out.steps_behind_frames.push(line);
             }
+            state.counted[axis] = end[axis].map(|number_mm| Counted {
+                number_mm,
+                turn: state.frame.rotation,
+            });
         }
     }
 }
@@ -47,7 +89,7 @@ pub(crate) fn finding_of_steps(file: usize, lines: &[usize]) -> Option<Finding> 
         file,
         line: first,
         message: format!(
-            "a step (G91, IC) is the first word of its axis behind a frame (TRANS, ATRANS, ROT, AROT), and how far the machine goes is a setting, SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 0 it goes the step alone: this is what is taken here (the example in Siemens' programming manual sets it to 0 explicitly). With 1 it goes the step and the offset of the frame: then all places from here to the next absolute one are elsewhere by that offset. Check the setting, or write an absolute place behind the frame{further}"
+            "a step (G91, IC) is the first word of its axis behind a frame (TRANS, ATRANS, ROT, AROT), and how far the machine goes is a setting, SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 1 it goes the step and the offset of the frame: controls come with it, and this is what is taken here. With 0 it goes the step alone: then all places from here to the next absolute one are elsewhere by that offset. Check the setting, or write an absolute place behind the frame{further}"
         ),
     })
 }

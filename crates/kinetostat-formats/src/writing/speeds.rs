@@ -27,7 +27,13 @@ pub(super) fn speed_of<'m>(
             "state the speed as a number, or keep it",
         ));
     };
-    let number = format!("{:.4}", speed * piece.speed_factor);
+    // A tenth of a um/s, whatever the unit.
+    let decimals = match site.unit_mm_per_s > 1.0 {
+        true => 7,
+        false => 4,
+    };
+    let number = speed * piece.speed_factor / site.unit_mm_per_s;
+    let number = format!("{number:.decimals$}");
     let number = number.trim_end_matches('0').trim_end_matches('.');
     let text = [&site.before, number, &site.after].concat();
     Ok(Some((site, text.into_bytes())))

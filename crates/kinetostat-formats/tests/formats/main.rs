@@ -36,4 +36,5 @@ mod real_files;
 mod refused_runs;
 mod refusing;
 mod siemens;
+mod starts_alone;
 mod turns_in_place;

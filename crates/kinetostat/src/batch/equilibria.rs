@@ -24,6 +24,9 @@ use crate::spatial::{Directions, Pose, Wrench};
 pub struct BatchEquilibrium {
     /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
     pub tool: Table,
+    /// Where the tool is commanded as the machine is drawn, numbers as of `tool`: where commands were given. Empty where poses
+    /// were.
+    pub targets: Table,
     /// Coordinates of all limbs (m, rad), limb after limb in their chains' order.
     pub coordinates: Table,
     /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`].
@@ -110,6 +113,7 @@ impl BatchEquilibrium {
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
         let stiffness = if query >= Details::Stiffness { 36 } else { 0 };
         self.tool.reset(12, count);
+        self.targets.reset(0, count);
         self.coordinates.reset(coordinates, count);
         self.commands.reset(commands, count);
         self.actuator_forces.reset(commands, count);
@@ -150,10 +154,21 @@ impl BatchEquilibrium {
         pose(&self.tool, posture)
     }
 
+    /// Where the tool of one posture is commanded, base from tool; `None` where poses were given, and without an answer.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    #[must_use]
+    pub fn target_pose(&self, posture: usize) -> Option<Pose> {
+        let known = self.targets.width() > 0 && self.status[posture].is_solved();
+        known.then(|| pose(&self.targets, posture))
+    }
+
     fn set(&mut self, i: usize, answer: Option<&Scalar>) {
         let Some(answer) = answer else {
             for table in [
                 &mut self.tool,
+                &mut self.targets,
                 &mut self.coordinates,
                 &mut self.commands,
                 &mut self.actuator_forces,
@@ -164,10 +179,8 @@ impl BatchEquilibrium {
             }
             return;
         };
-        let r = answer.tool.rotation.to_rotation_matrix();
-        let p = answer.tool.translation.vector;
-        let number = |k: usize| if k < 9 { r[(k / 3, k % 3)] } else { p[k - 9] };
-        self.tool.set_row(i, number);
+        self.tool.set_row(i, numbers(&answer.tool));
+        self.targets.set_row(i, numbers(&answer.target));
         self.coordinates.set_row(i, |k| answer.coordinates[k]);
         self.commands.set_row(i, |k| answer.commands[k]);
         self.actuator_forces.set_row(i, |k| answer.forces[k]);
@@ -522,9 +535,14 @@ impl Batch {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, query, places.len());
+        if matches!(places, Places::Joints { .. }) {
+            out.targets.reset(12, places.len());
+        }
         if query != Details::Stability || self.stability_by_kernels() {
-            let [targets, tips] = &mut [0; 2].map(|_| Table::none(places.len()));
-            self.vectorised(places, wrenches, None, out, [targets, tips]);
+            let mut targets = std::mem::take(&mut out.targets);
+            let beside = [&mut targets, &mut Table::none(places.len())];
+            self.vectorised(places, wrenches, None, out, beside);
+            out.targets = targets;
         }
         let scalar = |i: usize| {
             let posture = self.posture(places, i)?;
@@ -540,6 +558,12 @@ impl Batch {
         }
         Ok(())
     }
+}
+
+/// The 12 numbers of a pose.
+fn numbers(pose: &Pose) -> impl Fn(usize) -> f64 + use<> {
+    let (r, p) = (pose.rotation.to_rotation_matrix(), pose.translation.vector);
+    move |k| if k < 9 { r[(k / 3, k % 3)] } else { p[k - 9] }
 }
 
 /// A pose among 12 numbers each.

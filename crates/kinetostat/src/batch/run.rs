@@ -145,7 +145,8 @@ impl WithSimd for Job<'_> {
                         let wrench = group.wrench(simd, wrenches);
                         let start = match places {
                             Places::Joints { commands, each } => {
-                                machine.start_at_joints(simd, &group, commands, each)
+                                let aim = !answers.targets.is_empty();
+                                machine.start_at_joints(simd, &group, (commands, each), aim)
                             }
                             Places::Known {
                                 poses,

@@ -33,6 +33,7 @@ impl Reader<'_> {
             self.state.cycle = Some(cycle);
         }
         match (cycle, part) {
+            (9, 1..) => self.not_below_zero(&words[2..], &[], "the dwell"),
             (7 | 8 | 10 | 11, _) => {
                 let change = change(cycle, part, &words[2..], self.unit_mm);
                 self.coordinates(change, span);

@@ -162,6 +162,7 @@ impl Reader<'_> {
                     span: span.start..span.start,
                     before: String::new(),
                     after: String::new(),
+                    unit_mm_per_s: 1.0,
                 }),
                 zone: None,
                 external: Vec::new(),

@@ -34,6 +34,8 @@ impl Reader<'_> {
     }
 
     pub(crate) fn tool(&mut self, words: &[Word], span: &Range<usize>) {
+        self.not_below_zero(&words[1..], &["CALL", "DEF"], "the number of the tool");
+        self.not_below_zero(&words[1..], &["S"], "the speed of the spindle");
         let Some(call) = words.get(1).filter(|word| word.is("CALL")) else {
             // TOOL DEF.
             return;
@@ -68,6 +70,16 @@ impl Reader<'_> {
         if name != self.state.tool || longer {
             self.state.tool = name;
             self.state.lost();
+        }
+    }
+
+    /// Refuses words of these names, or all, with numbers below zero.
+    pub(crate) fn not_below_zero(&mut self, words: &[Word], names: &[&str], what: &str) {
+        let named = |word: &&Word| names.is_empty() || names.iter().any(|name| word.is(name));
+        let below = |word: &&Word| word.value().is_some_and(|value| value < 0.0);
+        if let Some(word) = words.iter().filter(named).find(below) {
+            let reason = format!("{what} is below zero");
+            self.fault(&word.span.clone(), reason, "mend the number");
         }
     }
 

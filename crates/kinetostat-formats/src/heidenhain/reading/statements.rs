@@ -101,6 +101,7 @@ impl Reader<'_> {
             "COUNT",
         ];
         self.tip_function(words);
+        self.not_below_zero(&words[1..], &["TIME"], "the dwell");
         let named = words.get(1);
         if !named.is_some_and(|word| known.iter().any(|name| word.is(name))) {
             self.fault(span, "what this function moves is not known", "take it out");

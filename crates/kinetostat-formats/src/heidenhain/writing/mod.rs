@@ -1,6 +1,6 @@
 //! From motions to blocks.
 //!
-//! [`write`] goes through the motions; those without [`pieces`] are [`kept`], or state what they took over. A [`block`] becomes
+//! [`mod@write`] goes through the motions; those without [`pieces`] are [`kept`], or state what they took over. A [`block`] becomes
 //! a piece with its [`feed`], its [`direction`] or [`angles`] and its [`words`], or an [`arc`] about a [`centre`] with a pole of its own ([`poles`]); what the walk knows stands in [`writer`].
 
 pub(crate) mod angles;

@@ -5,12 +5,22 @@ use std::ops::Range;
 use crate::error::excerpt;
 use crate::krl::calls::Call;
 use crate::krl::state::{State, Thing};
-use crate::krl::table::row;
+use crate::krl::table::{OPERATORS, row};
 use crate::krl::walking::walker::{DEEPEST, Walker};
 use crate::model::motion::Runs;
 use crate::model::outside_call::OutsideCall;
 use crate::table::Treatment;
 use crate::text::name::Name;
+
+/// What motions go by, with the names that programs have for it.
+const IN_FORCE: [(Thing, &str); 6] = [
+    (Thing::Base, "$BASE"),
+    (Thing::Tool, "$TOOL"),
+    (Thing::Speed, "$VEL"),
+    (Thing::Distance, "$APO"),
+    (Thing::PointData, "FDAT_ACT"),
+    (Thing::LinearData, "LDAT_ACT"),
+];
 
 impl Walker<'_, '_> {
     /// Notes a call of a routine; whether it can be followed.
@@ -78,6 +88,28 @@ impl Walker<'_, '_> {
         }
     }
 
+    /// Notes what an interrupt calls that none of the files holds; every program has the first of the names, which stops the robot.
+    fn interrupted_by_outside(&mut self, at: usize, name: &Name) {
+        let file = self.file();
+        if let Some(row) = row(name) {
+            if let Treatment::Refused { reason, remedy } = row.treatment {
+                self.refuse(&(at..at + 1), (reason.to_owned(), remedy));
+            }
+            return;
+        }
+        if name.is("IR_STOPM") || OPERATORS.iter().any(|word| name.is(word)) {
+            return;
+        }
+        self.settings.calls.push(OutsideCall {
+            file: file.index,
+            line: file.source.line_of(file.span(&(at..at + 1)).start),
+            name: Some(excerpt(file.word(at))),
+            speeds_behind: Vec::new(),
+        });
+        // Nothing is lost by it: it is looked up by no slot.
+        self.settings.before_calls.push(State::UNKNOWN);
+    }
+
     /// What `INTERRUPT DECL 3 WHEN condition DO routine()` and `TRIGGER WHEN PATH=0 DELAY=0 DO routine() PRIO=-1` call at any time.
     pub(super) fn interrupting(&mut self, tokens: &Range<usize>) -> Vec<usize> {
         let file = self.file();
@@ -87,15 +119,25 @@ impl Walker<'_, '_> {
                 continue;
             };
             let Some(called) = self.values.symbols.routine(self.now.routine, &name) else {
+                self.interrupted_by_outside(at, &name);
                 continue;
             };
-            if self.touched.routines[called].has(Thing::Place) {
+            let touched = self.touched.routines[called];
+            let changed = IN_FORCE.iter().filter(|(thing, _)| touched.has(*thing));
+            let changed: Vec<&str> = changed.map(|(_, name)| *name).collect();
+            let shown = excerpt(file.word(at));
+            let reason = match (touched.has(Thing::Place), changed.as_slice()) {
+                (true, _) => Some(format!("`{shown}` moves the tool at any time")),
+                (false, []) => None,
+                (false, names) => Some(format!(
+                    "`{shown}` sets {} at any time, and the motions behind it go by what it sets",
+                    names.join(", ")
+                )),
+            };
+            if let Some(reason) = reason {
                 self.refuse(
                     tokens,
-                    (
-                        format!("`{}` moves the tool at any time", excerpt(file.word(at))),
-                        "take the interrupt into a program of its own",
-                    ),
+                    (reason, "take the interrupt into a program of its own"),
                 );
             }
             self.summaries[called].calls.push(Call {

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use crate::krl::motion::{Statement as MotionStatement, follow, with};
+use crate::krl::motion::{Statement as MotionStatement, follow};
 use crate::krl::state::{Slot, State, Thing};
 use crate::krl::table::MotionRow;
 use crate::krl::walking::walker::Walker;
+use crate::krl::with_list::with;
 use crate::model::motion::Zone;
 use crate::text::name::Name;
 
@@ -92,6 +93,7 @@ impl Walker<'_, '_> {
             row,
             routine: self.now.routine,
             tokens,
+            in_block: in_spline,
         };
         let followed = follow(
             &statement,
@@ -106,12 +108,9 @@ impl Walker<'_, '_> {
                 followed.motion.runs = self.now.runs;
                 let site = &mut followed.motion.site;
                 site.indivisible = site.indivisible.or(self.now.along_next.take());
-                if in_spline {
-                    // Segments pass their ends, and only their own WITH states a speed.
-                    followed.own_speed = true;
-                    if followed.motion.zone == Zone::Exact {
-                        followed.motion.zone = Zone::Unstated;
-                    }
+                // Segments pass their ends.
+                if in_spline && followed.motion.zone == Zone::Exact {
+                    followed.motion.zone = Zone::Unstated;
                 }
                 self.motions.push(followed);
                 state.set(Thing::Place, Slot::Is(self.motions.len() - 1));

@@ -96,8 +96,8 @@ impl Syntax for KrlSyntax {
         let row = row_of(program, motion)?;
         let site = &motion.site;
         let mut edits = Edits::default();
-        if let Some(speed) = speed {
-            edits.replace(motion.span.start..motion.span.start, speed);
+        if let (Some(site), Some(speed)) = (&site.speed, speed) {
+            edits.replace(site.span.clone(), speed);
         }
         let straight = row.straight?;
         match (&literals.via, &site.via) {
@@ -131,6 +131,9 @@ impl Syntax for KrlSyntax {
     fn restored_speed(&self, program: &RobotProgram, motion: &Motion) -> Option<(usize, Vec<u8>)> {
         let file = program.files.get(motion.file)?;
         let site = motion.site.speed.as_ref()?;
+        // In a WITH it is that of the motion alone.
+        let is_before = site.span == (motion.span.start..motion.span.start);
+        let site = is_before.then_some(site)?;
         let metres_per_s = motion.speed.mm_per_s? / 1000.0;
         let rest = file.bytes().get(motion.span.end..)?;
         let to_end = rest

@@ -1,7 +1,8 @@
 //! Drilling cycles as blocks: CYCLE81 (centering), CYCLE82 (with dwell), CYCLE83 (deep holes).
 //!
-//! Depths and retracts as Siemens, Programming Manual Cycles, states them. A depth by DPR goes before one by DP, as on the
-//! control.
+//! Depths and retracts as Siemens, Programming Manual Cycles, states them: CYCLE83 withdraws within the hole (VARI=0, chips are broken)
+//! by G1 at the feed of the program, by 1 mm where _VRT states no other way, and out of the hole (VARI=1) by G0. A depth by DPR goes
+//! before one by DP, as on the control.
 
 /// A cycle with its numbers, along the axis across the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +43,9 @@ pub(super) struct Deep {
 /// Most steps of a hole.
 const MOST_STEPS: usize = 1000;
 
+/// Lengths that differ by less are equal: the last bits of a sum divide no step.
+const SAME: f64 = 1e-9;
+
 impl Drilling {
     /// Depths one after the other.
     pub(super) fn depths(&self, deep: &Deep) -> Option<Vec<f64>> {
@@ -68,8 +72,8 @@ impl Drilling {
                 let next = now - way * length;
                 let behind = (next - self.depth) * way;
                 match behind {
-                    _ if behind < 0.0 => self.depth,
-                    _ if behind >= least => next,
+                    _ if behind < -SAME => self.depth,
+                    _ if behind >= least - SAME => next,
                     _ => half,
                 }
             } else {
@@ -77,15 +81,16 @@ impl Drilling {
                     true => shorter,
                     false => length - shorter,
                 };
-                match left - length >= shorter {
-                    true if left > 2.0 * shorter => now - way * length,
-                    true if left > shorter => half,
-                    false if left > length && left > 2.0 * shorter => self.depth + way * shorter,
-                    false if left > length => half,
+                let twice = left > 2.0 * shorter + SAME;
+                match left - length >= shorter - SAME {
+                    true if twice => now - way * length,
+                    true if left > shorter + SAME => half,
+                    false if left > length + SAME && twice => self.depth + way * shorter,
+                    false if left > length + SAME => half,
                     _ => self.depth,
                 }
             };
-            if (now - self.depth).abs() < 1e-9 {
+            if (now - self.depth).abs() < SAME {
                 now = self.depth;
             }
             found.push(now);

@@ -108,12 +108,26 @@ pub(super) fn drilling_of(runner: &Runner<'_>, item: &Item) -> Result<Drilling, 
             withdraws: or_zero(11)? != 0.0,
             back: match back > 0.0 {
                 true => back,
-                false => 1.0,
+                false => BACK_MM / runner.modes.unit_mm(),
             },
             ahead: or_zero(16)?,
         });
     }
     Ok(drilling)
+}
+
+/// By how much CYCLE83 withdraws within a hole where _VRT states nothing, mm.
+const BACK_MM: f64 = 1.0;
+
+/// How far from where it has drilled to it goes on, in units of the program: where _DIS1 states nothing, 0.6 mm down to 30 mm, then a
+/// fiftieth of the depth, at most 7 mm.
+fn ahead_of(deep: &Deep, drilled: f64, unit_mm: f64) -> f64 {
+    let drilled_mm = drilled * unit_mm;
+    match drilled_mm <= 30.0 {
+        _ if deep.ahead > 0.0 => deep.ahead,
+        true => 0.6 / unit_mm,
+        false => (drilled_mm / 50.0).min(7.0) / unit_mm,
+    }
 }
 
 fn dwell(time: f64) -> Option<String> {
@@ -158,12 +172,14 @@ impl Runner<'_> {
                 };
                 let way = (drilling.surface - drilling.depth).signum();
                 for (index, depth) in depths.iter().enumerate() {
-                    let feed = match (index, feed) {
+                    // The feed of the program is stated again in the first block by G1 behind the first step.
+                    let further = feed.map_or(String::new(), |feed| format!(" F{}", number(feed)));
+                    let stated = match (index, feed) {
                         (0, Some(feed)) => format!(" F{}", number(feed * deep.feed_share)),
-                        (1, Some(feed)) => format!(" F{}", number(feed)),
+                        (1, _) if deep.withdraws => further.clone(),
                         _ => String::new(),
                     };
-                    blocks.push(format!("G1 {}{feed}", to(*depth)));
+                    blocks.push(format!("G1 {}{stated}", to(*depth)));
                     if index + 1 == depths.len() {
                         blocks.extend(dwell(drilling.dwell));
                         break;
@@ -173,14 +189,11 @@ impl Runner<'_> {
                         blocks.push(format!("G0 {}", to(drilling.begin)));
                         blocks.extend(dwell(deep.dwell_above));
                         let drilled = (drilling.surface - depth).abs();
-                        let ahead = match drilled <= 30.0 {
-                            _ if deep.ahead > 0.0 => deep.ahead,
-                            true => 0.6,
-                            false => (drilled / 50.0).min(7.0),
-                        };
+                        let ahead = ahead_of(deep, drilled, self.modes.unit_mm());
                         blocks.push(format!("G0 {}", to(depth + way * ahead)));
                     } else {
-                        blocks.push(format!("G0 {}", to(depth + way * deep.back)));
+                        let stated = if index == 0 { further.as_str() } else { "" };
+                        blocks.push(format!("G1 {}{stated}", to(depth + way * deep.back)));
                     }
                 }
                 if let (1, Some(feed)) = (depths.len(), feed) {

@@ -70,6 +70,14 @@ impl Modes {
         }
     }
 
+    /// Length of the unit of coordinates, mm.
+    pub(super) fn unit_mm(&self) -> f64 {
+        match self.in_force(OF_FRAMES[1]) {
+            Some("G70" | "G700") => 25.4,
+            _ => 1.0,
+        }
+    }
+
     /// The code of a group in force, as programs are read.
     fn in_force(&self, group: usize) -> Option<&'static str> {
         match (self.codes[group], GROUPS[group].1) {

@@ -1,6 +1,6 @@
 //! From motions to blocks.
 //!
-//! [`write`] goes through the motions; what changes becomes [`pieces`], with the tool's [`direction`] or the [`angles`] of
+//! [`mod@write`] goes through the motions; what changes becomes [`pieces`], with the tool's [`direction`] or the [`angles`] of
 //! rotary axes where the text states them. What
 //! is in force in the written program stands in [`writer`].
 

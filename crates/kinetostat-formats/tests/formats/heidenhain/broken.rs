@@ -169,6 +169,20 @@ fn blocks_that_move_the_tool_otherwise_are_refused_by_line() {
         ("CALL LBL", "the label has no number and no name"),
         ("LN X+1 TX0 TY0 TZ2", "the tool's axis has not the length 1"),
         ("FUNCTION FACING", "what this function moves is not known"),
+        (
+            "TOOL CALL 5 Z S-100",
+            "`S-100`: the speed of the spindle is below zero; mend the number",
+        ),
+        ("TOOL CALL -5 Z", "the number of the tool is below zero"),
+        (
+            "TOOL DEF -3 L+10 R+2",
+            "the number of the tool is below zero",
+        ),
+        (
+            "CYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL -1",
+            "the dwell is below zero",
+        ),
+        ("FUNCTION DWELL TIME-2", "the dwell is below zero"),
     ];
     for (text, part) in cases {
         let found = errors(&format!(

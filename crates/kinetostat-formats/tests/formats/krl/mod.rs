@@ -8,6 +8,7 @@ mod folds;
 mod frames;
 mod order;
 mod outside_calls;
+mod own_speeds;
 mod partial;
 mod pieces;
 mod properties;

@@ -105,3 +105,54 @@ fn reasons_name_the_call() {
         assert!(fault.starts_with(&says), "{fault}");
     }
 }
+
+/// What an interrupt or a trigger calls runs at any time: what it sets would hold for some of the motions.
+#[test]
+fn what_interrupts_set_is_refused_and_what_they_call_outside_is_named() {
+    let of = |call: &str, body: &str| {
+        format!("{FRAMES}\n{call} DO mark()\n{ONE}\n{TWO}\nEND\nDEF mark()\n{body}")
+    };
+    let calls = [
+        "INTERRUPT DECL 4 WHEN $IN[1]==TRUE",
+        "TRIGGER WHEN DISTANCE=0 DELAY=0",
+    ];
+    for call in calls {
+        for (body, sets) in [
+            ("$BASE=$NULLFRAME", "$BASE"),
+            ("$TOOL=$NULLFRAME\n$VEL.CP=0.1", "$TOOL, $VEL"),
+            ("BAS(#VEL_CP,0.1)", "$BASE, $TOOL, $VEL, $APO"),
+        ] {
+            let found = faults(&of(call, body));
+            assert_eq!(found.len(), 1, "{call} {body}: {found:#?}");
+            let says = format!("`mark` sets {sets} at any time");
+            assert!(
+                found[0].starts_with("part.src, line 5: ") && found[0].contains(&says),
+                "{found:#?}"
+            );
+        }
+        assert_eq!(faults(&of(call, "$OUT[3]=TRUE")), Vec::<String>::new());
+        let statements = format!("{FRAMES}\n{call} DO elsewhere()\n{ONE}\n{TWO}");
+        let program = read_krl(files(&statements), &ReadOptions::default()).unwrap();
+        assert_eq!(program.findings.len(), 1, "{:#?}", program.findings);
+        let note = &program.findings[0];
+        assert_eq!(note.line, 5);
+        assert_eq!(
+            note.message,
+            "`elsewhere` is in none of these files: it is carried, and if it moves the tool, that is not seen"
+        );
+        // Frames and speed are those of before.
+        let last = &program.motions[1];
+        assert_eq!(last.speed.mm_per_s, Some(20.0));
+        assert!(last.tool.known().is_some());
+    }
+    let own = "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )";
+    let program = read_krl(files(&format!("{own}\n{ONE}")), &ReadOptions::default()).unwrap();
+    assert!(
+        program
+            .findings
+            .iter()
+            .all(|note| !note.message.contains("IR_STOPM")),
+        "{:#?}",
+        program.findings
+    );
+}

@@ -113,12 +113,12 @@ fn a_changed_speed_is_stated_and_the_one_before_restored() {
     piece.speed_factor = 0.5;
     let text = written(&program, &[piece.clone()]);
     let expected =
-        "$VEL.CP=0.02\n  $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
+        "$VEL.CP=0.02\n  $VEL.CP=0.01\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
     assert!(text.contains(expected), "{text}");
     // Each of several pieces states its own.
     let text = written(&program, &[at(0, [50.0, 0.0, 5.0]), piece]);
-    let expected = "$VEL.CP=0.02\n  $VEL.CP=20/1000.0\n  LIN {X 50.000,Y 0,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n  \
-        $VEL.CP=10/1000.0\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
+    let expected = "$VEL.CP=0.02\n  $VEL.CP=0.02\n  LIN {X 50.000,Y 0,Z 5,A 0,B 0,C 180,S 2,T 35} C_DIS\n  \
+        $VEL.CP=0.01\n  LIN XP1 C_DIS ; groove\n  $VEL.CP=0.02\n  LIN XP2\n";
     assert!(text.contains(expected), "{text}");
     let again = read_krl(
         vec![

@@ -85,14 +85,44 @@ fn end(chance: &mut Chance) -> String {
     }
 }
 
+/// What holds for a motion or a block alone.
+const LISTS: [&str; 6] = [
+    "",
+    "",
+    " WITH $VEL.CP=0.1",
+    " with $VEL = SVEL_CP(0.2, , LCPDAT1), $ACC=SACC_CP(LCPDAT1)",
+    " WITH $ACC.CP=1,$VEL={CP 0.3,ORI1 200,ORI2 200}",
+    " WITH $APO=SAPO(LCPDAT1),$TOOL=STOOL2(FP1),$BASE=SBASE(FP1.BASE_NO)",
+];
+
+fn block(chance: &mut Chance) -> String {
+    let mut text = format!("SPLINE{}\n", chance.of(&LISTS));
+    for _ in 0..chance.below(4) {
+        text += &match chance.below(3) {
+            0 => format!(
+                "  SCIRC {},{}{}\n",
+                end(chance),
+                end(chance),
+                chance.of(&LISTS)
+            ),
+            _ => format!("  SLIN {}{} ; part\n", end(chance), chance.of(&LISTS)),
+        };
+    }
+    text + "ENDSPLINE C_SPL\n"
+}
+
 fn motion(chance: &mut Chance) -> String {
     let word = chance.of(&["LIN", "LIN", "lin", "PTP", "CIRC", "SLIN", "SCIRC", "SPTP"]);
     let via = match word {
         "CIRC" | "SCIRC" => end(chance) + chance.of(&[",", ", "]),
         _ => String::new(),
     };
+    let list = match word.starts_with('S') {
+        true => chance.of(&LISTS),
+        false => "",
+    };
     let rest = chance.of(&["", " C_DIS", " c_vel ; part", " ; groove"]);
-    let text = format!("{word} {via}{}{rest}\n", end(chance));
+    let text = format!("{word} {via}{}{list}{rest}\n", end(chance));
     match (word, chance.below(4)) {
         ("LIN", 0) => {
             let point = chance.of(&["P1", "P2"]);
@@ -108,7 +138,7 @@ fn motion(chance: &mut Chance) -> String {
 fn statements(chance: &mut Chance, depth: usize) -> String {
     let mut text = String::new();
     for _ in 0..chance.below(7) {
-        text += &match chance.below(13) {
+        text += &match chance.below(14) {
             0 if depth < 3 => format!(
                 "IF $IN[1] THEN\n{}ELSE\n{}ENDIF\n",
                 statements(chance, depth + 1),
@@ -127,6 +157,7 @@ fn statements(chance: &mut Chance, depth: usize) -> String {
                 "$TOOL=TOOL_DATA[{}]\n$APO.CDIS=0.5\n",
                 chance.of(&["0", "1"])
             ),
+            8 => block(chance),
             _ => motion(chance),
         };
     }

@@ -188,6 +188,8 @@ fn what_moves_frames_of_a_tp_program_is_refused() {
         "  $MNUFRAME[1,1]=PR[5]",
         "  $MNUFRAMENUM[1]=5",
         "  $MNUTOOLNUM[1]=5",
+        "  $GROUP[1].$UFRAME=PR[1]",
+        "  $group[1].$utool=PR[1]",
         "  UFRAME[1]=PR[1]",
         "  UTOOL[1]=PR[1]",
     ] {
@@ -196,6 +198,15 @@ fn what_moves_frames_of_a_tp_program_is_refused() {
         let faults = read_ls(files, &ReadOptions::default()).unwrap_err();
         assert_eq!(faults.len(), 1, "{statement}: {faults:?}");
         assert_eq!(faults[0].line, 9, "{statement}");
+    }
+    // Others, and what only reads them, are carried.
+    for statement in [
+        "  $MCR.$GENOVERRIDE=50",
+        "  $WAITTMOUT=$UFRAMENUM",
+        "  R[1]=$MNUFRAMENUM[1]",
+    ] {
+        let text = ls(&[&TWO[..], &[statement, THIRD]].concat());
+        of_robot(Language::FanucLs, &text, MakeLanguage::Krl);
     }
 }
 

@@ -112,7 +112,7 @@ fn numbers_of_expressions() {
         ("1.5EX2+0", "150"),
         ("R[9]", "5"),
         ("MINVAL(3,2)*MAXVAL(3,2)", "6"),
-        ("1/3", "0.333333"),
+        ("1/3", "0.333333333"),
     ];
     for (expression, expected) in cases {
         let text = format!("R9=5\nFOR R8=1 TO 1\nX={expression} Y1 ; note\nENDFOR\n");
@@ -170,13 +170,41 @@ fn drilling_cycles() {
              G1 Z=AC(-25)\nG0 Z=AC(1)\nG0 Z=AC(-24.4)\nG1 Z=AC(-30)\nG0 Z=AC(5)\nX9\n"
         )
     );
-    // Steps that become shorter, chips broken.
+    // Steps that become shorter, chips broken: back by 1 mm at the feed of the program.
     assert_eq!(
         drilled("CYCLE83(5,0,1,-20,,,10,3,0,0,0.5,0)"),
         format!(
-            "{head}G0 Z=AC(1)\nG1 Z=AC(-10) F50\nG0 Z=AC(-9)\nG1 Z=AC(-17) F100\nG0 Z=AC(-16)\nG1 Z=AC(-20)\nG0 Z=AC(5)\nX9\n"
+            "{head}G0 Z=AC(1)\nG1 Z=AC(-10) F50\nG1 Z=AC(-9) F100\nG1 Z=AC(-17)\nG1 Z=AC(-16)\nG1 Z=AC(-20)\nG0 Z=AC(5)\nX9\n"
         )
     );
+    // The last bits of sums make no further step: 0.05, 0.03, 0.02 and 0.02 are 0.12.
+    assert_eq!(
+        drilled("CYCLE83(5,1.17,1,,0.12,,0.05,0.02,0,0,1,0)"),
+        format!(
+            "{head}G0 Z=AC(2.17)\nG1 Z=AC(1.12)\nG1 Z=AC(2.12)\nG1 Z=AC(1.09)\nG1 Z=AC(2.09)\nG1 Z=AC(1.07)\nG1 Z=AC(2.07)\nG1 Z=AC(1.05)\nG0 Z=AC(5)\nX9\n"
+        )
+    );
+    // _VRT states by how much; in inches 1 mm and 0.6 mm are that, too.
+    assert_eq!(
+        drilled("CYCLE83(5,0,1,-12,,,10,0,0,0,1,0,3,0,0.25,0,0)"),
+        format!("{head}G0 Z=AC(1)\nG1 Z=AC(-10)\nG1 Z=AC(-9.75)\nG1 Z=AC(-12)\nG0 Z=AC(5)\nX9\n")
+    );
+    let places = |call: &str| {
+        let text = flat(&format!("G70\n{call}\n"));
+        let lines = text.lines().skip(1);
+        let places = lines.map(|line| line[8..line.len() - 1].parse::<f64>().unwrap());
+        places.collect::<Vec<_>>()
+    };
+    for (vari, between) in [
+        (0, vec![-1.0 + 1.0 / 25.4]),
+        (1, vec![0.5, -1.0 + 0.6 / 25.4]),
+    ] {
+        let found = places(&format!("CYCLE83(2,0,0.5,-1.5,,,1,0,0,0,1,{vari})"));
+        let expected = [vec![0.5, -1.0], between, vec![-1.5, 2.0]].concat();
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        let off = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-9, "{found:?} {expected:?}");
+    }
     // At each place, until MCALL alone; the code of before is stated again.
     assert_eq!(
         flat("G18 G1 X0 F100\nMCALL CYCLE81(10,0,2,-5)\nX10\nZ20 M8\nMCALL\nX30\n"),

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{place, program, written};
+use super::{fault, place, program, written};
 use kinetostat_formats::*;
 
 /// Turns about X, Y and Z by degrees, written out.
@@ -64,6 +64,86 @@ fn the_tool_stays_where_it_is_when_a_frame_changes() {
     near(
         Vector3::from(found),
         about(2, 90.0, Vector3::new(3.0, start.y, start.z)),
+    );
+}
+
+#[test]
+fn a_step_behind_a_shifted_frame_adds_to_the_number_of_its_axis() {
+    // As controls come (SD42440 = 1): the machine goes the offset with the first step of an axis, and none with further ones.
+    let cases = [
+        ("G0 X100 Y5 Z7\nTRANS X10\nG91\nG0 X3", [113.0, 5.0, 7.0]),
+        (
+            "G0 X100 Y5 Z7\nTRANS X10\nG0 X=IC(3)\nX=IC(3)",
+            [116.0, 5.0, 7.0],
+        ),
+        // An axis waits until it is stepped; one that no offset is of steps alone.
+        (
+            "G0 X100 Y5 Z7\nTRANS X10\nG91\nG0 Y2\nY2\nX3",
+            [113.0, 9.0, 7.0],
+        ),
+        (
+            "G0 X100 Y5 Z7\nTRANS X10 Z-4\nATRANS X1\nG91\nG0 X3 Z1",
+            [114.0, 5.0, 4.0],
+        ),
+        (
+            "G0 X100 Y5 Z7\nTRANS X10\nTRANS\nG91\nG0 X3",
+            [103.0, 5.0, 7.0],
+        ),
+        // Taken back, the offset is gone back.
+        (
+            "TRANS X10\nG0 X100 Y5 Z7\nTRANS\nG91\nG0 X3",
+            [103.0, 5.0, 7.0],
+        ),
+        (
+            "G0 X100 Y5 Z7\nTRANS X10\nG0 X100\nG91\nX3",
+            [113.0, 5.0, 7.0],
+        ),
+        (
+            "G70\nG0 X1 Y2 Z3\nTRANS Y1\nG91\nG0 Y0.5",
+            [25.4, 88.9, 76.2],
+        ),
+    ];
+    for (text, expected) in cases {
+        let program = program(&format!("G54\n{text}\n"));
+        let last = program.motions.len() - 1;
+        near(
+            Vector3::from(place(&program, last)),
+            Vector3::from(expected),
+        );
+    }
+    // In turned axes, shifted and stepped along them.
+    let found = program("ROT X15 Z30\nG0 X1 Y2 Z3\nATRANS X10 Y-4\nG91\nG0 X3 Y1\n");
+    let expected = about(2, 30.0, about(0, 15.0, Vector3::new(14.0, -1.0, 3.0)));
+    near(Vector3::from(place(&found, 1)), expected);
+}
+
+#[test]
+fn a_step_behind_a_frame_that_is_turned_is_refused() {
+    let head = "G54\nG0 X10 Y1 Z5\nROT Z30\n";
+    let found = fault(&format!("{head}G91 G1 F100\nX3\n"));
+    assert!(
+        found.contains("line 5: `X3`: a step (G91, IC) is the first word of its axis behind a frame that is turned otherwise"),
+        "{found}"
+    );
+    // Along the axis that it turns about nothing is otherwise; behind an absolute place all is known; a rapid stays.
+    let last = |text: &str| {
+        let program = program(&format!("{head}{text}"));
+        let last = program.motions.len() - 1;
+        Vector3::from(place(&program, last))
+    };
+    near(last("G91 G1 Z-2 F100\n"), Vector3::new(10.0, 1.0, 3.0));
+    near(
+        last("G0 X1 Y2\nG91 G1 X3 F100\n"),
+        about(2, 30.0, Vector3::new(4.0, 2.0, 5.0)),
+    );
+    near(
+        last("G91 G0 X3\nG90 X1 Y2\n"),
+        about(2, 30.0, Vector3::new(1.0, 2.0, 5.0)),
+    );
+    let found = fault("G54 G17\nG0 X10 Y1 Z5\nTRANS X5\nG91 G3 X0 Y20 CR=10 F100\n");
+    assert!(
+        found.contains("line 4") && found.contains("a step (G91, IC) of an arc is the first word"),
+        "{found}"
     );
 }
 

@@ -38,3 +38,10 @@ fn place(program: &RobotProgram, motion: usize) -> [f64; 3] {
         .position_mm
         .into()
 }
+
+/// What is wrong with a program.
+fn fault(text: &str) -> String {
+    let errors = read_with(text.as_bytes(), &ReadOptions::default()).unwrap_err();
+    let errors: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    errors.join("\n")
+}

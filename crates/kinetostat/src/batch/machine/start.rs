@@ -18,24 +18,31 @@ use crate::spatial::Directions;
 const SAME_PLACE: f64 = 0.01;
 
 impl<S: Simd> Machine<S> {
-    /// A serial machine at these commands, unloaded: one in the lanes that can go on.
+    /// A serial machine at these commands, unloaded: one in the lanes that can go on. Its target is where they lead the machine
+    /// as it is drawn, if it shall `aim`.
     #[inline(always)]
     pub fn start_at_joints(
         &mut self,
         simd: S,
         group: &Group,
-        commands: &[f64],
-        each: usize,
+        (commands, each): (&[f64], usize),
+        aim: bool,
     ) -> Lanes<S> {
         group.commands(simd, commands, each, &mut self.joints[0].commands);
         let good = bounded(simd, &self.joints[0].commands);
-        if self.is_serial() {
+        let serial = self.is_serial();
+        if aim || !serial {
+            let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
+            forward.along(plan, false, plan.steps.len(), &self.joints[0].commands, &[]);
+            self.target = Target {
+                rotation: forward.rotation,
+                point: forward.point,
+            };
+        }
+        if serial {
             return good;
         }
-        // Where the commands lead the machine as it is drawn.
-        let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
-        forward.along(plan, false, plan.steps.len(), &self.joints[0].commands, &[]);
-        (self.rotation, self.point) = (forward.rotation, forward.point);
+        (self.rotation, self.point) = (self.target.rotation, self.target.point);
         self.start_limbs();
         good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
     }

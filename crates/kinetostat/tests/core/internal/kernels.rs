@@ -231,6 +231,50 @@ fn arm() -> Mechanism {
     Mechanism::serial(chain, Pose::identity(), gravity).expect("a machine")
 }
 
+/// Where commands lead the drawn arm with its tool, by products of rotations and translations.
+#[test]
+fn commands_tell_where_the_tool_is_commanded() {
+    let tool = Pose::from_parts(
+        nalgebra::vector![0.05, -0.02, 0.2].into(),
+        nalgebra::UnitQuaternion::from_scaled_axis(nalgebra::vector![0.3, -0.5, 0.2]),
+    );
+    let batch = Batch::new(&arm().with_tool(&tool));
+    let count = 21;
+    let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
+    let mut wrenches = wrenches(count);
+    // One that no arm bears.
+    wrenches[13] = Wrench::new(Vector3::new(1e12, -2e12, 3e12), Vector3::zeros());
+    let found = batch
+        .equilibrium_at_joints(&commands, &wrenches, Details::Rest)
+        .expect("sizes");
+    for i in 0..count {
+        if i == 13 {
+            assert_eq!(
+                (found.status[i], found.target_pose(i)),
+                (Status::Unsolved, None)
+            );
+            continue;
+        }
+        let mut wanted = Pose::identity();
+        for (axis, angle) in [Vector3::z(), Vector3::y(), Vector3::new(0.2, 0.9, -0.3)]
+            .into_iter()
+            .zip(&commands[3 * i..])
+        {
+            let turn = nalgebra::UnitQuaternion::new(axis.normalize() * *angle);
+            wanted = wanted * turn * Pose::translation(0.4, 0.05, 0.3);
+        }
+        wanted *= tool;
+        let target = found.target_pose(i).expect("commands were given");
+        let off = (target.to_homogeneous() - wanted.to_homogeneous()).amax();
+        assert!(off < 1e-14, "posture {i} is off by {off}");
+    }
+    let poses = poses(2);
+    let of_poses = batch
+        .equilibrium(&poses, &wrenches[..2], Details::Rest)
+        .expect("sizes");
+    assert_eq!(of_poses.target_pose(0), None);
+}
+
 #[test]
 fn a_serial_arm_has_its_tangent() {
     let machine = arm();

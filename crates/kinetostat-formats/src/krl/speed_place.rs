@@ -1,0 +1,104 @@
+//! Where the speed of a motion stands, and where another one is written: before it, where it stays in force, or in its own WITH.
+
+use std::ops::Range;
+
+use crate::krl::aggregate::aggregate_of;
+use crate::krl::lex::TokenFile;
+use crate::model::site::SpeedSite;
+
+/// mm/s in one m/s, in which KRL states speeds.
+const METRE_MM: f64 = 1000.0;
+
+/// Where the speed of a motion stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum SpeedPlace {
+    /// In force from before: another one is stated before the motion.
+    Before,
+    /// In the WITH of the motion, for it alone: the bytes of its number; none where it is none.
+    Own(Option<Range<usize>>),
+    /// In force for a spline block, in which no assignment stands: its segments state another one in their WITH.
+    OfBlock {
+        /// Bytes at which it is written.
+        at: usize,
+        /// A WITH with other things stands there.
+        has_with: bool,
+    },
+}
+
+impl SpeedPlace {
+    /// Of a motion whose end and WITH (without that word) are these tokens.
+    pub(crate) fn of(
+        file: &TokenFile<'_>,
+        end: &Range<usize>,
+        with: &Range<usize>,
+        in_block: bool,
+    ) -> Self {
+        let stated = items(file, with).filter_map(|item| stated_in(file, &item));
+        match (stated.last(), in_block) {
+            (Some(number), _) => Self::Own(number.map(|tokens| file.span(&tokens))),
+            (None, false) => Self::Before,
+            (None, true) => Self::OfBlock {
+                at: match with.is_empty() {
+                    true => file.span(end).end,
+                    false => file.span(with).start,
+                },
+                has_with: !with.is_empty(),
+            },
+        }
+    }
+
+    /// Where another speed is written of a motion that begins there, with what parts a statement from it.
+    pub(crate) fn site(self, start: usize, line_end: &str) -> Option<SpeedSite> {
+        let (span, before, after) = match self {
+            Self::Before => (start..start, "$VEL.CP=", line_end),
+            Self::Own(number) => (number?, "", ""),
+            Self::OfBlock { at, has_with: true } => (at..at, "$VEL.CP=", ","),
+            Self::OfBlock { at, .. } => (at..at, " WITH $VEL.CP=", ""),
+        };
+        Some(SpeedSite {
+            span,
+            before: before.to_owned(),
+            after: after.to_owned(),
+            unit_mm_per_s: METRE_MM,
+        })
+    }
+}
+
+/// The parts of a WITH between its commas.
+pub(crate) fn items<'f>(
+    file: &'f TokenFile<'_>,
+    with: &Range<usize>,
+) -> impl Iterator<Item = Range<usize>> + 'f {
+    let (mut start, upto) = (with.start, with.end);
+    std::iter::from_fn(move || {
+        let end = match start < upto {
+            true => file.find(start..upto, b',').unwrap_or(upto),
+            false => return None,
+        };
+        let item = start..end;
+        start = end + 1;
+        Some(item)
+    })
+}
+
+/// The number of `$VEL.CP=0.1`, `$VEL={CP 0.1,ORI1 200}` and `$VEL=SVEL_CP(0.1, ,LCPDAT1)`: None within where another expression stands
+/// there, none at all where the item says nothing of the speed along the path.
+fn stated_in(file: &TokenFile<'_>, item: &Range<usize>) -> Option<Option<Range<usize>>> {
+    file.name(item.start).filter(|name| name.is("$VEL"))?;
+    let equals = file.assign(item)?;
+    let value = equals + 1..item.end;
+    let is_whole = equals == item.start + 1;
+    if !is_whole {
+        let part = file.name(item.start + 2)?;
+        return part.is("CP").then_some(Some(value));
+    }
+    if let Some(members) = aggregate_of(file, &value) {
+        return Some(members.member("CP").cloned());
+    }
+    let is_call = file.name(value.start).is_some() && file.is(value.start + 1, b'(');
+    let argument = value.start + 2..value.end.saturating_sub(1).max(value.start + 2);
+    Some(is_call.then(|| {
+        let end = file.find(argument.clone(), b',').unwrap_or(argument.end);
+        argument.start..end
+    }))
+}
