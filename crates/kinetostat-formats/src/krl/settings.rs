@@ -7,7 +7,9 @@ use crate::krl::lex::TokenFile;
 use crate::krl::moving_settings::{EXTERNAL_TOOL, TAKE_OUT, moves_no_points};
 use crate::krl::role::Role;
 use crate::krl::state::{Settings, Slot, State, Thing, Things};
-use crate::krl::turning::{auxiliary_turn, data_turn_as_followed, turns_as_followed};
+use crate::krl::turning::{
+    auxiliary_turn, data_turn_as_followed, keeps_its_orientation, turns_as_followed,
+};
 use crate::krl::values::{Reason, Values};
 use crate::model::motion::Speed;
 
@@ -127,6 +129,9 @@ impl Setter<'_, '_> {
             b"$IPO_MODE" if called.is_some() => self.mode_of_point(&argument)?,
             b"$ORI_TYPE" | b"$CIRC_TYPE" => {
                 turns_as_followed(self.values, self.routine, (&name, tokens, &value))?;
+            }
+            b"$SINGUL_STRATEGY" => {
+                keeps_its_orientation(self.values.number(self.routine, &value))?;
             }
             b"FDAT_ACT" => {
                 let point = self.values.point_data(self.routine, &value);

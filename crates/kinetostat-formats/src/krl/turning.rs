@@ -1,4 +1,4 @@
-//! How the tool turns from point to point: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, and the data of `LDAT_ACT=LCPDAT1`.
+//! How the tool turns from point to point: `$ORI_TYPE=#VAR`, `$CIRC_TYPE=SCIRC_TYP(LCPDAT1)`, `$SINGUL_STRATEGY=0`, and the data of `LDAT_ACT=LCPDAT1`.
 
 use std::ops::Range;
 
@@ -90,5 +90,17 @@ pub(crate) fn auxiliary_turn(statement: &str, of_data: Option<&str>) -> Result<(
             "write #IGNORE, and divide the circle where the tool is to have that orientation",
         )),
         false => Ok(()),
+    }
+}
+
+/// Refuses `$SINGUL_STRATEGY=1`: on straight lines and circles near singular postures the tool leaves its orientation.
+pub(crate) fn keeps_its_orientation(strategy: Option<f64>) -> Result<(), Reason> {
+    match strategy {
+        Some(0.0) => Ok(()),
+        _ => Err((
+            "near singular postures the tool leaves its orientation on lines and circles"
+                .to_owned(),
+            "write $SINGUL_STRATEGY=0, and go round those postures",
+        )),
     }
 }

@@ -59,7 +59,7 @@ use crate::writing::piece::Piece;
 pub struct Correctable<'a> {
     /// The program as read.
     pub program: &'a RobotProgram,
-    /// What [`path_of`](crate::path_of) makes of it.
+    /// What [`path_of`] makes of it.
     pub path: &'a RobotPath,
     /// How it was read.
     pub reading: &'a ReadOptions,

@@ -238,6 +238,13 @@ fn inline_forms_whose_data_are_missing_or_say_something_else() {
             &[(4, "the tool turns with the circle (#PATH)")],
         ),
         (
+            "$SINGUL_STRATEGY=0\n$SINGUL_STRATEGY=1\nLIN XP1",
+            &[(
+                4,
+                "near singular postures the tool leaves its orientation on lines and circles; write $SINGUL_STRATEGY=0",
+            )],
+        ),
+        (
             "$CIRC_MODE.AUX_PT.ORI=#INTERPOLATE\nCIRC {X 5},{X 9,Y 3}",
             &[(
                 3,
