@@ -78,6 +78,27 @@ def whole_number(name: str, value: int, least: int, most: int) -> int:
     return found
 
 
+def scalar(name: str, value: Any) -> float:
+    """One number, finite or not."""
+    given = numbers(name, value)
+    if given.ndim:
+        raise ArgumentError(f"{name} has shape {_shape(given.shape)}, expected one number")
+    return float(given)
+
+
+def real(name: str, value: Any) -> float:
+    """One finite number."""
+    return float(one(name, value, ()))
+
+
+def positive(name: str, value: Any) -> float:
+    """One finite number above zero."""
+    found = real(name, value)
+    if found <= 0:
+        raise ArgumentError(f"{name} is {found:g}, expected a number above 0")
+    return found
+
+
 def thread_count(threads: int | None) -> int | None:
     """Threads from 1 to 1024, or None for all cores."""
     return None if threads is None else whole_number("threads", threads, 1, 1024)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kinetostat._arrays import one
+from kinetostat._arrays import numbers, one
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
 from kinetostat.spatial import rotation_vector
@@ -44,7 +44,7 @@ def placement(pose: ArrayLike) -> dict[str, Any]:
     >>> placement([0.1, 0, 0])
     {'position_m': [0.1, 0.0, 0.0]}
     """
-    given = np.asarray(pose)
+    given = numbers("pose", pose)
     if given.shape == (3,):
         return {"position_m": one("pose", given, (3,)).tolist()}
     matrix = one("pose", given, (4, 4))
@@ -64,7 +64,7 @@ def _stiffness(kind: _Kind, value: float) -> dict[str, float]:
 
 def _in(kind: _Kind, key: str, value: Any) -> dict[str, Any]:
     unit = "m" if kind == "prismatic" else "rad"
-    return {} if value is None else {f"{key}_{unit}": np.asarray(value, dtype=float).tolist()}
+    return {} if value is None else {f"{key}_{unit}": numbers(key, value).tolist()}
 
 
 class LimbBuilder:
@@ -169,7 +169,7 @@ class LimbBuilder:
             element["axis"] = _axis(axis)  # type: ignore[arg-type]
         if home is not None:
             element |= (
-                {"homes_rad": np.asarray(home, dtype=float).tolist()}
+                {"homes_rad": numbers("home", home).tolist()}
                 if np.ndim(home) > 0
                 else _in("prismatic" if kind == "prismatic" else "revolute", "home", home)
             )
@@ -194,7 +194,7 @@ class LimbBuilder:
         >>> LimbBuilder("arm").spring6("flange", [1e8, 1e8, 1e8, 1e6, 1e6, 1e6]).elements[0]["name"]
         'flange'
         """
-        given = np.asarray(stiffness)
+        given = numbers("stiffness", stiffness)
         key = "diagonal_n_m_rad" if given.shape == (6,) else "matrix_n_m_rad"
         return self._add({"spring6": {key: one("stiffness", given, (6,) if given.shape == (6,) else (6, 6)).tolist()}, "name": name})
 

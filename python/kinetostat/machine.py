@@ -413,6 +413,8 @@ class Machine:
         >>> posture.commands.round(4).tolist()
         [-0.3405, -0.3503, -0.3503]
         """
+        if near is not None and not isinstance(near, Posture):
+            raise ArgumentError(f"near is {near!r}, expected a Posture")
         found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
         return Posture(self, found)
 
@@ -626,8 +628,7 @@ class Machine:
         True
         """
         names = {"position": _DIRECTIONS[:3], "pose": _DIRECTIONS}.get(str(directions), directions)
-        unknown = [name for name in names if name not in _DIRECTIONS]
-        if unknown or isinstance(names, str):
+        if isinstance(names, str) or not isinstance(names, Sequence) or any(name not in _DIRECTIONS for name in names):
             raise ArgumentError(f"directions is {directions!r}, expected 'position', 'pose' or some of {_DIRECTIONS}")
         places, leading = self._poses(poses)
         loads = self._wrenches(wrenches, leading)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, numbers
+from kinetostat._arrays import Floats, numbers, positive, whole_number
 from kinetostat.errors import ArgumentError
 
 __all__ = ["Corrected", "correct_program"]
@@ -26,8 +26,8 @@ class Corrected:
     True
     """
 
-    text: str
-    """The program."""
+    raw: bytes
+    """The program, byte for byte: what the correction does not touch is as it was, in whatever encoding."""
     pieces: int
     """Motions written."""
     places: int
@@ -38,6 +38,18 @@ class Corrected:
     """Largest distance of the written program, m."""
     allowed: float
     """What was allowed, m: the tolerance, chords of arcs and rounding."""
+
+    @property
+    def text(self) -> str:
+        r"""The program as text (UTF-8). Bytes that are none, such as umlauts of Latin-1, stand in it as ``surrogateescape`` writes them.
+
+        Examples
+        --------
+        >>> found = correct_program(b"(L\xe4nge)\nG21 G90 G1 X10 F300", lambda places, directions: 0 * places)
+        >>> found.raw.decode("latin-1").splitlines()[0], found.text.encode("utf-8", "surrogateescape") == found.raw
+        ('(Länge)', True)
+        """
+        return self.raw.decode("utf-8", "surrogateescape")
 
 
 def correct_program(
@@ -52,14 +64,14 @@ def correct_program(
     Parameters
     ----------
     program : str or bytes
-        G-code.
+        G-code; bytes in any encoding in which its words are ASCII (Latin-1 of controllers, UTF-8).
     field : callable
         Positions (n, 3), part axes, m, and directions of motion (n, 3), NaN where there is none, to corrections (n, 3), m; called for
         many points at once. Equal points must get equal answers.
     tolerance : float
         Largest distance of the path from path plus correction, m.
     decimals : int, optional
-        Digits after the point; as many as the program has without it, and those that the tolerance needs.
+        Digits after the point, 3 to 8; as many as the program has without it, and those that the tolerance needs.
 
     Returns
     -------
@@ -87,6 +99,20 @@ def correct_program(
             raise ArgumentError(f"field gives shape {found.shape}, expected {positions.shape}")
         return np.ascontiguousarray(found)
 
-    raw = program.encode() if isinstance(program, str) else bytes(program)
-    written, told = _core.correct_program(raw, called, float(tolerance), decimals)
-    return Corrected(written.decode(), **told)
+    if not callable(field):
+        raise ArgumentError(f"field is {field!r}, expected a function of positions and directions")
+    digits = None if decimals is None else whole_number("decimals", decimals, 3, 8)
+    written, told = _core.correct_program(_bytes(program), called, positive("tolerance", tolerance), digits)
+    return Corrected(written, **told)
+
+
+def _bytes(program: str | bytes) -> bytes:
+    if isinstance(program, (bytes, bytearray, memoryview)):
+        return bytes(program)
+    if not isinstance(program, str):
+        raise ArgumentError(f"program is {program!r} ({type(program).__name__}), expected text or bytes of G-code")
+    try:
+        # As text is read with errors="surrogateescape".
+        return program.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError as wrong:
+        raise ArgumentError(f"program holds what is no text: {wrong}") from None

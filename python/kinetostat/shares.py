@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kinetostat.machine import Machine, Progress
     from kinetostat.posture import Posture
 
-__all__ = ["Part", "Sensitivity", "Shares", "Stiffening", "cheapest_stiffening", "sensitivities", "shares"]
+__all__ = ["Part", "Sensitivity", "SensitivityErrors", "Shares", "Stiffening", "cheapest_stiffening", "sensitivities", "shares"]
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
 Direction = Literal["x", "y", "z", "rx", "ry", "rz"]
@@ -119,6 +119,27 @@ class Shares:
 
 
 @dataclasses.dataclass(frozen=True)
+class SensitivityErrors:
+    """Estimated errors of derivatives, in their units: how far those of sixth order are from those of fourth.
+
+    What rounding leaves (some 1e-9 of a figure by the size of the number) is not part of them.
+
+    Examples
+    --------
+    >>> import kinetostat as ks
+    >>> found = sensitivities(ks.Machine.preset("heavy_6r"), direction="z", wrench=[0, 0, -500, 0, 0, 0])[0]
+    >>> found.errors.compliance < 1e-6 * abs(found.compliance)
+    True
+    """
+
+    deflection: float
+    compliance: float
+    stiffness: float
+    share_to_buckling: float | None
+    """None where there is no derivative."""
+
+
+@dataclasses.dataclass(frozen=True)
 class Sensitivity:
     """Derivatives by one number of the model file, per its unit.
 
@@ -142,6 +163,8 @@ class Sensitivity:
     the number changes them differently: the share has no derivative there, only one to each side."""
     stiffness_by_percent: float
     """Relative change of the stiffness by 1 % more of the number."""
+    errors: SensitivityErrors
+    """How far the derivatives may be off, estimated."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -373,6 +396,7 @@ def sensitivities(
             n["stiffness"],
             n["share_to_buckling"],
             n["stiffness_by_percent_relative"],
+            SensitivityErrors(*(n["estimated_errors"][key] for key in ("deflection", "compliance", "stiffness", "share_to_buckling"))),
         )
         for n in answer["sensitivities"]["numbers"]
     ]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, numbers, one, thread_count, whole_number
+from kinetostat._arrays import Floats, numbers, one, real, scalar, thread_count, whole_number
 from kinetostat.errors import ArgumentError, UnansweredError
 from kinetostat.machine import Machine
 
@@ -56,7 +56,7 @@ def normal(deviation: float, *, percent: bool = False) -> Distribution:
     >>> normal(0.02).word
     'normal'
     """
-    return Distribution("normal", float(deviation), percent)
+    return Distribution("normal", scalar("deviation", deviation), percent)
 
 
 def uniform(half_width: float, *, percent: bool = False) -> Distribution:
@@ -67,7 +67,7 @@ def uniform(half_width: float, *, percent: bool = False) -> Distribution:
     >>> uniform(5, percent=True).spread
     5.0
     """
-    return Distribution("uniform", float(half_width), percent)
+    return Distribution("uniform", scalar("half_width", half_width), percent)
 
 
 def triangular(half_width: float, *, percent: bool = False) -> Distribution:
@@ -78,7 +78,7 @@ def triangular(half_width: float, *, percent: bool = False) -> Distribution:
     >>> triangular(0.1).word
     'triangular'
     """
-    return Distribution("triangular", float(half_width), percent)
+    return Distribution("triangular", scalar("half_width", half_width), percent)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -152,18 +152,21 @@ class MachineSamples:
         return found
 
 
-def _spread(name: str, own: Distribution) -> float:
-    spread = float(own.spread)
-    if not np.isfinite(spread):
-        raise ArgumentError(f"the spread of {name!r} is {spread}: give a finite number")
-    return spread
+def _distribution(name: str, own: Distribution) -> Distribution:
+    """Itself, if it is one with a finite spread: a plain number says neither its distribution nor its unit."""
+    if not isinstance(own, Distribution):
+        hint = f": normal({own!r}), uniform({own!r}), ..." if isinstance(own, (int, float)) else ""
+        raise ArgumentError(f"{name} is {own!r}, expected a Distribution{hint}")
+    real(name, own.spread)
+    return own
 
 
 def _toml(spread: Mapping[str, Distribution], correlations: Mapping[tuple[str, str], float]) -> str:
     lines = ["schema = 1"]
     for name, own in spread.items():
+        own = _distribution(f"the spread of {name!r}", own)
         key, word = ("load", name[5:]) if name.startswith("load ") else ("parameter", name)
-        lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {_spread(name, own)!r}"]
+        lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {float(own.spread)!r}"]
     for (a, b), coefficient in correlations.items():
         lines += ["[[correlation]]", f"between = [{json.dumps(a)}, {json.dumps(b)}]", f"coefficient = {float(coefficient)!r}"]
     return "\n".join(lines) + "\n"
@@ -266,11 +269,11 @@ def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlat
 
 
 def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float, str, float]]:
-    centre = one("values", values, (len(spread),))
-    return [
-        (float(x), d.word, _spread(f"values[{i}]", d) * (abs(float(x)) / 100 if d.percent else 1))
-        for i, (x, d) in enumerate(zip(centre, spread, strict=True))
-    ]
+    if isinstance(spread, str) or not isinstance(spread, Sequence):
+        raise ArgumentError(f"spread is {spread!r}, expected Distributions, one for each number")
+    each = [_distribution(f"spread[{i}]", own) for i, own in enumerate(spread)]
+    centre = one("values", values, (len(each),))
+    return [(float(x), d.word, float(d.spread) * (abs(float(x)) / 100 if d.percent else 1)) for x, d in zip(centre, each, strict=True)]
 
 
 @dataclasses.dataclass(frozen=True)

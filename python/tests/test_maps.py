@@ -161,6 +161,17 @@ def test_a_machine_without_drives_has_no_efforts(tmp_path: Path) -> None:
     xarray.testing.assert_identical(stored, chain.map(**question))
 
 
+def test_how_near_a_singular_posture_is_known_or_refused() -> None:
+    for name in ("tricept_like", "prs3"):  # turn as they move
+        machine = ks.Machine.preset(name)
+        x, y, z = machine.home[:3, 3]
+        found = machine.map(x=[x, x + 0.02], y=y, z=[z, z + 0.02], variables="singularity_distance")
+        assert (found.status == ks.Status.SOLVED).all()
+        assert ((found.singularity_distance > 0) & (found.singularity_distance <= 1)).all()
+    with pytest.raises(ks.ArgumentError, match="a question about drives: 'three_link_s' has none"):
+        ks.Machine.preset("three_link_s").map(x=[3.0, 3.001], variables="singularity_distance")
+
+
 def refused() -> ProcessPoolExecutor:
     raise AssertionError("a question without sense made workers")
 

@@ -61,6 +61,33 @@ def test_derivatives_are_those_of_differences() -> None:
     assert found[path].deflection == pytest.approx(derivative, rel=1e-5)
 
 
+def test_estimated_errors_are_those_of_the_derivatives() -> None:
+    """Against differences of eighth order of the deflection itself: what is off is no more than estimated, and rounding."""
+    machine = ks.Machine.preset("heavy_6r")
+    wrench = [0.0, 0, -800, 0, 0, 0]
+    document = machine.to_dict()
+    found = {s.path: s for s in of.sensitivities(machine, direction="z", wrench=wrench)}
+    checked = 0
+    for joint in (e for e in document["chain"]["arm"]["elements"] if "stiffness_n_m_per_rad" in e):
+        before = joint["stiffness_n_m_per_rad"]
+        own = found.get(f"chain.arm.{joint['name']}.stiffness_n_m_per_rad")
+        if own is None:
+            continue
+
+        def at(share: float, joint: dict = joint, before: float = before) -> float:
+            joint["stiffness_n_m_per_rad"] = before * (1 + share)
+            return float(ks.Machine.from_dict(document).posture().deflected_by(wrench).displacement[2])
+
+        weights = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+        derivative = sum(w * (at(0.02 * k) - at(-0.02 * k)) for k, w in weights.items()) / (0.02 * before)
+        joint["stiffness_n_m_per_rad"] = before
+        for error in (own.errors.deflection, own.errors.compliance, own.errors.stiffness):
+            assert 0 <= error < np.inf
+        assert abs(own.deflection - derivative) <= own.errors.deflection + 1e-7 * abs(derivative)
+        checked += 1
+    assert checked >= 3
+
+
 def test_wrong_words_are_refused() -> None:
     machine = ks.Machine.preset("orthoglide")
     with pytest.raises(ks.ArgumentError, match="direction"):

@@ -192,16 +192,21 @@ pub fn one_pose(name: &str, array: &Numbers<'_>) -> PyResult<Pose> {
 /// # Errors
 /// Another shape, complex numbers, text, NaN: what was expected and what was found.
 pub fn one_wrench(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Wrench> {
-    // The usual kinds at once. Arrays of other dtypes would lose imaginary parts on the way.
-    let usual = || given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>();
-    let numbers = match given.cast::<PyArray1<f64>>() {
+    // The usual kinds at once. Arrays of other dtypes would lose imaginary parts on the way, masked ones (a kind of array, too)
+    // what their mask says.
+    let numbers = if given.is_exact_instance_of::<PyArray1<f64>>() {
         // What is not contiguous, or being written, is read below.
-        Ok(array) => array.try_readonly().ok().and_then(|array| {
-            let numbers = array.as_slice().ok()?;
-            <[f64; 6]>::try_from(numbers).ok()
-        }),
-        Err(_) if usual() => given.extract::<[f64; 6]>().ok(),
-        Err(_) => None,
+        let array = given.cast::<PyArray1<f64>>().ok();
+        array
+            .and_then(|array| array.try_readonly().ok())
+            .and_then(|array| {
+                let numbers = array.as_slice().ok()?;
+                <[f64; 6]>::try_from(numbers).ok()
+            })
+    } else if given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>() {
+        given.extract::<[f64; 6]>().ok()
+    } else {
+        None
     };
     if let Some(numbers) = numbers.filter(|numbers| numbers.iter().all(|x| x.is_finite())) {
         return Ok(Wrench(Vector6::from(numbers)));

@@ -52,7 +52,7 @@ pub fn map_variables() -> Vec<Row> {
 }
 
 /// The variables of these names, each once.
-fn named(names: &[String], loaded: bool) -> PyResult<Vec<Variable>> {
+fn named(names: &[String], loaded: bool, actuators: usize) -> PyResult<Vec<Variable>> {
     let mut chosen = Vec::new();
     for name in names {
         let Some(variable) = Variable::named(name) else {
@@ -69,6 +69,12 @@ fn named(names: &[String], loaded: bool) -> PyResult<Vec<Variable>> {
             return Err(error(
                 Class::Argument,
                 format!("variables: '{name}' needs a load: give loads (zeros are one, too)"),
+            ));
+        }
+        if variable.needs_drives() && actuators == 0 {
+            return Err(error(
+                Class::Argument,
+                format!("variables: '{name}' is about drives, and this machine has none"),
             ));
         }
         if chosen.contains(&variable) {
@@ -100,7 +106,11 @@ pub fn evaluate_many<'py>(
     let wrenches = wrenches
         .map(|wrenches| each_wrench(count, &wrenches))
         .transpose()?;
-    let chosen = named(&variables, wrenches.is_some())?;
+    let chosen = named(
+        &variables,
+        wrenches.is_some(),
+        machine.mechanism.actuator_count(),
+    )?;
     let evaluator = Evaluator::new(
         &machine.mechanism,
         machine.batch(),

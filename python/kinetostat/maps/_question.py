@@ -90,6 +90,8 @@ def asked(
     for variable in variables:
         if over_orientations is not None and variable.worse == "neither":
             raise ArgumentError(f"{variable.name} has no worst value over orientations")
+        if variable.name == "singularity_distance" and not machine.actuators:
+            raise ArgumentError(f"variables has 'singularity_distance', a question about drives: {machine.name!r} has none")
     worst = over_orientations is not None
     return Question(machine, axes, turns, None if worst else turn_names, wrenches, load_names, variables, worst)
 

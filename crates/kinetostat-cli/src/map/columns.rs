@@ -109,7 +109,6 @@ pub(crate) fn asked(
     actuators: usize,
     loaded: bool,
     cases: usize,
-    follows: bool,
 ) -> Answer<(Vec<Variable>, Shown)> {
     let known = || {
         let all: Vec<&str> = VARIABLES.iter().map(|e| e.name).collect();
@@ -161,8 +160,8 @@ pub(crate) fn asked(
         if cases > 1 && variable.entry().worse == Worse::Neither {
             return refuse("has no worst value; give one orientation and one load");
         }
-        if follows && *variable == Variable::SingularityDistance {
-            return refuse("is not known where the orientation follows");
+        if variable.needs_drives() && actuators == 0 {
+            return refuse("is about drives, and this machine has none");
         }
     }
     let shown = match usual {

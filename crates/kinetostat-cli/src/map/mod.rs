@@ -75,7 +75,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         ));
     }
     let actuators = mechanism.actuator_count();
-    let (variables, shown) = asked(args, actuators, load.is_some(), cases, follows)?;
+    let (variables, shown) = asked(args, actuators, load.is_some(), cases)?;
     let further = columns::columns(&variables, actuators);
     let picture = Picture::new(args, &grid, shown)?;
     let mut task = MapTask {

@@ -139,6 +139,34 @@ pub(crate) struct SensitivityAnswer {
     /// Change by 1 % more of the number; of a number that is zero there is none.
     pub(crate) deflection_by_percent_m_or_rad: f64,
     pub(crate) stiffness_by_percent_relative: f64,
+    /// How far these derivatives of sixth order are from those of fourth: an estimate of what their differences leave open.
+    pub(crate) estimated_errors: Option<ErrorsAnswer>,
+}
+
+/// Of the derivatives of the same names, in their units.
+#[derive(Serialize)]
+pub(crate) struct ErrorsAnswer {
+    pub(crate) deflection: f64,
+    pub(crate) displacement: [f64; 6],
+    pub(crate) compliance: f64,
+    pub(crate) stiffness: f64,
+    pub(crate) stiffness_against_force: Option<f64>,
+    pub(crate) share_to_buckling: Option<f64>,
+}
+
+impl ErrorsAnswer {
+    /// None of what has no derivative.
+    fn of(s: &Sensitivity, e: &Values) -> Self {
+        Self {
+            deflection: e.deflection,
+            displacement: e.displacement,
+            compliance: e.compliance,
+            stiffness: e.stiffness,
+            stiffness_against_force: (!s.sharp.stiffness_against_force)
+                .then_some(e.stiffness_against_force),
+            share_to_buckling: e.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
+        }
+    }
 }
 
 impl SensitivityAnswer {
@@ -156,6 +184,7 @@ impl SensitivityAnswer {
             share_to_buckling: d.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
             deflection_by_percent_m_or_rad: s.deflection_by_percent(),
             stiffness_by_percent_relative: s.stiffness_by_percent(now),
+            estimated_errors: s.errors.as_ref().map(|e| ErrorsAnswer::of(s, e)),
         }
     }
 }

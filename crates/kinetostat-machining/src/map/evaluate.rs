@@ -156,8 +156,10 @@ impl Evaluator {
                 let load = loads.map(|loads| &loads[i]);
                 self.by_itself(place, machine.posture(pose), load);
             }
-            if let (Some(own), true) = (&self.nearness, place.found) {
-                place.singularity_distance = own.at(&self.batch, pose, &place.commands, nearness);
+            if let (Some(own), true, true) = (&self.nearness, place.found, taken) {
+                let found = own.at(&self.batch, pose, &place.commands, nearness);
+                let by_posture = || machine.posture(pose).ok().map(|p| own.of_posture(&p));
+                place.singularity_distance = found.or_else(by_posture).unwrap_or(f64::NAN);
             }
             each(i, place);
         }
@@ -170,7 +172,11 @@ impl Evaluator {
         posture: kinetostat::Result<Posture>,
         load: Option<&Wrench>,
     ) -> Option<Posture> {
-        place.take_posture(posture, load, &self.ratings)
+        let posture = place.take_posture(posture, load, &self.ratings);
+        if let (Some(own), Some(posture), true) = (&self.nearness, &posture, place.found) {
+            place.singularity_distance = own.of_posture(posture);
+        }
+        posture
     }
 
     /// Values of all variables at a place, one after the other.

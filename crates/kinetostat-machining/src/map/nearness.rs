@@ -1,11 +1,13 @@
 //! How near a posture is to a singular one: the condition of the Jacobian between the actuators and the motions that they drive.
 //!
 //! Rates of the commands by motions of the tool are differences of the inverse kinematics, which the kernels solve for many
-//! poses at once. Rotations of tool and of actuators are multiplied with the natural length, so that all are lengths.
+//! poses at once. Where a machine turns its tool as it moves, the motions that it drives are others at every place, and a pose
+//! beside one that it reaches is none: there the posture itself says them. Rotations of tool and of actuators are multiplied
+//! with the natural length, so that all are lengths.
 
 use kinetostat::batch::{Batch, BatchStiffness};
 use kinetostat::spatial::moved;
-use kinetostat::{Mechanism, MotionKind, Pose, Twist};
+use kinetostat::{Mechanism, MotionKind, Pose, Posture, Twist};
 use nalgebra::{DMatrix, DVector, Vector6};
 
 /// Motions for differences, as a share of the natural length.
@@ -21,6 +23,8 @@ pub(crate) struct Nearness {
     /// What a command is multiplied with to be a length.
     units: Vec<f64>,
     step: f64,
+    /// Of poses beside one no more is known than at home.
+    turns: bool,
 }
 
 /// Poses beside one, and what is found there.
@@ -52,13 +56,30 @@ impl Nearness {
             steps,
             units: units.collect(),
             step,
+            turns: mechanism.turns_as_it_moves(),
         }
     }
 
-    /// The smallest singular value of the rates as a share of the largest; NaN where the machine cannot go to either side.
-    pub fn at(&self, batch: &Batch, pose: &Pose, commands: &[f64], room: &mut NearnessRoom) -> f64 {
-        if self.steps.is_empty() || self.units.len() < self.steps.len() {
-            return f64::NAN;
+    /// At a posture: the smallest singular value of the rates as a share of the largest, 0 where fewer motions than at home are
+    /// driven.
+    pub fn of_posture(&self, posture: &Posture) -> f64 {
+        let rates = posture.command_rates();
+        match rates.ncols() < self.steps.len() {
+            true => 0.0,
+            false => share(&rates),
+        }
+    }
+
+    /// The same by differences; none where the machine cannot go to either side.
+    pub fn at(
+        &self,
+        batch: &Batch,
+        pose: &Pose,
+        commands: &[f64],
+        room: &mut NearnessRoom,
+    ) -> Option<f64> {
+        if self.turns || self.steps.is_empty() {
+            return None;
         }
         room.poses.clear();
         for step in &self.steps {
@@ -79,14 +100,22 @@ impl Nearness {
                 (Some(a), Some(b)) => (a - b) / (2.0 * self.step),
                 (Some(a), None) => (a - &here) / self.step,
                 (None, Some(b)) => (&here - b) / self.step,
-                (None, None) => return f64::NAN,
+                (None, None) => return None,
             };
             rates.set_column(k, &difference);
         }
-        let values = kinetostat::linalg::SingularValues::of(&rates).values;
-        match (values.first(), values.last()) {
-            (Some(largest), Some(smallest)) => smallest / largest,
-            _ => f64::NAN,
-        }
+        Some(share(&rates))
+    }
+}
+
+/// The smallest singular value as a share of the largest; 0 of what moves nothing.
+fn share(rates: &DMatrix<f64>) -> f64 {
+    if rates.is_empty() {
+        return 0.0;
+    }
+    let values = kinetostat::linalg::SingularValues::of(rates).values;
+    match (values.first(), values.last()) {
+        (Some(largest), Some(smallest)) if *largest > 0.0 => smallest / largest,
+        _ => 0.0,
     }
 }

@@ -1,14 +1,15 @@
 //! Programs and maps on machines that turn their tool as they move, against closed forms.
 
-use kinetostat::{Directions, Mechanism, Pose, PostureRequest, Wrench};
+use kinetostat::{Directions, Mechanism, MotionKind, Pose, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
-    Run, RunError, RunInputs, Task, Unwatched, analyse, compensate_program, map, straight_tool,
+    Run, RunError, RunInputs, Task, Unwatched, Variable, analyse, compensate_program, map,
+    straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Gcode, MachineProgram, Program, ReadOptions, WriteOptions, interpret};
 use kinetostat_testing::Worst;
-use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
+use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, vector};
 
 /// A ring of 20 mm, and 3 mm deep.
 const RING: &str = "G21 G90 G17\nG0 X20 Y0 Z5\nG1 Z-3 F300\nG3 X-20 Y0 I-20 J0 F600\nG3 X20 Y0 I20 J0\nG0 Z5\nM2\n";
@@ -233,6 +234,91 @@ fn a_map_of_positions_turns_the_same_way() {
             };
             let off = 1e-3 * stiffness / place.smallest_stiffness_n_per_mm - 1.0;
             assert!(off.abs() < 1e-7, "{place:?} {stiffness}");
+        }
+    }
+}
+
+/// Smallest by largest singular value of the commands' rates, by differences of postures that the machine reaches: tool and turning
+/// actuators at the natural length.
+fn distance_by_differences(m: &Mechanism, at: &Vector3<f64>, turns: &[Vector3<f64>]) -> f64 {
+    const STEP: f64 = 1e-4;
+    let length = m.natural_length();
+    let rotation = home(m).rotation;
+    let actuators = || m.limbs().iter().flat_map(|l| l.nominal.actuators());
+    let reached = |move_: Vector3<f64>, turn: Vector3<f64>| {
+        let asked = UnitQuaternion::new(turn) * rotation;
+        let posture = m.posture(PostureRequest::position(&(at + move_), &asked));
+        posture.expect("reachable")
+    };
+    let axes =
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|a| (STEP * length * a, Vector3::zeros()));
+    let turned = turns.iter().map(|t| (Vector3::zeros(), STEP * t));
+    let (motions, commands): (Vec<_>, Vec<_>) = axes
+        .into_iter()
+        .chain(turned)
+        .map(|(move_, turn)| {
+            let (a, b) = (reached(move_, turn), reached(-move_, -turn));
+            let moved = a.target().translation.vector - b.target().translation.vector;
+            let by = (a.target().rotation * b.target().rotation.inverse()).scaled_axis() * length;
+            let motion = [moved.as_slice(), by.as_slice()].concat();
+            let each = actuators().zip(a.commands().into_iter().zip(b.commands()));
+            let commands = each.map(|(actuator, (a, b))| match actuator.kind {
+                MotionKind::Prismatic => a - b,
+                MotionKind::Revolute => (a - b) * length,
+            });
+            let commands = commands.collect();
+            (
+                DVector::from_vec(motion),
+                DVector::<f64>::from_vec(commands),
+            )
+        })
+        .unzip();
+    // In an orthonormal basis of the motions; squares of singular values are eigenvalues.
+    let basis = DMatrix::from_columns(&motions).qr().r();
+    let rates = DMatrix::from_columns(&commands) * basis.try_inverse().expect("independent");
+    let squares = (rates.transpose() * &rates).symmetric_eigenvalues();
+    (squares.min() / squares.max()).sqrt()
+}
+
+#[test]
+fn the_distance_to_singular_postures_is_known_where_the_tool_turns() {
+    let tricept = Model::preset("tricept_like").expect("a preset").mechanism;
+    // The head has three freedoms, which the place of its tip says; the other one turns its axis, too.
+    for (m, turns) in [
+        (head(), &[][..]),
+        (tricept, &[Vector3::x(), Vector3::y()][..]),
+    ] {
+        for off in [vector![0.0, 0.0, 0.0], vector![0.011, -0.017, 0.02]] {
+            let at = home(&m).translation.vector + off;
+            let task = MapTask {
+                mechanism: &m,
+                grid: Grid {
+                    from_mm: (at * 1e3).into(),
+                    to_mm: (at * 1e3).into(),
+                    counts: [1; 3],
+                },
+                orientation: home(&m).rotation,
+                orientation_follows: true,
+                load: None,
+                further: Vec::new(),
+                variables: vec![Variable::SingularityDistance],
+                ratings: Vec::new(),
+                first: 0,
+            };
+            let mut found = Vec::new();
+            map(&task, &Unwatched, <[MapPlace]>::to_vec, |places| {
+                found.extend(places);
+                Ok::<(), RunError>(())
+            })
+            .expect("a map");
+            assert_eq!(found[0].state, PlaceState::Regular);
+            let expected = distance_by_differences(&m, &at, turns);
+            let own = found[0].values[0];
+            assert!(
+                (own - expected).abs() < 1e-5 * expected && expected > 0.01,
+                "{}: {own}, by differences {expected}",
+                m.name()
+            );
         }
     }
 }

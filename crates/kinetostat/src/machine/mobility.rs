@@ -7,7 +7,7 @@ use crate::machine::ends::ends;
 use crate::machine::inverse::limb::blocked_motions;
 use crate::machine::platforms::solver::rates_of;
 use crate::machine::posture::Posture;
-use crate::spatial::Directions;
+use crate::spatial::{Directions, MotionKind};
 
 impl Posture {
     /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
@@ -82,16 +82,65 @@ impl Posture {
     /// natural length): [`Self::mobility`] without what passive joints allow on their own.
     #[must_use]
     pub fn commanded_motions(&self) -> DMatrix<f64> {
-        let m = &self.mechanism;
         let basis = self.mobility();
-        let mut motions = basis.clone();
+        let rates = self.rates_by(&basis);
+        basis * column_space(&(rates.transpose() * rates))
+    }
+
+    /// Rates of the commands (rows) by motions of the tool (columns, rotations in units of the natural length).
+    fn rates_by(&self, motions: &DMatrix<f64>) -> DMatrix<f64> {
+        let m = &self.mechanism;
+        let mut motions = motions.clone();
         motions.rows_mut(3, 3).unscale_mut(m.scale().length);
-        let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
-        for rates in rates_of(m, &self.platforms, &self.limbs) {
-            let rates = rates * &motions;
-            driven += rates.transpose() * rates;
+        let limbs = rates_of(m, &self.platforms, &self.limbs);
+        let rows: Vec<_> = limbs
+            .iter()
+            .flat_map(|rates| {
+                let rates = rates * &motions;
+                rates
+                    .row_iter()
+                    .map(|row| row.into_owned())
+                    .collect::<Vec<_>>()
+            })
+            .collect();
+        match rows.is_empty() {
+            true => DMatrix::zeros(0, motions.ncols()),
+            false => DMatrix::from_rows(&rows),
         }
-        basis * column_space(&driven)
+    }
+
+    /// Rates of the commands (rows, in their order) by [`Self::commanded_motions`] (columns), all as lengths: commands of
+    /// actuators that turn are multiplied with the natural length, too.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("table")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .translation(vector![0.2, 0.1, 0.0])
+    /// #     .build()?;
+    /// # let home = Pose::translation(0.2, 0.1, 0.0);
+    /// # let table = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // Each slide moves the tool as far as itself.
+    /// let rates = table.posture(&home)?.command_rates();
+    /// let same = rates.transpose() * &rates - nalgebra::DMatrix::identity(2, 2);
+    /// assert!(rates.shape() == (2, 2) && same.amax() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn command_rates(&self) -> DMatrix<f64> {
+        let mut rates = self.rates_by(&self.commanded_motions());
+        let length = self.mechanism.scale().length;
+        let actuators = self.mechanism.limbs().iter();
+        let actuators = actuators.flat_map(|l| l.nominal.actuators());
+        for (mut row, actuator) in rates.row_iter_mut().zip(actuators) {
+            if actuator.kind == MotionKind::Revolute {
+                row.scale_mut(length);
+            }
+        }
+        rates
     }
 
     /// Base directions `x y z rx ry rz` of the tool that the machine can correct by itself:
