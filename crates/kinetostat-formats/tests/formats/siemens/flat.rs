@@ -2,6 +2,7 @@
 
 use kinetostat_formats::internal::expand_siemens_within as expand_within;
 use kinetostat_formats::*;
+use kinetostat_testing::largest_size;
 
 fn flat_of(files: &[(&str, &str)]) -> FlatText {
     let files: Vec<SourceFile> = files
@@ -202,8 +203,8 @@ fn drilling_cycles() {
         let found = places(&format!("CYCLE83(2,0,0.5,-1.5,,,1,0,0,0,1,{vari})"));
         let expected = [vec![0.5, -1.0], between, vec![-1.5, 2.0]].concat();
         assert_eq!(found.len(), expected.len(), "{found:?}");
-        let off = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-        assert!(off.fold(0.0, f64::max) < 1e-9, "{found:?} {expected:?}");
+        let off = largest_size(found.iter().zip(&expected).map(|(a, b)| a - b));
+        assert!(off < 1e-9, "{found:?} {expected:?}");
     }
     // At each place, until MCALL alone; the code of before is stated again.
     assert_eq!(

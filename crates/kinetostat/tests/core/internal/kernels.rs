@@ -265,7 +265,7 @@ fn commands_tell_where_the_tool_is_commanded() {
         }
         wanted *= tool;
         let target = found.target_pose(i).expect("commands were given");
-        let off = (target.to_homogeneous() - wanted.to_homogeneous()).amax();
+        let off = (target.to_homogeneous() - wanted.to_homogeneous()).largest_entry();
         assert!(off < 1e-14, "posture {i} is off by {off}");
     }
     let poses = poses(2);
