@@ -127,7 +127,19 @@ pub(crate) struct SensitivityAnswer {
     pub(crate) path: String,
     pub(crate) value: f64,
     pub(crate) unit: &'static str,
-    /// Derivatives per unit of the number.
+    /// Per unit of the number.
+    #[serde(flatten)]
+    pub(crate) derivatives: DerivativesAnswer,
+    /// Change by 1 % more of the number; of a number that is zero there is none.
+    pub(crate) deflection_by_percent_m_or_rad: f64,
+    pub(crate) stiffness_by_percent_relative: f64,
+    /// How far these derivatives of sixth order are from those of fourth: an estimate of what their differences leave open.
+    pub(crate) estimated_errors: Option<DerivativesAnswer>,
+}
+
+/// Derivatives by a number, or their errors in the same units.
+#[derive(Serialize)]
+pub(crate) struct DerivativesAnswer {
     pub(crate) deflection: f64,
     pub(crate) displacement: [f64; 6],
     pub(crate) compliance: f64,
@@ -136,35 +148,19 @@ pub(crate) struct SensitivityAnswer {
     pub(crate) stiffness_against_force: Option<f64>,
     /// None without a load that buckles, and where two limbs or shapes are equally near and the number changes them differently.
     pub(crate) share_to_buckling: Option<f64>,
-    /// Change by 1 % more of the number; of a number that is zero there is none.
-    pub(crate) deflection_by_percent_m_or_rad: f64,
-    pub(crate) stiffness_by_percent_relative: f64,
-    /// How far these derivatives of sixth order are from those of fourth: an estimate of what their differences leave open.
-    pub(crate) estimated_errors: Option<ErrorsAnswer>,
 }
 
-/// Of the derivatives of the same names, in their units.
-#[derive(Serialize)]
-pub(crate) struct ErrorsAnswer {
-    pub(crate) deflection: f64,
-    pub(crate) displacement: [f64; 6],
-    pub(crate) compliance: f64,
-    pub(crate) stiffness: f64,
-    pub(crate) stiffness_against_force: Option<f64>,
-    pub(crate) share_to_buckling: Option<f64>,
-}
-
-impl ErrorsAnswer {
+impl DerivativesAnswer {
     /// None of what has no derivative.
-    fn of(s: &Sensitivity, e: &Values) -> Self {
+    fn of(s: &Sensitivity, v: &Values) -> Self {
         Self {
-            deflection: e.deflection,
-            displacement: e.displacement,
-            compliance: e.compliance,
-            stiffness: e.stiffness,
+            deflection: v.deflection,
+            displacement: v.displacement,
+            compliance: v.compliance,
+            stiffness: v.stiffness,
             stiffness_against_force: (!s.sharp.stiffness_against_force)
-                .then_some(e.stiffness_against_force),
-            share_to_buckling: e.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
+                .then_some(v.stiffness_against_force),
+            share_to_buckling: v.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
         }
     }
 }
@@ -175,16 +171,10 @@ impl SensitivityAnswer {
             path: s.parameter.path.clone(),
             value: s.parameter.value,
             unit: s.parameter.unit,
-            deflection: d.deflection,
-            displacement: d.displacement,
-            compliance: d.compliance,
-            stiffness: d.stiffness,
-            stiffness_against_force: (!s.sharp.stiffness_against_force)
-                .then_some(d.stiffness_against_force),
-            share_to_buckling: d.share_to_buckling.filter(|_| !s.sharp.share_to_buckling),
+            derivatives: DerivativesAnswer::of(s, d),
             deflection_by_percent_m_or_rad: s.deflection_by_percent(),
             stiffness_by_percent_relative: s.stiffness_by_percent(now),
-            estimated_errors: s.errors.as_ref().map(|e| ErrorsAnswer::of(s, e)),
+            estimated_errors: s.errors.as_ref().map(|e| DerivativesAnswer::of(s, e)),
         }
     }
 }
