@@ -39,6 +39,7 @@ mod shell;
 mod stiffness;
 mod tolerance;
 mod ui;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -159,6 +160,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Compare(args) => compare::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Mirror(args) => mirror::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Tolerance(args) => tolerance::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),

@@ -25,6 +25,7 @@ mod result;
 mod run;
 mod table;
 mod task;
+mod verify;
 mod warning;
 mod watch;
 
@@ -72,6 +73,7 @@ pub use map::{
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::cutting::{CutPlace, CuttingResult};
+pub use result::feature::{Feature, FeatureResult, feature_results};
 pub use result::figures::Figures;
 pub use result::force_band::ForceBand;
 pub use result::joints::{
@@ -96,5 +98,6 @@ pub use run::cutting::{cut_places, cutting_result};
 pub use run::places::wrenches_at;
 pub use table::{FieldCorrection, correct_by_field, wide_table};
 pub use task::{NoMotion, RunError, Task};
+pub use verify::{Matched, Uncut, Verified, verify_program};
 pub use warning::{Warning, WarningCode};
 pub use watch::{Unwatched, Watch};

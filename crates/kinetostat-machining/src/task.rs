@@ -130,12 +130,35 @@ pub enum RunError {
         /// Line of the program, from 1.
         line: usize,
     },
+    /// A program that is verified does not go where its original goes.
+    #[error(
+        "line {line}: at X{:.4} Y{:.4} Z{:.4} mm {}; it can be verified only against the program that it was made from, in the same part frame",
+        position_mm[0], position_mm[1], position_mm[2], elsewhere(*distance_mm)
+    )]
+    Elsewhere {
+        /// Line of the program that is verified, from 1.
+        line: usize,
+        /// Program coordinates, mm.
+        position_mm: [f64; 3],
+        /// Distance of the compensated original from there, mm; none where that comes by, but in another order.
+        distance_mm: Option<f64>,
+    },
     /// The program has no motion on which a correction could be needed.
     #[error("{0}")]
     NoMotion(NoMotion),
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,
+}
+
+fn elsewhere(distance_mm: Option<f64>) -> String {
+    match distance_mm {
+        Some(mm) => format!(
+            "the program is {} away from where the original, compensated, would be",
+            number::largest_length(mm)
+        ),
+        None => "the program comes by in another order than the original".to_owned(),
+    }
 }
 
 fn in_lines(list: &[Beyond]) -> String {

@@ -36,6 +36,8 @@ pub enum WarningCode {
     OtherConfiguration,
     /// More blocks per second than the controller takes.
     BlocksPerSecond,
+    /// A feature on whose lines nothing is cut.
+    EmptyFeature,
     /// A figure beyond a limit, in an analysis that writes no program.
     OverLimit,
     /// A figure that comes near a limit.

@@ -1,5 +1,7 @@
 //! What is wrong with measured points, a path or a state.
 
+use kinetostat_program::NoFeedMove;
+
 /// What is wrong, and what to do, with file and line where there are any.
 ///
 /// ```
@@ -41,5 +43,11 @@ fn place(file: &Option<String>, line: &Option<usize>) -> String {
         (Some(file), Some(line)) => format!("{file}:{line}: "),
         (Some(file), None) => format!("{file}: "),
         _ => String::new(),
+    }
+}
+
+impl From<NoFeedMove> for MirrorError {
+    fn from(none: NoFeedMove) -> Self {
+        Self::new(none.to_string())
     }
 }

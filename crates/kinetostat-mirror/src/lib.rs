@@ -40,19 +40,18 @@
 mod alignment;
 mod deviation;
 mod error;
-mod nominal;
 mod number;
 mod points;
 mod registration;
 mod trial;
 
-pub use alignment::{AlignedPoint, Alignment, LeftOut, WhyLeftOut};
+pub use alignment::{AlignedPoint, Alignment, LeftOut};
 pub use deviation::{
     DeviationFigures, Kernel, MeasureSettings, Measurement, Outlier, Smoothed, Stations, Unseen,
     measure,
 };
 pub use error::MirrorError;
-pub use nominal::{Foot, NominalPath, Pass, Piece};
+pub use kinetostat_program::{Foot, NominalPath, Pass, WhyLeftOut};
 pub use points::{MeasuredPoint, MeasuredPoints};
 pub use registration::{FreeMotion, Motion, Registration, RegistrationOptions, register};
 pub use trial::{

@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod along;
 mod checking;
 mod error;
 mod expanding;
@@ -55,6 +56,10 @@ mod reading;
 mod text;
 mod writing;
 
+pub use along::foot::Foot;
+pub use along::in_order::in_order;
+pub use along::nominal::{FeedPiece, NoFeedMove, NominalPath, Pass};
+pub use along::why::WhyLeftOut;
 pub use checking::field::{Farthest, FieldCheck, verify_against_field};
 pub use checking::verifier::Verification;
 pub use checking::verify::verify_written;

@@ -29,6 +29,7 @@ use crate::shares::arguments::SharesArgs;
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::tolerance::arguments::ToleranceArgs;
+use crate::verify::arguments::VerifyArgs;
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
 /// that cuts where it should.
@@ -73,6 +74,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     Demo(DemoArgs),
     Compensate(Box<CompensateArgs>),
+    Verify(Box<VerifyArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
     Shares(Box<SharesArgs>),

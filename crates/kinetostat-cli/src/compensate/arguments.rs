@@ -150,6 +150,9 @@ A job file:
   # turn_plot = "turn.svg"         # the turn that free_turn chose
   # header = true
 
+  # [[features]]                   # each with a verdict of its own
+  # name = "pocket", lines = [12, 40], tolerance_um = 5
+
   [limits]                         # a program that leaves them is refused
   # correction_mm = 2, own_weight_mm = 5, tilt_deg = 1
   # force_n = 5000, moment_n_m = 200

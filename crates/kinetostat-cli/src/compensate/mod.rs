@@ -34,6 +34,7 @@ use crate::job::target_word::RobotWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::{program, run_warnings};
 use crate::program::aim::Aim;
+use crate::program::features::refuse_missed_features;
 use crate::program::outputs::RunOutputs;
 use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
@@ -139,7 +140,8 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         outputs::written(&paths)
     );
     report::print_run(&text, to_screen.then_some(&run.result))?;
-    report::refuse_missed_tolerance(&run.result.tolerance, &setting)
+    report::refuse_missed_tolerance(&run.result.tolerance, &setting)?;
+    refuse_missed_features(&run.result.features, &setting)
 }
 
 /// Where a program of positions is written for a robot and the arm cannot follow it, the turn of the tool may help.

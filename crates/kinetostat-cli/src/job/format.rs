@@ -12,6 +12,7 @@ use crate::job::cut_tables::{
     CuttersTable, EngagementTable, MaterialTable, MeasuredTable, SpindleTable, StockTable,
 };
 use crate::job::expand_table::ExpandTable;
+use crate::job::features::FeatureTable;
 use crate::job::robot_table::RobotTable;
 use crate::job::source::Source;
 use crate::job::uncertain_table::UncertainTable;
@@ -62,6 +63,9 @@ pub(crate) struct Job {
     pub expand: Option<Spanned<ExpandTable>>,
     /// What is uncertain about machine and load.
     pub uncertain: Option<Spanned<UncertainTable>>,
+    /// Lines of the program with names and tolerances of their own.
+    #[serde(default)]
+    pub features: Vec<Spanned<FeatureTable>>,
     #[serde(default)]
     pub tolerances: TolerancesTable,
     #[serde(default)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use kinetostat_formats::FileForm;
-use kinetostat_machining::{FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
+use kinetostat_machining::{Feature, FileRead, FlatProgram, ForceAlongPath, Limits, WarningCode};
 use kinetostat_program::{Arcs, Corrected, ReadOptions, RotaryAxes, Warning, WriteOptions};
 
 use crate::files::input_files::InputFiles;
@@ -13,6 +13,7 @@ use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::expansion::flat::flattened;
 use crate::job::expansion::settings::wanted;
+use crate::job::features::features;
 use crate::job::format::ArcsWord;
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
@@ -62,6 +63,8 @@ pub(crate) struct Setting {
     pub(crate) free_turn: FreeTurnWord,
     /// Forces of the cut that were found along the program before it was converted.
     pub(crate) forces: Option<ForceAlongPath>,
+    /// Lines of the program with names and tolerances of their own.
+    pub(crate) features: Vec<Feature>,
     /// What is uncertain about machine and load, where it is said.
     pub(crate) uncertain: Option<Uncertainty>,
     /// Files that were read: never overwritten.
@@ -207,6 +210,7 @@ pub(crate) fn setting(
         above_zero,
     )?;
     write.max_blocks_per_s = max_blocks_per_second;
+    let features = features(job)?;
     let uncertain = uncertainty(files, job, &flags.uncertain)?;
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
@@ -303,6 +307,7 @@ pub(crate) fn setting(
         targets,
         free_turn,
         forces: None,
+        features,
         uncertain,
         inputs,
     };

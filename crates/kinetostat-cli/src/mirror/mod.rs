@@ -45,7 +45,8 @@ pub(crate) fn run(args: &MirrorArgs) -> Answer<()> {
     let job = job.transpose()?;
     let setting = asked(&files, job.as_ref(), args)?;
     let read = read_program(&setting)?;
-    let nominal = NominalPath::new(read.path()).map_err(|e| setting.within(e.into()))?;
+    let nominal =
+        NominalPath::new(read.path()).map_err(|e| setting.within(MirrorError::from(e).into()))?;
     let settings = settings_of(args);
     let hash = sha256(&setting.program);
     let mut state = match &args.state {

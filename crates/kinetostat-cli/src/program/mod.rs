@@ -4,10 +4,11 @@
 //! `deflect` and `demo` share.
 
 pub(crate) mod aim;
+pub(crate) mod features;
 pub(crate) mod flat_lines;
 mod joint_columns;
 pub(crate) mod outputs;
-mod points_table;
+pub(crate) mod points_table;
 pub(crate) mod report;
 pub(crate) mod solve;
 pub(crate) mod summary;

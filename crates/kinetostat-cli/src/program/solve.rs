@@ -22,6 +22,7 @@ use crate::job::setting::Setting;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
+use crate::program::features::put_features;
 use crate::program::flat_lines::of_warnings;
 use crate::program::uncertainty::{self, PLACES, put_band};
 use crate::ui::failure::{Answer, Failure};
@@ -268,6 +269,11 @@ pub(crate) fn turned(
             largest(most, "")
         )));
     }
+    let allowed_mm = match aim {
+        Aim::Analyse => setting.writing.tolerance_mm,
+        Aim::Compensate => run.result.tolerance.allowed_mm,
+    };
+    put_features(&mut run, setting, allowed_mm);
     let found = std::mem::take(&mut run.result.warnings);
     run.result.warnings = of_warnings(found, setting.flat.as_ref());
     Ok(run)

@@ -5,6 +5,7 @@ use kinetostat_machining::number::{
 };
 use kinetostat_machining::{Figures, PointResult, RunResult, Summary};
 
+use crate::program::features::features_text;
 use crate::program::flat_lines::listed_under;
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, triple};
@@ -27,6 +28,7 @@ pub(crate) fn of_run(result: &RunResult) -> String {
     }
     out.push('\n');
     out.push_str(&actuators(result));
+    out.push_str(&features_text(&result.features));
     out.push_str(&worst(result));
     out.push_str(&cutting_force(result));
     out.push_str(&warnings(&result.warnings));

@@ -67,5 +67,6 @@ mod stability;
 mod tables;
 mod tolerances;
 mod uncertain;
+mod verify;
 mod without_motion;
 mod words;

@@ -2,6 +2,7 @@
 //! terminal, report and JSON say the same. Computes no posture.
 
 pub(crate) mod cutting;
+pub(crate) mod feature;
 pub(crate) mod figures;
 pub(crate) mod force_band;
 pub(crate) mod joints;

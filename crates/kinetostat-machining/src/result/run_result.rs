@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
 use crate::result::cutting::CuttingResult;
+use crate::result::feature::FeatureResult;
 use crate::result::force_band::ForceBand;
 use crate::result::joints::JointsResult;
 use crate::result::point::PointResult;
@@ -44,6 +45,9 @@ pub struct RunResult {
     /// How far the errors scatter when machine and force are not exactly as stated; none where nothing is said to be uncertain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyBand>,
+    /// How the run stands to features of the part, in the order of the job.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<FeatureResult>,
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.

@@ -4,6 +4,7 @@ use kinetostat_program::{Accounting, Farthest};
 use serde::{Deserialize, Serialize};
 
 use crate::number::{against, largest_length, length_setting};
+use crate::result::point::{PointResult, size};
 
 /// How a program that was corrected from a table stands to its tolerance. All that it can miss it by is what was
 /// left out: whatever else is too far off is refused when the written program is checked.
@@ -100,4 +101,26 @@ pub struct MissedTolerance {
     pub error_mm: f64,
     /// Why, and what can be done.
     pub reason: String,
+}
+
+impl MissedTolerance {
+    /// Of a place of a program, with the reason in words; empty where it is not known.
+    ///
+    /// ```
+    /// use kinetostat_machining::{MissedTolerance, PointResult};
+    ///
+    /// let point = PointResult { line: 4, error_after_mm: [0.03, 0.0, 0.04], ..PointResult::default() };
+    /// let missed = MissedTolerance::at(&point, String::new());
+    /// assert!(missed.line == 4 && (missed.error_mm - 0.05).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn at(point: &PointResult, reason: String) -> Self {
+        Self {
+            line: point.line,
+            output_line: point.output_line,
+            position_mm: point.position_mm,
+            error_mm: size(&point.error_after_mm),
+            reason,
+        }
+    }
 }

@@ -89,6 +89,7 @@ pub(crate) fn conclude(
         cutting: task.cut.map(|forces| cutting_result(forces, task.path())),
         force_band: checked.force_band.clone(),
         uncertainty: None,
+        features: Vec::new(),
         run_inputs: run_inputs_of(task, load, &points, written.is_some()),
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,

@@ -45,13 +45,7 @@ pub(crate) fn tolerance(
         } else {
             "the correction bends more between the ends of the written pieces than was expected, also where they were divided again; tighten the tolerance of the path".to_owned()
         };
-        MissedTolerance {
-            line: p.line,
-            output_line: p.output_line,
-            position_mm: p.position_mm,
-            error_mm: error(p),
-            reason,
-        }
+        MissedTolerance::at(p, reason)
     });
     ToleranceResult {
         allowed_mm,

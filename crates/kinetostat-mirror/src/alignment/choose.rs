@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::alignment::arc_length::in_order;
-use crate::alignment::why::WhyLeftOut;
-use crate::nominal::{Foot, NominalPath};
 use crate::points::MeasuredPoint;
+use kinetostat_program::WhyLeftOut;
+use kinetostat_program::in_order;
+use kinetostat_program::{Foot, NominalPath};
 
 /// The rule by which points are given to places of the path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

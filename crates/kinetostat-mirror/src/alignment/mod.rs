@@ -14,10 +14,7 @@
 //! A deviation is measured from its foot and is that part of it which is across the path: how far the tool has come along it
 //! is not seen.
 
-mod arc_length;
 mod choose;
-mod why;
 
 pub(crate) use choose::align;
 pub use choose::{AlignedPoint, Alignment, LeftOut};
-pub use why::WhyLeftOut;

@@ -9,10 +9,10 @@ use crate::deviation::outliers::{Outlier, take_outliers};
 use crate::deviation::stations::Stations;
 use crate::deviation::unseen::{Unseen, unseen};
 use crate::error::MirrorError;
-use crate::nominal::NominalPath;
 use crate::number::{OF_TWO_DIRECTIONS, larger, median};
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::{Motion, Registration, RegistrationOptions, register};
+use kinetostat_program::NominalPath;
 
 /// How points become deviations; the same for all trials of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

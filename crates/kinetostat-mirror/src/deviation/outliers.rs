@@ -15,8 +15,8 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::alignment::AlignedPoint;
-use crate::nominal::NominalPath;
 use crate::number::{OF_TWO_DIRECTIONS, larger, median};
+use kinetostat_program::NominalPath;
 
 const SIDE: usize = 5;
 const AROUND: usize = 8;

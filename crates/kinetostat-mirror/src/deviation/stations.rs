@@ -1,6 +1,6 @@
 //! Places along the path at which deviations and corrections are kept.
 
-use crate::nominal::NominalPath;
+use kinetostat_program::NominalPath;
 
 /// Stations in a smoothing length: on cubic curves between them nothing is lost of what the kernel lets through.
 const IN_SMOOTHING_LENGTH: f64 = 4.0;

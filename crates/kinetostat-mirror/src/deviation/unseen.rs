@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::alignment::AlignedPoint;
-use crate::nominal::NominalPath;
 use crate::number::larger;
+use kinetostat_program::NominalPath;
 
 /// Farther than so many smoothing lengths from every point nothing is known.
 const KNOWN: f64 = 3.0;

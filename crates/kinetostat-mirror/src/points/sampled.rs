@@ -3,8 +3,8 @@
 use kinetostat_program::Path;
 
 use crate::error::MirrorError;
-use crate::nominal::NominalPath;
 use crate::points::set::MeasuredPoints;
+use kinetostat_program::NominalPath;
 
 /// More points than this are of no use to anyone and fill the memory.
 const MOST: f64 = 1e7;

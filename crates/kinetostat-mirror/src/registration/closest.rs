@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::nominal::{Foot, NominalPath};
 use crate::number::{OF_TWO_DIRECTIONS, median};
 use crate::points::MeasuredPoint;
 use crate::registration::motion::Motion;
+use kinetostat_program::{Foot, NominalPath};
 
 /// Standard deviations beyond which a point counts nothing.
 pub(crate) const FARTHEST_DEVIATIONS: f64 = 6.0;

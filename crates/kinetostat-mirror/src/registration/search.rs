@@ -1,13 +1,13 @@
 //! The search for the motion.
 
 use crate::error::MirrorError;
-use crate::nominal::NominalPath;
 use crate::points::{MeasuredPoint, MeasuredPoints};
 use crate::registration::closest::Closest;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::{FreeMotion, Motion};
 use crate::registration::starts::starts;
 use crate::registration::step::step;
+use kinetostat_program::NominalPath;
 
 /// Points by which a start is judged; all of them take part in the end.
 const JUDGED: usize = 1000;

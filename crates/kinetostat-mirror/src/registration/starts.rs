@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::nominal::NominalPath;
 use crate::points::MeasuredPoint;
 use crate::registration::horn::{Pair, closest_motion};
 use crate::registration::motion::Motion;
+use kinetostat_program::NominalPath;
 
 /// Places of the path for its principal axes.
 const PLACES: usize = 1000;

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 
 use crate::deviation::Stations;
 use crate::error::MirrorError;
-use crate::nominal::NominalPath;
 use crate::trial::state::MirrorState;
+use kinetostat_program::NominalPath;
 
 /// Where a move stands among the pieces of the path.
 #[derive(Clone, Copy, Debug)]

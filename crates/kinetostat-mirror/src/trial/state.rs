@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::deviation::{DeviationFigures, MeasureSettings, Measurement, Stations};
 use crate::error::MirrorError;
-use crate::nominal::NominalPath;
 use crate::trial::convergence::Convergence;
 use crate::trial::repeatability::{Averaging, Repeatability, floor_mm};
+use kinetostat_program::NominalPath;
 
 /// Of the form of the state.
 const SCHEMA: u32 = 1;

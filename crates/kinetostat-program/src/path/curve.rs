@@ -105,6 +105,30 @@ impl Arc {
             + self.axis * (self.rise * share)
     }
 
+    /// The part of it between two shares.
+    ///
+    /// ```
+    /// use kinetostat_program::Arc;
+    /// use nalgebra::Vector3;
+    ///
+    /// let [start, via, end] = [[5.0, 0.0], [0.0, 5.0], [-5.0, 0.0]].map(|[x, y]| Vector3::new(x, y, 2.0));
+    /// let half = Arc::through(&start, &via, &end).unwrap();
+    /// let last = half.between([0.5, 1.0]);
+    /// assert!((last.point(0.0) - via).norm() < 1e-12 && (last.point(0.5) - half.point(0.75)).norm() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn between(&self, [from, to]: [f64; 2]) -> Self {
+        Self {
+            centre: self.centre + self.axis * (self.rise * from),
+            start_angle: self.start_angle + self.sweep * from,
+            sweep: self.sweep * (to - from),
+            start_radius: self.radius(from),
+            end_radius: self.radius(to),
+            rise: self.rise * (to - from),
+            ..*self
+        }
+    }
+
     /// Derivative of the point by the share, in mm.
     fn derivative(&self, share: f64) -> Vector3<f64> {
         let (sine, cosine) = (self.start_angle + self.sweep * share).sin_cos();

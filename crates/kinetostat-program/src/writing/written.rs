@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use serde::Serialize;
 
 use crate::path::curve::Curve;
-use crate::path::moves::Move;
+use crate::path::moves::{Knowledge, Move, Path};
 use crate::writing::accounting::Accounting;
 use crate::writing::jump::Turn;
 use crate::writing::written_arc::WrittenArc;
@@ -99,4 +99,64 @@ pub struct Corrected {
     pub rotary_deg: Vec<Vec<f64>>,
     /// What was done.
     pub accounting: Accounting,
+}
+
+impl Corrected {
+    /// Its pieces as the moves of a path: where the tool is commanded to go. Moves have the index of their piece and its line in
+    /// the output; of what was not corrected nothing is known. `original` is the path that it was written from.
+    ///
+    /// ```
+    /// use kinetostat_program::*;
+    /// use nalgebra::Vector3;
+    ///
+    /// let program = Program::read("G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300\nG1 X100\n")?;
+    /// let path = interpret(&program, &ReadOptions::default())?;
+    /// let raised = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
+    /// let written = write_corrected(&program, &path, &raised, &WriteOptions::default(), &Unwatched)?;
+    /// let commanded = written.path(&path);
+    /// assert_eq!(commanded.moves.len(), written.pieces.len());
+    /// assert_eq!(commanded.moves[2].end, Vector3::new(100.0, 0.0, -0.75));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn path(&self, original: &Path) -> Path {
+        let moves = self.pieces.iter().map(|piece| {
+            let motion = &original.moves[piece.move_index];
+            let (mut start, mut end) = (piece.commanded_from, piece.commanded_to);
+            let curve = match (&piece.arc, &piece.circle) {
+                _ if piece.kept_arc => {
+                    (start, end) = (motion.start, motion.end);
+                    motion.curve
+                }
+                (Some(arc), _) => Curve::Arc(arc.between(&start, &end)),
+                (None, Some(circle)) => Curve::Arc(circle.curve),
+                (None, None) => Curve::Line,
+            };
+            Move {
+                line: piece.output_line,
+                kind: motion.kind,
+                curve,
+                start,
+                end,
+                tool_turn: None,
+                extra: Vec::new(),
+                feed: motion.feed,
+                known: match piece.corrected {
+                    true => motion.known,
+                    false => Knowledge::Nothing,
+                },
+                words: motion.words,
+            }
+        });
+        Path {
+            moves: moves.collect(),
+            tool_axis: original.tool_axis,
+            stated: original.stated,
+            warnings: Vec::new(),
+            tool_changes: Vec::new(),
+            spindle_changes: Vec::new(),
+            pauses: Vec::new(),
+            events: Vec::new(),
+        }
+    }
 }

@@ -6,7 +6,7 @@ use crate::chart::panel::Sheet;
 use crate::chart::section::Section;
 use crate::number::{self, MISSING};
 use crate::run::shown::Shown;
-use crate::run::{along, cut_table, cutting, facts, joints, meaning, plan};
+use crate::run::{along, cut_table, cutting, facts, features, joints, meaning, plan};
 use crate::text;
 use crate::turns;
 
@@ -63,6 +63,7 @@ pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
         turns_sentence => result.turns.map(|(_, words)| text::clean(words)),
         stiffness => figure(result, along::stiffness),
         can_buckle => result.summary.largest_share_to_buckling.is_some(),
+        features => features::table(result),
         worst => facts::worst(result),
         uncorrected => facts::uncorrected(result),
         warnings_left_out => warnings.len().saturating_sub(MOST_WARNINGS),

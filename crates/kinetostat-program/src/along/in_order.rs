@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::alignment::why::WhyLeftOut;
-use crate::nominal::Foot;
+use crate::along::foot::Foot;
+use crate::along::why::WhyLeftOut;
 
 /// The most that a way may cost which does not fit that between two points.
 const DEAREST_STEP: f64 = 4.0;
@@ -16,8 +16,13 @@ struct Reached {
     before: Option<(usize, usize)>,
 }
 
-/// The foot of each point on the cheapest way, or why it has none.
-pub(crate) fn in_order(
+/// Which of its feet belongs to each point, of points in the order in which the tool went; or why none does.
+///
+/// Of all ways through the feet along which none goes back by more than the window, that with the least sum of `(d / window)^2` and
+/// `((way along the path - way between the points) / (way between the points + window))^2`, the latter 4 at most; found as the
+/// shortest way through a graph (Viterbi 1967), not point by point. Lengths in mm.
+#[must_use]
+pub fn in_order(
     points: &[Vector3<f64>],
     feet: &[Vec<Foot>],
     window_mm: f64,

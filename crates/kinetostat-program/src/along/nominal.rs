@@ -1,11 +1,18 @@
 //! Feed moves along their length, in passes of the tool.
 
-use kinetostat_program::{Curve, Move, Path};
 use nalgebra::Vector3;
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Line};
 
-use crate::error::MirrorError;
+use crate::path::curve::Curve;
+use crate::path::moves::{Move, Path};
+
+/// A path that nothing can be compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the program has no feed move with a length from a known place: there is nothing to compare with it"
+)]
+pub struct NoFeedMove;
 
 /// Two places are one where they are no farther apart than this, mm: what is left after inches and increments.
 const SAME_MM: f64 = 1e-6;
@@ -15,7 +22,7 @@ const CHORD_MM: f64 = 0.01;
 
 /// A feed move with its place along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct FeedPiece {
     /// Index of the move in [`Path::moves`].
     pub move_index: usize,
     /// Length of the path before it, mm.
@@ -41,8 +48,7 @@ pub(crate) type Chord = GeomWithData<Line<[f64; 3]>, (usize, [f64; 2])>;
 /// The path as it is drawn: its feed moves from known places, which alone are measured and corrected.
 ///
 /// ```
-/// use kinetostat_mirror::NominalPath;
-/// use kinetostat_program::{Program, ReadOptions, interpret};
+/// use kinetostat_program::{NominalPath, Program, ReadOptions, interpret};
 ///
 /// let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Y10\nG0 Z5\nG0 X0 Y0\nG0 Z0\nG1 X5 Y5\n";
 /// let path = interpret(&Program::read(text)?, &ReadOptions::default())?;
@@ -54,7 +60,7 @@ pub(crate) type Chord = GeomWithData<Line<[f64; 3]>, (usize, [f64; 2])>;
 #[derive(Debug)]
 pub struct NominalPath<'a> {
     path: &'a Path,
-    pieces: Vec<Piece>,
+    pieces: Vec<FeedPiece>,
     passes: Vec<Pass>,
     pub(crate) chords: RTree<Chord>,
 }
@@ -64,8 +70,8 @@ impl<'a> NominalPath<'a> {
     ///
     /// # Errors
     /// There is none that has a length and starts at a known place.
-    pub fn new(path: &'a Path) -> Result<Self, MirrorError> {
-        let (mut pieces, mut passes) = (Vec::<Piece>::new(), Vec::<Pass>::new());
+    pub fn new(path: &'a Path) -> Result<Self, NoFeedMove> {
+        let (mut pieces, mut passes) = (Vec::<FeedPiece>::new(), Vec::<Pass>::new());
         let mut along_mm = 0.0;
         // Where the pass that goes on has come to.
         let mut reached: Option<Vector3<f64>> = None;
@@ -86,7 +92,7 @@ impl<'a> NominalPath<'a> {
                     along_mm: [along_mm; 2],
                 });
             }
-            pieces.push(Piece {
+            pieces.push(FeedPiece {
                 move_index,
                 from_mm: along_mm,
                 length_mm,
@@ -100,9 +106,7 @@ impl<'a> NominalPath<'a> {
             reached = Some(motion.end);
         }
         if pieces.is_empty() {
-            return Err(MirrorError::new(
-                "the program has no feed move with a length from a known place: there is nothing to compare measured points with",
-            ));
+            return Err(NoFeedMove);
         }
         let chords = pieces.iter().enumerate();
         let chords =
@@ -118,7 +122,7 @@ impl<'a> NominalPath<'a> {
 
     /// The pieces in their order.
     #[must_use]
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[FeedPiece] {
         &self.pieces
     }
 
@@ -136,7 +140,7 @@ impl<'a> NominalPath<'a> {
 
     /// The move of a piece.
     #[must_use]
-    pub fn motion(&self, piece: &Piece) -> &'a Move {
+    pub fn motion(&self, piece: &FeedPiece) -> &'a Move {
         &self.path.moves[piece.move_index]
     }
 

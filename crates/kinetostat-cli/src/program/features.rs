@@ -1,0 +1,66 @@
+//! How a run stands to the features of its job.
+
+use kinetostat_machining::{
+    FeatureResult, PointResult, Run, Warning, WarningCode, feature_results,
+};
+
+use crate::job::setting::Setting;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::columns;
+
+/// Puts what was found of the features into a run; `allowed_mm` counts for those without a tolerance.
+pub(crate) fn put_features(run: &mut Run, setting: &Setting, allowed_mm: f64) {
+    // Lines are those of the user's file: of an expanded program the one that a flat line came from.
+    let own_file = setting.program_path.file_name();
+    let own_file = own_file.map(|name| name.to_string_lossy().into_owned());
+    let line_of = |point: &PointResult| match &setting.flat {
+        None => Some(point.line),
+        Some(flat) => flat
+            .source_of(point.line)
+            .filter(|(file, _)| Some(*file) == own_file.as_deref())
+            .map(|(_, line)| line),
+    };
+    let written = run.written.is_some();
+    let found = feature_results(&setting.features, &run.points, line_of, allowed_mm, written);
+    for feature in found.iter().filter(|feature| feature.points == 0) {
+        let [first, last] = feature.lines;
+        run.result.warnings.push(Warning::new(
+            WarningCode::EmptyFeature,
+            format!(
+                "the feature {}, lines {first} to {last}: nothing is cut there, so that nothing can be said of it; compare its lines with the program",
+                feature.name
+            ),
+        ));
+    }
+    run.result.features = found;
+}
+
+/// A table of features, or nothing.
+pub(crate) fn features_text(features: &[FeatureResult]) -> String {
+    if features.is_empty() {
+        return String::new();
+    }
+    let written = features.iter().any(|f| f.error_after_mm.is_some());
+    let row = |cells: [String; 6]| {
+        let [name, lines, before, after, allowed, verdict] = cells;
+        match written {
+            true => vec![name, lines, before, after, allowed, verdict],
+            false => vec![name, lines, before, allowed, verdict],
+        }
+    };
+    let head = ["feature", "lines", "before", "after", "allowed", ""].map(str::to_owned);
+    let rows = std::iter::once(head).chain(features.iter().map(FeatureResult::cells));
+    format!("\n{}", columns(&rows.map(row).collect::<Vec<_>>(), 2))
+}
+
+/// A feature whose tolerance is missed has the exit code of a missed tolerance; files are in place.
+pub(crate) fn refuse_missed_features(features: &[FeatureResult], setting: &Setting) -> Answer<()> {
+    let missed: Vec<String> = features
+        .iter()
+        .filter_map(FeatureResult::missed_text)
+        .collect();
+    match missed.is_empty() {
+        true => Ok(()),
+        false => Err(setting.within(Failure::tolerance_missed(missed.join("\n")))),
+    }
+}

@@ -1,0 +1,137 @@
+//! What `verify` answers.
+
+use kinetostat_machining::{
+    FeatureResult, FileRead, MissedTolerance, PointResult, Verified, Warning,
+};
+use serde::Serialize;
+
+/// The answer of `verify`: lengths in mm, lines of the original and of the program.
+#[derive(Debug, Serialize)]
+pub(crate) struct VerifyAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    /// The program that was verified, and the original.
+    pub(crate) program: String,
+    pub(crate) against: String,
+    pub(crate) model: String,
+    pub(crate) load: String,
+    pub(crate) files: Vec<FileRead>,
+    /// What is allowed in all.
+    pub(crate) allowed_mm: f64,
+    pub(crate) held: bool,
+    /// Where it is missed most.
+    pub(crate) missed: Option<MissedTolerance>,
+    /// Largest distance of the tool from where it should be, along the program and along the original as it is.
+    pub(crate) max_position_error_mm: f64,
+    pub(crate) rms_position_error_mm: f64,
+    pub(crate) max_position_error_of_original_mm: f64,
+    pub(crate) rms_position_error_of_original_mm: f64,
+    pub(crate) max_residual_rotation_deg: f64,
+    pub(crate) stable: bool,
+    pub(crate) points: usize,
+    /// How the program belongs to its original.
+    pub(crate) matched: kinetostat_machining::Matched,
+    pub(crate) features: Vec<FeatureResult>,
+    /// Places where the program is farthest off, worst first; at most ten.
+    pub(crate) worst_points: Vec<PointResult>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// Places that are listed.
+const MOST_WORST: usize = 10;
+
+/// The distance of the tool from where it should be along the program, mm.
+pub(crate) fn off_mm(point: &PointResult) -> f64 {
+    let [x, y, z] = point.error_after_mm;
+    x.hypot(y).hypot(z)
+}
+
+/// The worst places of a program, one of a line.
+pub(crate) fn worst(points: &[PointResult]) -> Vec<PointResult> {
+    let cut = |p: &&PointResult| p.kind != kinetostat_machining::PointKind::Rapid;
+    let mut all: Vec<&PointResult> = points.iter().filter(cut).collect();
+    all.sort_by(|a, b| off_mm(b).total_cmp(&off_mm(a)));
+    let mut worst: Vec<PointResult> = Vec::new();
+    for point in all {
+        if worst.len() == MOST_WORST {
+            break;
+        }
+        if worst.iter().all(|w| w.output_line != point.output_line) {
+            worst.push(point.clone());
+        }
+    }
+    worst
+}
+
+impl VerifyAnswer {
+    pub(crate) fn of(
+        verified: &Verified,
+        (program, against): (&str, &str),
+        files: Vec<FileRead>,
+        allowed_mm: f64,
+    ) -> Self {
+        let result = &verified.run.result;
+        let s = &result.summary;
+        let worst_points = worst(&verified.run.points);
+        let within = s.max_position_error_after_mm <= allowed_mm;
+        let whole = verified.matched.uncut.is_empty();
+        Self {
+            schema: 1,
+            kinetostat_version: env!("CARGO_PKG_VERSION"),
+            program: program.to_owned(),
+            against: against.to_owned(),
+            model: result.run_inputs.model.clone(),
+            load: result.run_inputs.load.clone(),
+            files,
+            allowed_mm,
+            held: within
+                && whole
+                && s.stable
+                && result.features.iter().all(|f| f.held != Some(false)),
+            missed: worst_points
+                .first()
+                .filter(|_| !within)
+                .map(|p| MissedTolerance::at(p, String::new())),
+            max_position_error_mm: s.max_position_error_after_mm,
+            rms_position_error_mm: s.rms_position_error_after_mm,
+            max_position_error_of_original_mm: s.max_position_error_before_mm,
+            rms_position_error_of_original_mm: s.rms_position_error_before_mm,
+            max_residual_rotation_deg: s.max_residual_rotation_deg,
+            stable: s.stable,
+            points: s.points,
+            matched: verified.matched.clone(),
+            features: result.features.clone(),
+            worst_points,
+            warnings: result.warnings.clone(),
+        }
+    }
+
+    /// Everything that keeps the program from being as it should be, a sentence each.
+    pub(crate) fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        if !self.stable {
+            faults.push(
+                "THE MACHINE IS NOT STABLE under this load: do not run this program.".to_owned(),
+            );
+        }
+        for uncut in &self.matched.uncut {
+            let [first, last] = uncut.lines;
+            let lines = match first == last {
+                true => format!("LINE {first} OF THE ORIGINAL IS NOT CUT"),
+                false => format!("LINES {first} TO {last} OF THE ORIGINAL ARE NOT CUT"),
+            };
+            let length = kinetostat_machining::number::largest_length(uncut.length_mm);
+            faults.push(format!("{lines} by this program: {length} of path."));
+        }
+        if let Some(m) = &self.missed {
+            let (error, allowed) =
+                kinetostat_machining::number::against(m.error_mm, self.allowed_mm);
+            faults.push(format!(
+                "THE TOLERANCE IS MISSED at line {} (line {} of the original): the tool is {error} off, more than the {allowed} that are allowed.",
+                m.output_line, m.line
+            ));
+        }
+        faults.extend(self.features.iter().filter_map(FeatureResult::missed_text));
+        faults
+    }
+}

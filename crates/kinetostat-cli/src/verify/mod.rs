@@ -1,0 +1,154 @@
+//! `kinetostat verify`: any program of a part, solved against the one that it was made from.
+//!
+//! It takes both programs and the machine of a job and gives the error along the second, a verdict, and a table of points.
+
+mod answer;
+pub(crate) mod arguments;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::{RunError, Verified, verify_program};
+
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::axes_of_program::give_axes;
+use crate::job::job_file::JobFile;
+use crate::job::machine::{MachineSetup, machine_setup};
+use crate::job::program::read_program;
+use crate::job::robot::joint_arm::give_arm;
+use crate::job::run_warnings;
+use crate::job::setting::{Setting, setting};
+use crate::program::aim::Aim;
+use crate::program::features::put_features;
+use crate::program::points_table::{self, Listing};
+use crate::program::solve::{forces_of, with_task};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::json;
+use crate::ui::progress::Progress;
+use crate::ui::threads::in_threads;
+use crate::verify::answer::VerifyAnswer;
+use crate::verify::arguments::VerifyArgs;
+
+pub(crate) fn run(args: &VerifyArgs) -> Answer<()> {
+    let files = InputFiles::default();
+    let job = args.job.as_deref().map(|path| JobFile::read(&files, path));
+    let job = job.transpose()?;
+    let model_named = args.model.as_deref();
+    if args.original.report.is_some() {
+        return Err(Failure::input(
+            "verify writes no report: its answer comes as text, as JSON (--json FILE) and as a table of points (--points FILE)",
+        ));
+    }
+    let flags = WritingFlags {
+        tolerance_um: args.tolerance_um,
+        ..WritingFlags::default()
+    };
+    let mut original = asked(&files, job.as_ref(), (&args.original, &flags), model_named)?;
+    let mut of_verified = args.original.clone();
+    of_verified.program = Some(args.verified.clone());
+    let mut verified = asked(&files, job.as_ref(), (&of_verified, &flags), model_named)?;
+    let frames = original.robot_frames()?;
+    let with = (frames.as_ref(), &mut original.inputs);
+    let (machine, model) = machine_setup(&files, job.as_ref(), model_named, &args.original, with)?;
+    original.turned_by(machine.rotary.clone());
+    verified.turned_by(machine.rotary.clone());
+
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    let inputs = original.inputs.iter().chain(&verified.inputs);
+    let mut claimed = Outputs::new(
+        Existing::forced(args.original.force_overwrite),
+        inputs.cloned().collect(),
+    );
+    let mut claim = |what, path: &Option<PathBuf>| {
+        let path = path.as_ref();
+        path.map(|path| claimed.claim(what, path)).transpose()
+    };
+    let json_out = claim("result", &args.json.clone().filter(|_| !to_screen))?;
+    let points_out = claim("table of points", &args.original.points)?;
+
+    let mut found = solved(&machine, (&original, &verified), args.original.threads)?;
+    let own_bound = found.run.result.allowed_mm() + rounding_mm(&original);
+    let allowed_mm = args.tolerance_um.map_or(own_bound, |um| 1e-3 * um);
+    put_features(&mut found.run, &original, allowed_mm);
+    found
+        .run
+        .result
+        .warnings
+        .extend(run_warnings::of_run(&model, job.as_ref()));
+    let mut read = verified.program_files.clone();
+    read.extend(found.run.result.run_inputs.files.iter().cloned());
+    let names = (
+        verified.program_name.as_str(),
+        original.program_name.as_str(),
+    );
+    let answer = VerifyAnswer::of(&found, names, read, allowed_mm);
+    if let Some(index) = json_out {
+        claimed.fill(index, json::json(&answer)?.as_bytes())?;
+    }
+    if let Some(index) = points_out {
+        let listing = Listing {
+            all: args.original.all_points,
+            controller: model.controller.clone(),
+        };
+        let of_run = (&found.run.result.run_inputs, &found.run.points);
+        points_table::table(of_run.0, of_run.1, &listing, |bytes| {
+            claimed.append(index, bytes)
+        })?;
+        claimed.complete(index)?;
+    }
+    let paths = claimed.commit()?;
+    let text = format!("{}{}", text::answer_text(&answer), outputs::written(&paths));
+    json::print_answer(&text, &answer, to_screen)?;
+    match answer.held {
+        true => Ok(()),
+        false => Err(verified.within(Failure::tolerance_missed(answer.faults().join("\n")))),
+    }
+}
+
+/// A program and how it is read.
+fn asked(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    (program, writing): (&ProgramArgs, &WritingFlags<'_>),
+    model_named: Option<&str>,
+) -> Answer<Setting> {
+    let mut setting = setting(files, job, program, writing)?;
+    let model = (job, model_named);
+    give_arm(setting.robot.as_mut(), files, model, program)?;
+    give_axes(&mut setting, files, model, program)?;
+    Ok(setting)
+}
+
+/// The machine along the second program.
+fn solved(
+    machine: &MachineSetup,
+    (original, verified): (&Setting, &Setting),
+    threads: Option<usize>,
+) -> Answer<Verified> {
+    let read = read_program(original)?;
+    let other = read_program(verified)?;
+    let progress = Progress::new();
+    let forces = forces_of(machine, original, read.path(), &progress)?;
+    let aim = Aim::Compensate;
+    let found = with_task(aim, machine, original, &read, forces.as_ref(), |task| {
+        let program = (other.path(), verified.program.as_slice());
+        in_threads(threads, || verify_program(task, program, &progress))
+    })??;
+    progress.finish();
+    found.map_err(|error| {
+        // Its line is one of the verified program; those of all others are the original's.
+        let of = match error {
+            RunError::Elsewhere { .. } => verified,
+            _ => original,
+        };
+        of.within(Failure::from(error))
+    })
+}
+
+/// Half a digit along three axes, mm: what rounding alone leaves.
+fn rounding_mm(setting: &Setting) -> f64 {
+    let decimals = i32::from(setting.writing.decimals.unwrap_or(4));
+    3.0_f64.sqrt() * 0.5 * 10.0_f64.powi(-decimals)
+}

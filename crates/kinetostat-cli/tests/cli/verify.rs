@@ -1,0 +1,250 @@
+//! `verify`: programs of a part against the one that they were made from, whoever compensated them.
+
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use kinetostat_testing::Worst;
+use serde_json::Value;
+
+use crate::common::{run, workplace};
+
+/// Lines with corners, an arc, and a second cut behind a rapid, off the axes of the machine.
+const PART: &str = "G21 G90\nG0 X-12 Y-9 Z5\nG0 Z0\nG1 X21 Y-4 F600\nG1 X25 Y13\nG3 X7 Y29 I-13.8 J2.6\nG1 X-11 Y17 Z-1\nG1 X-12 Y-9\nG0 Z5\nG0 X30 Y-20\nG0 Z-1\nG1 X31 Y20\nG0 Z5\nM2\n";
+
+const JOB: &str = "schema = 1\nmodel = \"orthoglide\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [3, -2, 97]\n[tool]\nlength_mm = 100\n[load]\nmilling = { radial_n = 215, tangential_n = -10, axial_n = -25 }\n";
+
+fn part() -> tempfile::TempDir {
+    let here = workplace();
+    std::fs::write(here.path().join("part.ngc"), PART).unwrap();
+    std::fs::write(here.path().join("job.toml"), JOB).unwrap();
+    here
+}
+
+/// What `verify` answers of a program, with its exit code.
+fn verified(here: &Path, program: &str, more: &[&str]) -> (i32, Value, String) {
+    let words = ["verify", program, "--job", "job.toml", "--json"];
+    let output = run(here, &[&words[..], more].concat());
+    let value = serde_json::from_str(&output.out).unwrap_or(Value::Null);
+    (output.code, value, output.err)
+}
+
+fn number(value: &Value, name: &str) -> f64 {
+    value[name].as_f64().unwrap_or(f64::NAN)
+}
+
+fn compensated(here: &Path, more: &[&str]) -> Value {
+    let words = [
+        "compensate",
+        "job.toml",
+        "--out",
+        "out.ngc",
+        "--json",
+        "out.json",
+    ];
+    let output = run(here, &[&words[..], more].concat());
+    assert_eq!(output.code, 0, "{output:?}");
+    let text = std::fs::read_to_string(here.join("out.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn an_own_program_has_the_error_that_its_compensation_claims() {
+    for more in [&[][..], &["--arcs", "lines"], &["--tolerance-um", "3"]] {
+        let here = part();
+        let claimed = &compensated(here.path(), more)["summary"];
+        let (code, found, text) = verified(here.path(), "out.ngc", &[]);
+        let of = |name: &str| number(claimed, name);
+        let after = number(&found, "max_position_error_mm");
+        let claim = of("max_position_error_after_mm");
+        // Other places are looked at, and the tolerance of the default is the machine's.
+        assert!(
+            after > 0.5 * claim && after < 1.3 * claim + 1e-4,
+            "{more:?}: {after} {claim}"
+        );
+        let mut same = Worst::new();
+        same.add(
+            number(&found, "max_position_error_of_original_mm")
+                - of("max_position_error_before_mm"),
+        );
+        assert!(same.holds(1e-9), "{same}");
+        assert_eq!(
+            code,
+            i32::from(after > number(&found, "allowed_mm")) * 3,
+            "{text}"
+        );
+        assert_eq!(found["matched"]["uncut"], serde_json::json!([]));
+        assert!(
+            number(&found["matched"], "largest_distance_mm") < 5e-3,
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn the_original_is_as_far_off_as_deflect_says() {
+    let here = part();
+    let (code, found, text) = verified(here.path(), "part.ngc", &["--tolerance-um", "2"]);
+    assert_eq!(code, 3, "{text}");
+    assert!(text.contains("THE TOLERANCE IS MISSED at line"), "{text}");
+    let output = run(here.path(), &["deflect", "job.toml", "--json"]);
+    let deflected: Value = serde_json::from_str(&output.out).unwrap();
+    let off = number(&deflected["summary"], "max_position_error_before_mm");
+    let most = number(&found, "rms_position_error_mm");
+    let mean = number(&deflected["summary"], "rms_position_error_before_mm");
+    assert!(most > 0.9 * mean && most < 1.1 * mean, "{most} of {mean}");
+    // At corners it is not told whether the tool is beside one move or before the end of the other.
+    let most = number(&found, "max_position_error_mm");
+    assert!(most > 0.9 * off && most < 1.6 * off, "{most} of {off}");
+}
+
+#[test]
+fn what_is_wrong_in_a_program_of_others_is_found_where_it_is() {
+    let here = part();
+    compensated(here.path(), &["--arcs", "lines", "--no-header"]);
+    let text = std::fs::read_to_string(here.path().join("out.ngc")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    // The end of the last block of the contour, 40 um too high.
+    let index = lines
+        .iter()
+        .rposition(|line| line.contains(" Z-0.") && line.contains('X'))
+        .unwrap();
+    let z_at = lines[index].find(" Z").unwrap() + 2;
+    let end = lines[index][z_at..]
+        .find(' ')
+        .map_or(lines[index].len(), |more| z_at + more);
+    let z: f64 = lines[index][z_at..end].parse().unwrap();
+    let spoiled = format!(
+        "{}{:.4}{}",
+        &lines[index][..z_at],
+        z + 0.04,
+        &lines[index][end..]
+    );
+    let mut all = lines.clone();
+    all[index] = &spoiled;
+    std::fs::write(here.path().join("other.ngc"), all.join("\n") + "\n").unwrap();
+    let (code, found, said) = verified(here.path(), "other.ngc", &["--tolerance-um", "10"]);
+    assert_eq!(code, 3, "{said}");
+    let mut off = Worst::new();
+    off.add(number(&found, "max_position_error_mm") - 0.04);
+    assert!(off.holds(2e-3), "{off}");
+    assert_eq!(found["missed"]["output_line"], index + 1, "{said}");
+    assert_eq!(found["missed"]["line"], 8, "{said}");
+    // Without its second cut.
+    let kept = PART.replace("G1 X31 Y20\n", "");
+    std::fs::write(here.path().join("short.ngc"), kept).unwrap();
+    let (code, found, said) = verified(here.path(), "short.ngc", &["--tolerance-um", "5000"]);
+    assert_eq!(code, 3, "{said}");
+    assert_eq!(
+        found["matched"]["uncut"][0]["lines"],
+        serde_json::json!([12, 12]),
+        "{said}"
+    );
+    assert!(
+        said.contains("LINE 12 OF THE ORIGINAL IS NOT CUT"),
+        "{said}"
+    );
+    // Somewhere else altogether.
+    std::fs::write(
+        here.path().join("away.ngc"),
+        PART.replace("X31 Y20", "X31 Y60"),
+    )
+    .unwrap();
+    let (code, _, said) = verified(here.path(), "away.ngc", &[]);
+    assert_eq!(code, 1, "{said}");
+    assert!(
+        said.contains("away.ngc: line 12: at X31.0000 Y60.0000 Z-1.0000 mm the program is"),
+        "{said}"
+    );
+}
+
+#[test]
+fn features_have_verdicts_of_their_own() {
+    let here = part();
+    let features = "[[features]]\nname = \"contour\"\nlines = [4, 8]\ntolerance_um = 20\n[[features]]\nname = \"slot\"\nlines = [12, 12]\ntolerance_um = 0.01\n[[features]]\nname = \"nothing\"\nlines = [9, 10]\n";
+    std::fs::write(here.path().join("job.toml"), format!("{JOB}{features}")).unwrap();
+    let words = [
+        "compensate",
+        "job.toml",
+        "--out",
+        "out.ngc",
+        "--json",
+        "out.json",
+    ];
+    let output = run(here.path(), &words);
+    let said = output.err;
+    assert_eq!(output.code, 3, "{said}");
+    assert!(
+        said.contains("THE TOLERANCE OF slot IS MISSED at line"),
+        "{said}"
+    );
+    let text = std::fs::read_to_string(here.path().join("out.json")).unwrap();
+    let of_compensate: Value = serde_json::from_str(&text).unwrap();
+    let (code, of_verify, said) = verified(here.path(), "out.ngc", &[]);
+    assert_eq!(code, 3, "{said}");
+    for result in [&of_compensate, &of_verify] {
+        let held: Vec<&Value> = (0..3).map(|i| &result["features"][i]["held"]).collect();
+        assert_eq!(
+            held,
+            [&Value::Bool(true), &Value::Bool(false), &Value::Null]
+        );
+    }
+    // Refused in words, at their line.
+    for (wrong, said) in [
+        ("lines = [8, 4]\n", "lines 8 to 4"),
+        ("lines = [0, 4]\n", "counted from 1"),
+        (
+            "lines = [4, 8]\ntolerance_um = -1\n",
+            "0.001 to 10000 micrometres",
+        ),
+    ] {
+        let job = format!("{JOB}[[features]]\nname = \"contour\"\n{wrong}");
+        std::fs::write(here.path().join("job.toml"), job).unwrap();
+        let (code, _, text) = verified(here.path(), "out.ngc", &[]);
+        assert_eq!(code, 1, "{text}");
+        assert!(text.contains(said) && text.contains("job.toml:"), "{text}");
+    }
+}
+
+#[test]
+fn a_robots_program_is_verified_with_its_orientation() {
+    let here = workplace();
+    let head = "x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,speed_mm_per_s\n";
+    let row = |k: u32| {
+        let s = f64::from(k) / 12.0;
+        format!(
+            "{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},20\n",
+            300.0 * s - 150.0,
+            40.0 * s * s,
+            10.0 * s,
+            5.0 * s,
+            3.0 * s,
+            -4.0 * s
+        )
+    };
+    let rows: String = (0..=12).map(row).collect();
+    std::fs::write(here.path().join("part.csv"), format!("{head}{rows}")).unwrap();
+    std::fs::write(
+        here.path().join("job.toml"),
+        "schema = 1\nmodel = \"heavy_6r\"\nprogram = \"part.csv\"\n[load]\nmilling = { radial_n = 0, tangential_n = -20, axial_n = -100 }\n[robot]\ncorrect = \"pose\"\ntool_axis = \"z\"\n[robot.frames]\ntool = { position_mm = [0, 0, 180], roll_pitch_yaw_urdf_deg = [180, 0, 0] }\npart = { position_mm = [2000, 0, 1300], roll_pitch_yaw_urdf_deg = [0, 0, 180] }\n",
+    )
+    .unwrap();
+    let compensate = [
+        "compensate",
+        "job.toml",
+        "--out",
+        "out.csv",
+        "--tolerance-um",
+        "20",
+    ];
+    let output = run(here.path(), &compensate);
+    assert_eq!(output.code, 0, "{output:?}");
+    let (code, found, said) = verified(here.path(), "out.csv", &["--tolerance-um", "40"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(
+        number(&found, "max_position_error_of_original_mm") > 0.1,
+        "{said}"
+    );
+    assert!(number(&found, "max_residual_rotation_deg") < 1e-3, "{said}");
+}

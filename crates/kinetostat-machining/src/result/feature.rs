@@ -1,0 +1,156 @@
+//! Features of a part: ranges of lines with a name and a tolerance of their own, and how a run stands to them.
+
+use kinetostat::number::{against, largest_length};
+use serde::{Deserialize, Serialize};
+
+use crate::result::point::{PointKind, PointResult, size};
+
+/// A feature of the part: lines of the program that cut it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feature {
+    /// Its name, as the user calls it.
+    pub name: String,
+    /// First and last line of the program.
+    pub lines: [usize; 2],
+    /// How far the tool may be off there, mm; none where that of the whole program counts.
+    pub tolerance_mm: Option<f64>,
+}
+
+/// How a run stands to a feature.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FeatureResult {
+    /// Its name.
+    pub name: String,
+    /// First and last line of the program.
+    pub lines: [usize; 2],
+    /// Places at feed that were solved there.
+    pub points: usize,
+    /// Largest distance of the tool from where it should be in the original program, mm; none where nothing is cut.
+    pub error_before_mm: Option<f64>,
+    /// The same of the program that was written or verified; none where there is none.
+    pub error_after_mm: Option<f64>,
+    /// Line of the largest error: of the written or verified program where there is one.
+    pub worst_line: Option<usize>,
+    /// What is allowed, mm.
+    pub allowed_mm: f64,
+    /// Whether that is kept: by the written or verified program where there is one, else by the original. None where nothing is
+    /// cut.
+    pub held: Option<bool>,
+}
+
+/// How a run stands to features: `points` are those of the whole run, `line_of` the line of the user's program that a point belongs
+/// to, `allowed_mm` what counts where a feature states no tolerance. `written` says whether there is a second program.
+///
+/// ```
+/// use kinetostat_machining::{Feature, feature_results};
+///
+/// let pocket = Feature { name: "pocket".into(), lines: [4, 9], tolerance_mm: Some(0.05) };
+/// let found = feature_results(&[pocket], &[], |point| Some(point.line), 0.1, true);
+/// // No point, no verdict.
+/// assert_eq!((found[0].points, found[0].held), (0, None));
+/// ```
+pub fn feature_results(
+    features: &[Feature],
+    points: &[PointResult],
+    line_of: impl Fn(&PointResult) -> Option<usize>,
+    allowed_mm: f64,
+    written: bool,
+) -> Vec<FeatureResult> {
+    let mut results: Vec<FeatureResult> = features
+        .iter()
+        .map(|feature| FeatureResult {
+            name: feature.name.clone(),
+            lines: feature.lines,
+            allowed_mm: feature.tolerance_mm.unwrap_or(allowed_mm),
+            ..FeatureResult::default()
+        })
+        .collect();
+    for point in points.iter().filter(|p| p.kind != PointKind::Rapid) {
+        let Some(line) = line_of(point) else { continue };
+        let inside = |result: &&mut FeatureResult| {
+            let [first, last] = result.lines;
+            (first..=last).contains(&line)
+        };
+        for result in results.iter_mut().filter(inside) {
+            result.points += 1;
+            let before = size(&point.error_before_mm);
+            // Only a second program has steps.
+            if !point.kind.is_step() {
+                note(&mut result.error_before_mm, before);
+            }
+            let (most, own) = match written {
+                true => (&mut result.error_after_mm, size(&point.error_after_mm)),
+                false => (&mut result.error_before_mm, before),
+            };
+            let is_worst = result.worst_line.is_none() || most.is_none_or(|most| own >= most);
+            note(most, own);
+            if is_worst {
+                result.worst_line = Some(match written {
+                    true => point.output_line,
+                    false => line,
+                });
+            }
+        }
+    }
+    for result in &mut results {
+        let counts = match written {
+            true => result.error_after_mm,
+            false => result.error_before_mm,
+        };
+        // NaN keeps no tolerance.
+        result.held = counts.map(|mm| mm <= result.allowed_mm);
+    }
+    results
+}
+
+/// The larger of both; NaN stays.
+fn note(most: &mut Option<f64>, own: f64) {
+    if most.is_none_or(|most| own > most || own.is_nan()) {
+        *most = Some(own);
+    }
+}
+
+impl FeatureResult {
+    /// That its tolerance is missed, where and by how much; none where it is kept.
+    #[must_use]
+    pub fn missed_text(&self) -> Option<String> {
+        if self.held != Some(false) {
+            return None;
+        }
+        let error_mm = self.error_after_mm.or(self.error_before_mm)?;
+        let (error, allowed) = against(error_mm, self.allowed_mm);
+        let of = match self.error_after_mm {
+            Some(_) => "of the written program",
+            None => "of the program",
+        };
+        Some(format!(
+            "THE TOLERANCE OF {} IS MISSED at line {} {of}: the tool is {error} off, more than the {allowed} that are allowed.",
+            self.name,
+            self.worst_line.unwrap_or(0)
+        ))
+    }
+
+    /// Its row of a table: name, lines, error before, error after, what is allowed, verdict.
+    #[must_use]
+    pub fn cells(&self) -> [String; 6] {
+        let length = |mm: Option<f64>| mm.map_or_else(String::new, largest_length);
+        let [first, last] = self.lines;
+        let allowed = match self.error_after_mm.or(self.error_before_mm) {
+            Some(error_mm) => against(error_mm, self.allowed_mm).1,
+            None => kinetostat::number::length_setting(self.allowed_mm),
+        };
+        [
+            self.name.clone(),
+            format!("{first} to {last}"),
+            length(self.error_before_mm),
+            length(self.error_after_mm),
+            allowed,
+            match self.held {
+                Some(true) => "kept".to_owned(),
+                Some(false) => "MISSED".to_owned(),
+                None => "nothing is cut".to_owned(),
+            },
+        ]
+    }
+}

@@ -1,0 +1,117 @@
+//! Another program of the same part, solved: how far is the tool off where that sends it?
+//!
+//! The other program may be compensated by whatever means, or not at all; nothing is taken from how it was written. To solve it
+//! two things must be known at each of its places: which place of the original it belongs to (where the tool should be), and with
+//! it the load. The compensation of the original by the model is the guide for that: a path that comes as near to a compensated
+//! program as two compensations differ, and that steps at corners where a compensated program steps. Only the correspondence
+//! is taken from it: positions and orientations are those that the other program commands, and the machine is solved there.
+//!
+//! Ends of the other program's moves are given to the guide in their order ([`kinetostat_program::in_order`]), their moves are
+//! divided where the original goes on to another move, and the pieces are solved as those of any written program. Across the path
+//! the error is exact to second order in the distance from the guide; along it, where an error moves no material, it is that of
+//! the correspondence.
+
+mod follow;
+mod matched;
+mod pieces;
+mod places;
+mod uncut;
+
+use kinetostat::number::smaller;
+use kinetostat_program::{Arcs, Corrected, Path, Unwatched};
+
+use crate::load::along_path::LoadAlongPath;
+use crate::load::ramps::Ramped;
+use crate::postures::arm_course::ArmCourse;
+use crate::run::checked::Checked;
+use crate::run::compensate::with_model_field;
+use crate::run::conclude::{Run, conclude};
+use crate::run::first_look::FirstLook;
+use crate::run::points::solve;
+use crate::run::sites::sites_of_written;
+use crate::run::way_out::with_way_out;
+use crate::task::{RunError, Task};
+use crate::verify::follow::follow;
+use crate::verify::pieces::as_written;
+use crate::watch::Watch;
+
+pub use matched::{Matched, Uncut};
+
+/// A program that was verified.
+#[derive(Clone, Debug)]
+pub struct Verified {
+    /// What the machine does along it: errors before are those of the original as it is, errors after those of the program.
+    /// Lines are those of the original, output lines those of the program.
+    pub run: Run,
+    /// How it belongs to the original.
+    pub matched: Matched,
+}
+
+/// The machine along another program of the same part: `task` is that of the original, `other` where the other program goes, in
+/// the same part frame, and `bytes` what it was read from.
+///
+/// ```no_run
+/// # fn with(task: &kinetostat_machining::Task<'_>, other: &kinetostat_program::Path) -> Result<(), kinetostat_machining::RunError> {
+/// let verified = kinetostat_machining::verify_program(task, (other, b""), &kinetostat_machining::Unwatched)?;
+/// let off_mm = verified.run.result.summary.max_position_error_after_mm;
+/// # let _ = off_mm; Ok(())
+/// # }
+/// ```
+///
+/// # Errors
+/// [`RunError::Elsewhere`] where it does not go where the original goes; else as [`crate::compensate_program`].
+pub fn verify_program(
+    task: &Task<'_>,
+    (other, bytes): (&Path, &[u8]),
+    watch: &dyn Watch,
+) -> Result<Verified, RunError> {
+    verified(task, (other, bytes), watch).map_err(|error| with_way_out(task, error))
+}
+
+fn verified(
+    task: &Task<'_>,
+    (other, bytes): (&Path, &[u8]),
+    watch: &dyn Watch,
+) -> Result<Verified, RunError> {
+    let guide = guide(task, watch)?;
+    watch.stage("places of the original", 0);
+    let (pieces, matched) = follow(task.path(), &guide, other)?;
+    let written = as_written(task.path(), (other, bytes), pieces);
+    let load = LoadAlongPath::with_tools(task.load, task.path(), task.tools).with_cut(task.cut);
+    let looked = FirstLook::new(task, &load, watch)?;
+    let Ramped {
+        acting: load,
+        findings: ramps,
+        ..
+    } = load.ramped(looked.stiffness());
+    let course = ArmCourse::of(task);
+    let sites = || sites_of_written(task, &load, &written);
+    // A place where the program is worse than the original is a finding here.
+    let (points, _worse) = solve(task, sites, (true, course.as_ref()), watch)?;
+    let checked = Checked {
+        ramps,
+        ..Checked::default()
+    };
+    Ok(Verified {
+        run: conclude(task, &load, points, Some(written), &checked),
+        matched,
+    })
+}
+
+/// How far the guide may leave the compensated path, mm.
+const GUIDE_MM: f64 = 1e-3;
+
+/// The original, compensated by the model in straight pieces.
+fn guide(task: &Task<'_>, watch: &dyn Watch) -> Result<Corrected, RunError> {
+    let mut writing = task.writing.clone();
+    writing.arcs = Arcs::Lines;
+    writing.header = None;
+    // The correspondence is to be no coarser than what is verified by it.
+    writing.tolerance_mm = smaller(writing.tolerance_mm, GUIDE_MM);
+    writing.chord_tolerance_mm = smaller(writing.chord_tolerance_mm, GUIDE_MM);
+    with_model_field(task, watch, |field| {
+        watch.stage("corrections", 0);
+        task.program.write(field, &writing, &Unwatched)
+    })?
+    .map_err(RunError::from)
+}
