@@ -219,6 +219,11 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         orthoglide::fig_6_7,
     ),
     (
+        "fig-7.2",
+        "Method of the symmetrical trajectory, on the groove of the Orthoglide",
+        orthoglide::fig_7_2,
+    ),
+    (
         "fig-7.5",
         "Milling with the Orthoglide: what the sources of error make of the trajectory",
         orthoglide::fig_7_5,

@@ -1,6 +1,6 @@
 //! Features of a part: ranges of lines with a name and a tolerance of their own, and how a run stands to them.
 
-use kinetostat::number::{against, largest_length};
+use kinetostat::number::{against, largest_length, mean_length};
 use serde::{Deserialize, Serialize};
 
 use crate::result::point::{PointKind, PointResult, size};
@@ -138,7 +138,7 @@ impl FeatureResult {
         let [first, last] = self.lines;
         let allowed = match self.error_after_mm.or(self.error_before_mm) {
             Some(error_mm) => against(error_mm, self.allowed_mm).1,
-            None => kinetostat::number::length_setting(self.allowed_mm),
+            None => mean_length(self.allowed_mm),
         };
         [
             self.name.clone(),

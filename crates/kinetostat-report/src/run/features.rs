@@ -3,7 +3,7 @@
 use kinetostat_machining::FeatureResult;
 use minijinja::{Value, context};
 
-use crate::number::MISSING;
+use crate::number::{MISSING, typeset};
 use crate::run::shown::Shown;
 use crate::text;
 
@@ -20,10 +20,12 @@ pub(crate) fn table(result: &Shown<'_>) -> Value {
 }
 
 fn row(feature: &FeatureResult) -> Value {
-    let cells = feature.cells().map(|cell| match cell.is_empty() {
+    let [name, lines, before, after, allowed, verdict] = feature.cells();
+    let length = |cell: String| match cell.is_empty() {
         true => MISSING.to_owned(),
-        false => text::clean(&cell),
-    });
-    let [name, lines, before, after, allowed, verdict] = cells;
+        false => typeset(&cell),
+    };
+    let [before, after, allowed] = [before, after, allowed].map(length);
+    let name = text::clean(&name);
     context! { name, lines, before, after, allowed, verdict, missed => feature.held == Some(false) }
 }

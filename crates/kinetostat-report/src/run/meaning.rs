@@ -91,6 +91,19 @@ pub(crate) fn assessment(result: &RunResult) -> RunAssessment {
     } else {
         analysed(result)
     };
+    let missed: Vec<&str> = (result.features.iter())
+        .filter(|feature| feature.held == Some(false))
+        .map(|feature| feature.name.as_str())
+        .collect();
+    if !missed.is_empty() {
+        if meaning.level != Level::Stop && result.run_inputs.compensated {
+            meaning.level = Level::Attention;
+        }
+        meaning.sentence.push_str(&format!(
+            " The tolerance is missed of: {}.",
+            missed.join(", ")
+        ));
+    }
     if let Some(own) = result.own_weight_text() {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&own);

@@ -97,7 +97,8 @@ fn three(values: &[f64]) -> Vector3<f64> {
 }
 
 impl Reading {
-    fn machines(&self) -> Result<[Mechanism; 2], Cause> {
+    /// The machine without errors of its legs, and with them.
+    pub(super) fn machines(&self) -> Result<[Mechanism; 2], Cause> {
         let actual = Orthoglide {
             drive: self.drive,
             ..Orthoglide::case_b()
@@ -110,7 +111,7 @@ impl Reading {
     }
 
     /// Centre (m) of the circle at a point of the workspace.
-    fn centre(&self, point: [f64; 3]) -> Vector3<f64> {
+    pub(super) fn centre(&self, point: [f64; 3]) -> Vector3<f64> {
         let mut centre = Vector3::from(point);
         if self.inside {
             for k in 0..2 {

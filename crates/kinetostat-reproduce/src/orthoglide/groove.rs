@@ -95,16 +95,25 @@ fn load() -> Vec<Item> {
 /// How a path is drawn: its name and its place from the centre.
 type DrawnPath = (&'static str, fn(&At) -> Vector3<f64>);
 
-/// Paths in the plane, mm, drawn to about the same scale along x and y.
+/// Paths of a circle in the plane, mm, drawn to about the same scale along x and y.
 fn plan(title: String, circle: &Circle, paths: &[DrawnPath]) -> Plot {
+    let path = |(name, of): &DrawnPath| {
+        let points = circle.points.iter();
+        (*name, points.map(|p| (of(p).x, of(p).y)).collect())
+    };
+    closed_paths(title, paths.iter().map(path).collect())
+}
+
+/// Named paths about the centre of a circle, mm, drawn to about the same scale along x and y.
+pub(super) fn closed_paths(title: String, paths: Vec<(&str, Vec<(f64, f64)>)>) -> Plot {
     let mut lines: Vec<PlotLine> = paths
-        .iter()
+        .into_iter()
         .enumerate()
-        .map(|(colour, (name, of))| PlotLine {
-            name: (*name).into(),
+        .map(|(colour, (name, points))| PlotLine {
+            name: name.into(),
             colour,
             dashed: false,
-            points: circle.points.iter().map(|p| (of(p).x, of(p).y)).collect(),
+            points,
         })
         .collect();
     let all = || lines.iter().flat_map(|l| l.points.iter());

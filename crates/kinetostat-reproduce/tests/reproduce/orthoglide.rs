@@ -517,3 +517,41 @@ fn chapter_7_by_its_readings() {
     assert!((of("Q3: largest difference of (3) and (4)") - 0.04).abs() < 5e-3);
     assert!(of("smallest excess of (3) over (4) in length") > 0.0);
 }
+
+/// [R 7.2]: each trial leaves what is not linear of the one before, so that the error falls by the same order each time, and one
+/// trial of a linear machine would do.
+#[test]
+fn the_symmetrical_trajectory_leaves_what_is_not_linear() {
+    let trials = entry("fig-7.2");
+    sound(&trials);
+    assert_eq!(trials.plots.len(), 2);
+    let names = [
+        "as drawn",
+        "mirrored once",
+        "mirrored twice",
+        "mirrored three times",
+    ];
+    let errors_of = |reading: usize| -> Vec<f64> {
+        let of = |name: &&str| {
+            let name = format!("largest error, {name}");
+            let all = trials.items.iter().filter(|i| i.name == name);
+            all.filter_map(|i| i.computed)
+                .nth(reading)
+                .unwrap_or(f64::NAN)
+        };
+        names.iter().map(of).collect()
+    };
+    for reading in [0, 1] {
+        let errors = errors_of(reading);
+        // The first as in figure 7.7: compliance errors above 0.8 mm beside those of the legs.
+        assert!(errors[0] > 0.8 && errors[0] < 2.0, "{errors:?}");
+        for pair in errors.windows(2) {
+            assert!(pair[1] < 0.1 * pair[0] || pair[1] < 1e-7, "{errors:?}");
+        }
+        // The factor is that of the machine, not of the trial.
+        let factors = [errors[1] / errors[0], errors[2] / errors[1]];
+        assert!(factors[1] < 2.0 * factors[0], "{factors:?}");
+    }
+    let ratio = computed(&trials, "error mirrored once, by that with half the force");
+    assert!(ratio > 1.0 && ratio < 4.5, "{ratio}");
+}
