@@ -88,6 +88,7 @@ pub(crate) fn fig_7_2() -> Result<Contents, Cause> {
     let mut plots = Vec::new();
     for reading in [&READINGS[0], &READINGS[2]] {
         let angles = circle(reading, 1.0)?;
+        let letter = reading.name.split(' ').next().unwrap_or_default();
         let note = format!(
             "Q1, errors of the legs and cutting force, reading {}; the figure prints no digits",
             reading.name
@@ -100,7 +101,7 @@ pub(crate) fn fig_7_2() -> Result<Contents, Cause> {
         ];
         for (trial, name) in names.into_iter().enumerate() {
             items.push(Item::unprinted(
-                format!("largest error, {name}"),
+                format!("reading {letter}: largest error, {name}"),
                 most(&angles, trial),
                 "mm",
                 &note,
@@ -108,7 +109,7 @@ pub(crate) fn fig_7_2() -> Result<Contents, Cause> {
         }
         let half = circle(reading, 0.5)?;
         items.push(Item::unprinted(
-            "error mirrored once, by that with half the force",
+            format!("reading {letter}: error mirrored once, by that with half the force"),
             most(&angles, 1) / most(&half, 1),
             "",
             &format!(

@@ -531,18 +531,9 @@ fn the_symmetrical_trajectory_leaves_what_is_not_linear() {
         "mirrored twice",
         "mirrored three times",
     ];
-    let errors_of = |reading: usize| -> Vec<f64> {
-        let of = |name: &&str| {
-            let name = format!("largest error, {name}");
-            let all = trials.items.iter().filter(|i| i.name == name);
-            all.filter_map(|i| i.computed)
-                .nth(reading)
-                .unwrap_or(f64::NAN)
-        };
-        names.iter().map(of).collect()
-    };
-    for reading in [0, 1] {
-        let errors = errors_of(reading);
+    let of = |reading: &str, name: &str| computed(&trials, &format!("reading {reading}: {name}"));
+    for reading in ["A", "B"] {
+        let errors = names.map(|name| of(reading, &format!("largest error, {name}")));
         // The first as in figure 7.7: compliance errors above 0.8 mm beside those of the legs.
         assert!(errors[0] > 0.8 && errors[0] < 2.0, "{errors:?}");
         for pair in errors.windows(2) {
@@ -551,7 +542,7 @@ fn the_symmetrical_trajectory_leaves_what_is_not_linear() {
         // The factor is that of the machine, not of the trial.
         let factors = [errors[1] / errors[0], errors[2] / errors[1]];
         assert!(factors[1] < 2.0 * factors[0], "{factors:?}");
+        let ratio = of(reading, "error mirrored once, by that with half the force");
+        assert!(ratio > 1.0 && ratio < 4.5, "{ratio}");
     }
-    let ratio = computed(&trials, "error mirrored once, by that with half the force");
-    assert!(ratio > 1.0 && ratio < 4.5, "{ratio}");
 }
