@@ -7,7 +7,7 @@ use kinetostat_model::{Model, ModelError, ParametricModel};
 use serde::Serialize;
 
 use crate::file::{Source, UncertaintyFile};
-use crate::near_drawing::Margins;
+use crate::near_drawing::{MOST_DERIVATIVES, Margins, with_stability};
 use crate::uncertain::Uncertainties;
 
 /// What depends on how the machine stands under the load.
@@ -16,9 +16,6 @@ const LOADED: [Quantity; 3] = [
     Quantity::Deviation,
     Quantity::Stiffness,
 ];
-
-/// Uncertain numbers whose derivatives tell where a machine stands: to read those of more takes longer than they save.
-const MOST_DERIVATIVES: usize = 16;
 
 /// What is asked of a machine at each place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -166,7 +163,16 @@ pub struct Room {
     pub(crate) loaded: BatchEquilibrium,
     pub(crate) compensated: BatchEquilibrium,
     pub(crate) wrenches: Vec<Wrench>,
-    deviations: Vec<f64>,
+    pub(crate) deviations: Vec<f64>,
+}
+
+impl Room {
+    /// Takes by how much values differ from those of the drawing.
+    pub(crate) fn deviate(&mut self, values: &[f64], nominal: &[f64]) {
+        let each = values.iter().zip(nominal);
+        self.deviations.clear();
+        self.deviations.extend(each.map(|(x, drawn)| x - drawn));
+    }
 }
 
 impl UncertainMachine {
@@ -265,7 +271,10 @@ impl UncertainMachine {
         }
         wrench.0 *= factor;
         let numbers = Source::of_model(&self.sources, values);
-        let built = self.parametric.mechanism(&numbers)?.with_tool(&self.tool);
+        let mut built = self.parametric.mechanism(&numbers)?;
+        if self.tool != Pose::identity() {
+            built = built.with_tool(&self.tool);
+        }
         Ok((self.batch.built(&built)?, wrench))
     }
 
@@ -273,17 +282,14 @@ impl UncertainMachine {
     /// the equilibria of every machine starts from derivatives.
     fn learn(&mut self, uncertainties: &Uncertainties) -> Result<(), TaskError> {
         let (count, length) = (self.places(), self.drawn.natural_length());
-        let stability = |(batch, load): &(Batch, Wrench), places: &Commanded| {
-            let mut found = BatchEquilibrium::default();
-            let loads = vec![*load; count];
-            let details = Details::Stability;
-            batch
-                .equilibrium_commanded_into(places, &loads, details, &mut found)
-                .map(|()| found)
+        let stability = |batch: &Batch, places: &Commanded, load: &Wrench| {
+            with_stability(batch, places, &vec![*load; count])
         };
-        let drawn = (self.batch.clone(), self.wrench);
         let mut margins = match self.asks(&LOADED) {
-            true => Some(Margins::new(&stability(&drawn, &self.loaded)?, length)),
+            true => {
+                let drawn = stability(&self.batch, &self.loaded, &self.wrench)?;
+                Some(Margins::new(&drawn, length))
+            }
             false => None,
         };
         for (i, number) in uncertainties.each().iter().enumerate() {
@@ -298,7 +304,8 @@ impl UncertainMachine {
                 return Ok(());
             };
             if let Some(margins) = &mut margins {
-                let [more, less] = [&more, &less].map(|machine| stability(machine, &self.loaded));
+                let [more, less] =
+                    [&more, &less].map(|(batch, load)| stability(batch, &self.loaded, load));
                 margins.go_along(&more?, &less?, 2.0 * step, length);
             }
             if i >= MOST_DERIVATIVES {
@@ -361,9 +368,8 @@ impl DependsOnMachine for UncertainMachine {
     fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
         let (batch, wrench) = self.built(values)?;
         let count = self.places();
-        let (wrenches, by) = (&mut room.wrenches, &mut room.deviations);
-        by.clear();
-        by.extend(values.iter().zip(&self.nominal).map(|(x, drawn)| x - drawn));
+        room.deviate(values, &self.nominal);
+        let (wrenches, by) = (&mut room.wrenches, &room.deviations);
         if self.asks(&[Quantity::Error, Quantity::Deflection]) {
             refill(wrenches, Wrench::zero(), count);
             let (places, out) = (&self.places, &mut room.unloaded);

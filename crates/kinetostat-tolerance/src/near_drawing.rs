@@ -3,11 +3,26 @@
 //! Whether an equilibrium holds takes as long to find as the equilibrium itself, and hardly a machine of thousands is another than
 //! the drawn one in that. Its margins and their derivatives say which may be: only those are looked at.
 
-use kinetostat::batch::BatchEquilibrium;
+use kinetostat::Wrench;
+use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
 use kinetostat::nalgebra::Matrix6;
 
 /// So many times the change that derivatives foretell must leave a margin for a machine to be taken as stable without a look.
 const SAFETY: f64 = 10.0;
+
+/// Uncertain numbers whose derivatives tell where a machine stands: to read those of more takes longer than they save.
+pub(crate) const MOST_DERIVATIVES: usize = 16;
+
+/// The equilibria of a machine, with stability.
+pub(crate) fn with_stability(
+    batch: &Batch,
+    places: &Commanded,
+    loads: &[Wrench],
+) -> kinetostat::Result<BatchEquilibrium> {
+    let mut found = BatchEquilibrium::default();
+    batch.equilibrium_commanded_into(places, loads, Details::Stability, &mut found)?;
+    Ok(found)
+}
 
 /// How far the equilibria at all places are from losing their hold, and the derivatives of that by the uncertain numbers.
 #[derive(Clone, Debug)]
