@@ -94,9 +94,7 @@ fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, path: &[PathStep]) -> Option<&'a 
         let PathStep::Key(key) = step else {
             return None;
         };
-        let (_, value) = table
-            .iter_mut()
-            .find(|(k, _)| k.get_ref() == &**key)?;
+        let (_, value) = table.iter_mut().find(|(k, _)| k.get_ref() == &**key)?;
         let mut value = value.get_mut();
         while let Some(PathStep::Index(index)) = steps.peek() {
             let DeValue::Array(list) = value else {

@@ -149,3 +149,42 @@ fn machines_with_other_numbers_answer_as_those_compiled_one_by_one() {
         );
     }
 }
+
+/// What corrects the drawn machine is no good for one of other stiffness by far: it is left over, and found from the start.
+#[test]
+fn machines_far_from_the_drawn_one_are_found_as_well() {
+    let load = Wrench::new(
+        Vector3::new(215.0, -10.0, -25.0),
+        Vector3::new(1.0, 2.0, -0.5),
+    );
+    let model = Model::preset("orthoglide").expect("a preset");
+    let paths = ["section.foot beam.scale", "stiffness.bar.scale"];
+    let parametric = model.parametric(&paths).expect("parameters");
+    let as_drawn = parametric.mechanism(&[1.0, 1.0]).expect("a machine");
+    let drawn = Batch::new(&as_drawn);
+    let poses = places(&as_drawn, 0.05);
+    let loads = vec![load; poses.len()];
+    let started = drawn.commanded_under(&poses, &loads).expect("equilibria");
+    let (mut worst, mut solved) = (Worst::new(), 0);
+    for numbers in [[5.0, 4.0], [0.5, 3.0], [4.0, 0.6], [0.6, 0.5]] {
+        let built = parametric.mechanism(&numbers).expect("a machine");
+        let mut found = BatchEquilibrium::default();
+        let batch = drawn.built(&built).expect("as drawn");
+        batch
+            .equilibrium_commanded_into(&started, &loads, Details::Stiffness, &mut found)
+            .expect("answers");
+        for (i, pose) in poses.iter().enumerate() {
+            if i == 9 {
+                assert_eq!(found.status[i], Status::Unsolved);
+                continue;
+            }
+            solved += usize::from(found.status[i] == Status::Vectorised);
+            let posture = built.posture(pose).expect("a posture");
+            let general = posture.deflected_by(&load).expect("an equilibrium");
+            let off = pose_residual(&found.tool_pose(i), &general.tool);
+            worst.add_at(off.0.norm(), || format!("{numbers:?}, place {i}"));
+        }
+    }
+    assert!(solved >= 4 * 15, "only {solved} are vectorised");
+    assert!(worst.value() < 1e-12, "{worst:?}");
+}
