@@ -120,7 +120,8 @@ impl Batch {
     }
 
     /// The same, for many machines that are loaded about like this one by `wrenches`: their equilibria are searched from where
-    /// this one stands, in half the passes, and found as along a path, to a millionth of a tenth of a micrometre.
+    /// this one stands, or from where derivatives say that they stand ([`Commanded::go_along`]), with the corrections of this one, and
+    /// found as along a path, to a millionth of a tenth of a micrometre.
     ///
     /// # Errors
     /// As [`Self::equilibrium`].

@@ -21,6 +21,10 @@ use crate::batch::table::BLOCK;
 use crate::spatial::{Directions, Pose, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one for hundreds of postures, and used up where it is made"
+)]
 pub(crate) enum Job<'a> {
     Unloaded {
         plans: &'a [Plan],
