@@ -2,13 +2,15 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
 /// A step on the path from the root of a document to a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PathStep {
-    Key(String),
+    /// Shared: paths are made for every number of a model, thousands of times, and read where there is a finding.
+    Key(Arc<str>),
     Index(usize),
 }
 
@@ -22,15 +24,18 @@ impl KeyPath {
     }
 
     pub(crate) fn key(&self, key: &str) -> Self {
-        let mut place = self.clone();
-        place.0.push(PathStep::Key(key.to_owned()));
-        place
+        self.then(PathStep::Key(key.into()))
     }
 
     pub(crate) fn index(&self, index: usize) -> Self {
-        let mut place = self.clone();
-        place.0.push(PathStep::Index(index));
-        place
+        self.then(PathStep::Index(index))
+    }
+
+    fn then(&self, step: PathStep) -> Self {
+        let mut steps = Vec::with_capacity(self.0.len() + 1);
+        steps.extend_from_slice(&self.0);
+        steps.push(step);
+        Self(steps)
     }
 }
 

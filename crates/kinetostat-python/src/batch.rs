@@ -1,5 +1,6 @@
 //! Many postures at once.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details, Status, Table};
@@ -192,9 +193,8 @@ impl Places {
                 let each = machine.mechanism.actuator_count();
                 let (_, numbers) = rows("joints", joints, &[each])?;
                 // What cannot be commanded by joints says so before the work begins.
-                let batch = machine.batch();
-                let first = numbers.get(..each).unwrap_or_default();
-                batch.stiffness_at_joints(first).map_err(|e| of_core(&e))?;
+                let none = machine.batch().targets_at_joints(&[]);
+                none.map_err(|e| of_core(&e))?;
                 Ok(Self::Joints(numbers.to_vec(), each))
             }
             _ => Err(error(Class::Argument, "give poses or joints")),
@@ -212,7 +212,7 @@ impl Places {
         match self {
             Self::Poses(poses) => batch.stiffness_into(&poses[from..to], out),
             Self::Joints(commands, each) => {
-                // The first row was tried, and all rows have its length.
+                // The machine can be commanded so, and all rows have the length that it needs.
                 let _ = batch.stiffness_at_joints_into(&commands[from * each..to * each], out);
             }
         }
@@ -226,11 +226,14 @@ impl Places {
         }
     }
 
-    /// Where the tool is commanded to, as drawn, of the i-th of all postures and the row of a block.
-    fn target(&self, i: usize, found: &BatchEquilibrium, row: usize) -> Option<Pose> {
+    /// Where the tool is commanded to, as drawn, of the rows from one to another.
+    fn targets(&self, batch: &Batch, from: usize, to: usize) -> Cow<'_, [Pose]> {
         match self {
-            Self::Poses(poses) => Some(poses[i]),
-            Self::Joints(..) => found.target_pose(row),
+            Self::Poses(poses) => Cow::Borrowed(&poses[from..to]),
+            Self::Joints(commands, each) => {
+                let own = &commands[from * each..to * each];
+                Cow::Owned(batch.targets_at_joints(own).unwrap_or_default())
+            }
         }
     }
 
@@ -353,14 +356,14 @@ pub fn equilibrium_of_many<'py>(
                     return;
                 }
                 put_poses(&found.tool, out[0]);
-                for (i, row) in out[1].chunks_exact_mut(6).enumerate() {
-                    let target = places.target(first + i, found, i);
-                    match target.filter(|_| found.status[i].is_solved()) {
-                        Some(target) => {
-                            let moved = pose_residual(&found.tool_pose(i), &target);
-                            row.copy_from_slice(moved.0.as_slice());
-                        }
-                        None => row.fill(f64::NAN),
+                let targets = places.targets(&batch, first, end);
+                let rows = out[1].chunks_exact_mut(6).zip(targets.iter());
+                for (i, (row, target)) in rows.enumerate() {
+                    if found.status[i].is_solved() {
+                        let moved = pose_residual(&found.tool_pose(i), target);
+                        row.copy_from_slice(moved.0.as_slice());
+                    } else {
+                        row.fill(f64::NAN);
                     }
                 }
                 put(&found.commands, out[2]);

@@ -10,6 +10,8 @@ use kinetostat_model::{Model, ParametricModel};
 
 use crate::file::{CUTTING_PARTS, Source, UncertaintyFile};
 use crate::machine::{DependsOnMachine, Room, TaskError, at};
+use crate::near_drawing::{MOST_DERIVATIVES, Margins, with_stability};
+use crate::uncertain::Uncertainties;
 
 /// Parts of the force of the cut at every place: what one of them would be more by, if it were as large again.
 pub type CuttingParts = [Vec<Wrench>; CUTTING_PARTS.len()];
@@ -29,6 +31,10 @@ struct OfTool {
     indices: Vec<usize>,
     wanted: Commanded,
     commanded: Commanded,
+    /// Natural length, m.
+    length: f64,
+    /// Of the places as they are commanded in the end.
+    margins: Option<Margins>,
 }
 
 impl OfTool {
@@ -49,6 +55,8 @@ impl OfTool {
         Ok(Self {
             wanted: commanded(|place| place.wanted)?,
             commanded: commanded(|place| place.commanded)?,
+            length: drawn.natural_length(),
+            margins: None,
             tool,
             batch,
             indices,
@@ -66,6 +74,8 @@ pub struct UncertainRun {
     parts: Option<CuttingParts>,
     tools: Vec<OfTool>,
     compensated: bool,
+    /// As the drawing states them.
+    nominal: Vec<f64>,
 }
 
 impl UncertainRun {
@@ -88,14 +98,20 @@ impl UncertainRun {
         numbers.sort_unstable();
         numbers.dedup();
         let of_tool = |number| OfTool::new(&drawn, pose_of(tools, number), places, number);
-        let run = Self {
+        let mut run = Self {
             parametric,
             sources: file.sources.clone(),
             places: places.to_vec(),
             parts,
             tools: numbers.into_iter().map(of_tool).collect::<Result<_, _>>()?,
             compensated,
+            nominal: file.uncertainties.nominal(),
         };
+        let mut tools = std::mem::take(&mut run.tools);
+        for own in &mut tools {
+            run.learn(own, &file.uncertainties)?;
+        }
+        run.tools = tools;
         let mut out = vec![0.0; run.width()];
         run.answer(
             &file.uncertainties.nominal(),
@@ -134,6 +150,55 @@ impl UncertainRun {
         &self.places
     }
 
+    /// Finds out how the machine stands, and how surely, a standard deviation to both sides of the drawing: the search for the
+    /// equilibria of every machine starts from derivatives.
+    fn learn(&self, own: &mut OfTool, uncertainties: &Uncertainties) -> Result<(), TaskError> {
+        let last = |own: &OfTool, batch: &Batch, loads: &[Wrench]| {
+            let places = own.last(self.compensated);
+            with_stability(batch, places, loads)
+        };
+        let drawn = last(own, &own.batch, &self.loads(own, &self.nominal))?;
+        let mut margins = Margins::new(&drawn, own.length);
+        for (i, number) in uncertainties.each().iter().enumerate() {
+            let step = number.distribution.standard_deviation();
+            let at = |by: f64| {
+                let mut values = self.nominal.clone();
+                values[i] += by;
+                let loads = self.loads(own, &values);
+                self.built(own, &values).map(|batch| (batch, loads))
+            };
+            // If there is no such machine, others are searched without derivatives from here on.
+            let (Ok(more), Ok(less)) = (at(step), at(-step)) else {
+                return Ok(());
+            };
+            let [above, below] = [&more, &less].map(|(batch, loads)| last(own, batch, loads));
+            margins.go_along(&above?, &below?, 2.0 * step, own.length);
+            if i >= MOST_DERIVATIVES {
+                continue;
+            }
+            let [more, less] = [&more, &less].map(|(batch, loads)| (batch, &loads[..]));
+            own.wanted.go_along(more, less, 2.0 * step)?;
+            if self.compensated {
+                own.commanded.go_along(more, less, 2.0 * step)?;
+            }
+        }
+        own.margins = Some(margins);
+        Ok(())
+    }
+
+    /// The machine with a tool and these values, compiled.
+    fn built(&self, own: &OfTool, values: &[f64]) -> Result<Batch, TaskError> {
+        let numbers = Source::of_model(&self.sources, values);
+        let built = self.parametric.mechanism(&numbers)?;
+        Ok(own.batch.built(&built.with_tool(&own.tool))?)
+    }
+
+    /// The loads at the places of a tool with these values.
+    fn loads(&self, own: &OfTool, values: &[f64]) -> Vec<Wrench> {
+        let each = own.indices.iter();
+        each.map(|i| self.wrench(*i, values)).collect()
+    }
+
     /// The load at a place with these values.
     fn wrench(&self, place: usize, values: &[f64]) -> Wrench {
         let own = self.places[place].wrench;
@@ -148,6 +213,16 @@ impl UncertainRun {
             }
         }
         Wrench(sum * factor)
+    }
+}
+
+impl OfTool {
+    /// The places as they are commanded in the end.
+    fn last(&self, compensated: bool) -> &Commanded {
+        match compensated {
+            true => &self.commanded,
+            false => &self.wanted,
+        }
     }
 }
 
@@ -167,6 +242,7 @@ impl DependsOnMachine for UncertainRun {
         let numbers = Source::of_model(&self.sources, values);
         let built = self.parametric.mechanism(&numbers)?;
         let each = self.columns();
+        room.deviate(values, &self.nominal);
         let (largest, of_places) = out.split_at_mut(each);
         let mut unstable = 0;
         for own in &self.tools {
@@ -174,16 +250,17 @@ impl DependsOnMachine for UncertainRun {
             room.wrenches.clear();
             let loads = own.indices.iter().map(|i| self.wrench(*i, values));
             room.wrenches.extend(loads);
-            let last = match self.compensated {
-                true => &own.commanded,
-                false => &own.wanted,
-            };
-            let (loads, before) = (&room.wrenches, &mut room.loaded);
+            let (loads, by, before) = (&room.wrenches, &room.deviations, &mut room.loaded);
             if self.compensated {
-                batch.equilibrium_commanded_into(&own.wanted, loads, Details::Rest, before)?;
+                let details = Details::Rest;
+                batch.equilibrium_foretold_into(&own.wanted, by, loads, details, before)?;
             }
-            let after = &mut room.compensated;
-            batch.equilibrium_commanded_into(last, loads, Details::Stability, after)?;
+            let details = match own.margins.as_ref().is_some_and(|m| m.hold(by)) {
+                true => Details::Rest,
+                false => Details::Stability,
+            };
+            let (last, after) = (own.last(self.compensated), &mut room.compensated);
+            batch.equilibrium_foretold_into(last, by, loads, details, after)?;
             let stable = (0..own.indices.len()).filter_map(|i| room.compensated.stability(i));
             unstable += stable.filter(|s| !s.stable).count();
             for (k, i) in own.indices.iter().enumerate() {

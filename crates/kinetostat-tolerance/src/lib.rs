@@ -32,6 +32,7 @@ mod draws;
 mod file;
 mod linear;
 mod machine;
+mod near_drawing;
 mod sensitivity;
 mod statistics;
 mod study;

@@ -1,12 +1,21 @@
 //! A machine as a function of its uncertain numbers: built as drawn by chance, commanded as the drawing says.
 
 use kinetostat::batch::{Batch, BatchEquilibrium, Commanded, Details};
-use kinetostat::nalgebra::Vector3;
+use kinetostat::nalgebra::{Matrix6, Matrix6x3, Vector3};
 use kinetostat::{Directions, Mechanism, Pose, Wrench};
 use kinetostat_model::{Model, ModelError, ParametricModel};
 use serde::Serialize;
 
 use crate::file::{Source, UncertaintyFile};
+use crate::near_drawing::{MOST_DERIVATIVES, Margins, with_stability};
+use crate::uncertain::Uncertainties;
+
+/// What depends on how the machine stands under the load.
+const LOADED: [Quantity; 3] = [
+    Quantity::Deflection,
+    Quantity::Deviation,
+    Quantity::Stiffness,
+];
 
 /// What is asked of a machine at each place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -141,6 +150,10 @@ pub struct UncertainMachine {
     compensated: Commanded,
     wrench: Wrench,
     quantities: Vec<Quantity>,
+    /// As the drawing states them.
+    nominal: Vec<f64>,
+    /// Where it is asked how the machine stands under the load.
+    margins: Option<Margins>,
 }
 
 /// Rooms that a thread uses again and again.
@@ -150,6 +163,16 @@ pub struct Room {
     pub(crate) loaded: BatchEquilibrium,
     pub(crate) compensated: BatchEquilibrium,
     pub(crate) wrenches: Vec<Wrench>,
+    pub(crate) deviations: Vec<f64>,
+}
+
+impl Room {
+    /// Takes by how much values differ from those of the drawing.
+    pub(crate) fn deviate(&mut self, values: &[f64], nominal: &[f64]) {
+        let each = values.iter().zip(nominal);
+        self.deviations.clear();
+        self.deviations.extend(each.map(|(x, drawn)| x - drawn));
+    }
 }
 
 impl UncertainMachine {
@@ -178,7 +201,7 @@ impl UncertainMachine {
             }
             false => batch.commanded(&[]),
         };
-        let machine = Self {
+        let mut machine = Self {
             parametric,
             sources: file.sources.clone(),
             tool: *tool,
@@ -189,7 +212,10 @@ impl UncertainMachine {
             batch,
             wrench,
             quantities: quantities.to_vec(),
+            nominal: file.uncertainties.nominal(),
+            margins: None,
         };
+        machine.learn(&file.uncertainties)?;
         let mut out = vec![0.0; machine.width()];
         machine.answer(
             &file.uncertainties.nominal(),
@@ -227,6 +253,89 @@ impl UncertainMachine {
         self.places.poses().len()
     }
 
+    /// One of these is asked.
+    fn asks(&self, some: &[Quantity]) -> bool {
+        self.quantities.iter().any(|q| some.contains(q))
+    }
+
+    /// The machine with these values, compiled, and the load on it.
+    fn built(&self, values: &[f64]) -> Result<(Batch, Wrench), TaskError> {
+        let (mut wrench, mut factor) = (self.wrench, 1.0);
+        for (source, value) in self.sources.iter().zip(values) {
+            match source {
+                Source::Load(k) => wrench.0[*k] = *value,
+                Source::LoadFactor => factor = *value,
+                // Of one wrench no parts are known: its file has none.
+                Source::Parameter(_) | Source::CuttingPart(_) => {}
+            }
+        }
+        wrench.0 *= factor;
+        let numbers = Source::of_model(&self.sources, values);
+        let mut built = self.parametric.mechanism(&numbers)?;
+        if self.tool != Pose::identity() {
+            built = built.with_tool(&self.tool);
+        }
+        Ok((self.batch.built(&built)?, wrench))
+    }
+
+    /// Finds out how the machine stands, and how surely, a standard deviation to both sides of the drawing: the search for
+    /// the equilibria of every machine starts from derivatives.
+    fn learn(&mut self, uncertainties: &Uncertainties) -> Result<(), TaskError> {
+        let (count, length) = (self.places(), self.drawn.natural_length());
+        let stability = |batch: &Batch, places: &Commanded, load: &Wrench| {
+            with_stability(batch, places, &vec![*load; count])
+        };
+        let mut margins = match self.asks(&LOADED) {
+            true => {
+                let drawn = stability(&self.batch, &self.loaded, &self.wrench)?;
+                Some(Margins::new(&drawn, length))
+            }
+            false => None,
+        };
+        for (i, number) in uncertainties.each().iter().enumerate() {
+            let step = number.distribution.standard_deviation();
+            let at = |by: f64| {
+                let mut values = self.nominal.clone();
+                values[i] += by;
+                self.built(&values)
+            };
+            // If there is no such machine, others are searched without derivatives from here on.
+            let (Ok(more), Ok(less)) = (at(step), at(-step)) else {
+                return Ok(());
+            };
+            if let Some(margins) = &mut margins {
+                let [more, less] =
+                    [&more, &less].map(|(batch, load)| stability(batch, &self.loaded, load));
+                margins.go_along(&more?, &less?, 2.0 * step, length);
+            }
+            if i >= MOST_DERIVATIVES {
+                continue;
+            }
+            let none = vec![Wrench::zero(); count];
+            let [above, below] = [&more, &less].map(|(_, load)| vec![*load; count]);
+            let (unloaded, loaded) = (
+                [(&more.0, &none), (&less.0, &none)],
+                [(&more.0, &above), (&less.0, &below)],
+            );
+            for (places, quantities, both) in [
+                (
+                    &mut self.places,
+                    &[Quantity::Error, Quantity::Deflection][..],
+                    unloaded,
+                ),
+                (&mut self.loaded, &LOADED, loaded),
+                (&mut self.compensated, &[Quantity::Compensated], loaded),
+            ] {
+                if quantities.iter().any(|q| self.quantities.contains(q)) {
+                    let [more, less] = both.map(|(batch, loads)| (batch, &loads[..]));
+                    places.go_along(more, less, 2.0 * step)?;
+                }
+            }
+        }
+        self.margins = margins;
+        Ok(())
+    }
+
     fn put(&self, place: usize, room: &Room, row: &mut [f64]) {
         let target = self.places.poses()[place].translation.vector;
         let mut rest = row;
@@ -257,42 +366,32 @@ impl DependsOnMachine for UncertainMachine {
 
     /// Place after place, column after column; NaN where a place has no answer.
     fn answer(&self, values: &[f64], room: &mut Room, out: &mut [f64]) -> Result<usize, TaskError> {
-        let (mut wrench, mut factor) = (self.wrench, 1.0);
-        for (source, value) in self.sources.iter().zip(values) {
-            match source {
-                Source::Load(k) => wrench.0[*k] = *value,
-                Source::LoadFactor => factor = *value,
-                // Of one wrench no parts are known: its file has none.
-                Source::Parameter(_) | Source::CuttingPart(_) => {}
-            }
-        }
-        wrench.0 *= factor;
-        let numbers = Source::of_model(&self.sources, values);
-        let built = self.parametric.mechanism(&numbers)?.with_tool(&self.tool);
-        let batch = self.batch.built(&built)?;
+        let (batch, wrench) = self.built(values)?;
         let count = self.places();
-        let asked = |some: &[Quantity]| self.quantities.iter().any(|q| some.contains(q));
-        let wrenches = &mut room.wrenches;
-        if asked(&[Quantity::Error, Quantity::Deflection]) {
+        room.deviate(values, &self.nominal);
+        let (wrenches, by) = (&mut room.wrenches, &room.deviations);
+        if self.asks(&[Quantity::Error, Quantity::Deflection]) {
             refill(wrenches, Wrench::zero(), count);
-            let out = &mut room.unloaded;
-            batch.equilibrium_commanded_into(&self.places, wrenches, Details::Rest, out)?;
+            let (places, out) = (&self.places, &mut room.unloaded);
+            batch.equilibrium_foretold_into(places, by, wrenches, Details::Rest, out)?;
         }
         refill(wrenches, wrench, count);
         let mut unstable = 0;
-        if asked(&[
-            Quantity::Deflection,
-            Quantity::Deviation,
-            Quantity::Stiffness,
-        ]) {
+        if self.asks(&LOADED) {
+            let holds = self.margins.as_ref().is_some_and(|m| m.hold(by));
+            let details = match (holds, self.asks(&[Quantity::Stiffness])) {
+                (true, false) => Details::Rest,
+                (true, true) => Details::Stiffness,
+                (false, _) => Details::Stability,
+            };
             let (places, out) = (&self.loaded, &mut room.loaded);
-            batch.equilibrium_commanded_into(places, wrenches, Details::Stability, out)?;
+            batch.equilibrium_foretold_into(places, by, wrenches, details, out)?;
             let stable = (0..count).filter_map(|i| room.loaded.stability(i));
             unstable = stable.filter(|s| !s.stable).count();
         }
-        if asked(&[Quantity::Compensated]) {
+        if self.asks(&[Quantity::Compensated]) {
             let (places, out) = (&self.compensated, &mut room.compensated);
-            batch.equilibrium_commanded_into(places, wrenches, Details::Rest, out)?;
+            batch.equilibrium_foretold_into(places, by, wrenches, Details::Rest, out)?;
         }
         let each = self.columns().len();
         for (place, row) in out.chunks_exact_mut(each.max(1)).enumerate() {
@@ -320,9 +419,9 @@ fn stiffness(found: &BatchEquilibrium, place: usize) -> [f64; 3] {
     if !found.status[place].is_solved() {
         return [f64::NAN; 3];
     }
-    let matrix =
-        kinetostat::nalgebra::Matrix6::from_fn(|i, j| found.stiffness.get(place, 6 * i + j));
-    match matrix.try_inverse() {
+    let matrix = Matrix6::from_fn(|i, j| found.stiffness.get(place, 6 * i + j));
+    // The compliance, of forces alone.
+    match matrix.lu().solve(&Matrix6x3::identity()) {
         Some(compliance) => [0, 1, 2].map(|k| 1e-3 / compliance[(k, k)]),
         None => [f64::NAN; 3],
     }

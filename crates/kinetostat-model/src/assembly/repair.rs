@@ -62,11 +62,11 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<KeyPath>
     let (inner, PathStep::Key(key)) = (&place.0[..last], &place.0[last]) else {
         return None;
     };
-    if inner.is_empty() || BEARING.contains(&key.as_str()) {
+    if inner.is_empty() || BEARING.contains(&&**key) {
         return None;
     }
     let table = table_at(tree, inner)?;
-    let found = table.keys().find(|k| k.get_ref() == key.as_str()).cloned();
+    let found = table.keys().find(|k| k.get_ref() == &**key).cloned();
     if let Some(found) = found {
         let of_tables = |value: &DeValue<'_>| {
             value.as_array().is_some_and(|list| {
@@ -94,9 +94,7 @@ fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, path: &[PathStep]) -> Option<&'a 
         let PathStep::Key(key) = step else {
             return None;
         };
-        let (_, value) = table
-            .iter_mut()
-            .find(|(k, _)| k.get_ref() == key.as_str())?;
+        let (_, value) = table.iter_mut().find(|(k, _)| k.get_ref() == &**key)?;
         let mut value = value.get_mut();
         while let Some(PathStep::Index(index)) = steps.peek() {
             let DeValue::Array(list) = value else {

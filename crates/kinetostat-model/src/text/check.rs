@@ -206,7 +206,7 @@ impl Checker {
         place: &KeyPath,
     ) {
         let (noun, a_noun) = match place.0.iter().rev().find_map(|step| match step {
-            PathStep::Key(key) => Some(key.as_str()),
+            PathStep::Key(key) => Some(&**key),
             PathStep::Index(_) => None,
         }) {
             Some("load") => ("load", "A load"),

@@ -294,3 +294,48 @@ fn who_watches_can_stop() {
     let draws = Draws::new(1000, 0);
     assert!(monte_carlo(&machine, &file.uncertainties, &draws, &Stop).is_err());
 }
+
+/// An arm that a force along it pushes onto its hinge is stable while its stiffness (N m/rad) is more than force times length.
+#[test]
+fn machines_that_lose_their_hold_are_counted() {
+    let hinge = r#"
+schema = 1
+[mechanism]
+name = "arm on a hinge"
+[[platform]]
+name = "tool"
+home = { position_mm = [400, 0, 0] }
+[chain.arm]
+elements = [
+  { actuator = "revolute", name = "hinge", axis = "z", stiffness_n_m_per_rad = 1000 },
+  { rigid = { translation_mm = [400, 0, 0] }, name = "arm" },
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+    let model = Model::from_toml(hinge, "hinge.toml").expect("a model");
+    let spread = r#"schema = 1
+[[uncertain]]
+parameter = "chain.arm.hinge.stiffness_n_m_per_rad"
+uniform = 300
+"#;
+    let turn = kinetostat::nalgebra::UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, 0.5));
+    let along: Vector3<f64> = turn * Vector3::x();
+    let at = [Pose::from_parts((along * 0.4).into(), turn)];
+    // Of 700 to 1300 N m/rad none, a third and, as drawn already, two thirds are too soft.
+    for (moment, share) in [(90.0, 0.0), (900.0, 1.0 / 3.0), (1100.0, 2.0 / 3.0)] {
+        let wrench = Wrench::new(along * (-moment / 0.4), Vector3::zeros());
+        let file = UncertaintyFile::read(spread, "spread.toml", &model, &wrench).expect("a file");
+        let tool = Pose::identity();
+        let asked = [Quantity::Deflection];
+        let machine = UncertainMachine::new(&model, &tool, &file, &at, wrench, &asked);
+        let draws = Draws::new(1536, 3);
+        let machine = machine.expect("a machine");
+        let found = monte_carlo(&machine, &file.uncertainties, &draws, &Unwatched).expect("draws");
+        let unstable = found.failures.unstable as f64 / draws.len() as f64;
+        assert!((unstable - share).abs() < 2e-3, "{moment} N m: {found:?}");
+    }
+}

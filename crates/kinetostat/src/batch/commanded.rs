@@ -6,14 +6,14 @@
 use std::sync::Arc;
 
 use crate::batch::compiled::{BLOCKS, Batch, compiled, in_parallel, unburdened};
-use crate::batch::equilibria::{BatchEquilibrium, Details};
+use crate::batch::equilibria::{BatchEquilibrium, Details, pose};
 use crate::batch::machine::group::{Places, Standing};
 use crate::batch::plan::steps::Plan;
 use crate::batch::run::Job;
 use crate::batch::table::{BLOCK, Table};
 use crate::error::Result;
 use crate::model::mechanism::Mechanism;
-use crate::spatial::{Pose, Wrench};
+use crate::spatial::{Pose, Wrench, pose_residual};
 
 /// Poses that a machine is commanded to, with the joints that lead there as it is drawn.
 #[derive(Clone, Debug)]
@@ -34,17 +34,60 @@ impl Commanded {
         &self.poses
     }
 
-    /// With the joints where they are those of a batch, else the poses alone.
-    pub(crate) fn places(&self, batch: &Batch) -> Places<'_> {
+    /// With the joints where they are those of a batch, else the poses alone; `deviations` as
+    /// [`Batch::equilibrium_foretold_into`] has them.
+    pub(crate) fn places<'a>(&'a self, batch: &Batch, deviations: &'a [f64]) -> Places<'a> {
         match (&self.of, &batch.nominal) {
             (Some(ours), Ok(theirs)) if Arc::ptr_eq(ours, theirs) => Places::Known {
                 poses: &self.poses,
                 joints: &self.joints,
                 standing: self.standing.as_deref(),
+                deviations,
                 first: 0,
             },
             _ => Places::Poses(&self.poses),
         }
+    }
+}
+
+impl Commanded {
+    /// Learns how the equilibria go along with one more number of the machine, from a machine with more of it and one with less,
+    /// each with the wrenches on its tool, that lie `apart` in that number. Places that have no equilibrium there go along with nothing.
+    ///
+    /// # Errors
+    /// As [`Batch::equilibrium`].
+    pub fn go_along(
+        &mut self,
+        more: (&Batch, &[Wrench]),
+        less: (&Batch, &[Wrench]),
+        apart: f64,
+    ) -> Result<()> {
+        let at = |(batch, wrenches): (&Batch, &[Wrench])| {
+            batch.standing(&self.places(batch, &[]), wrenches)
+        };
+        let (more, less) = (at(more)?, at(less)?);
+        let Some(standing) = &mut self.standing else {
+            return Ok(());
+        };
+        let count = self.poses.len();
+        let widths = [6, more.coordinates.width(), more.wrenches.width()];
+        let mut slope = Table::default();
+        slope.reset(widths.iter().sum(), count);
+        for i in 0..count {
+            let moved = pose_residual(&pose(&more.tool, i), &pose(&less.tool, i));
+            let between = |of: fn(&Standing) -> &Table| {
+                let rows = of(&more).row(i).zip(of(&less).row(i));
+                rows.map(|(more, less)| more - less)
+            };
+            let rest = between(|s| &s.coordinates).chain(between(|s| &s.wrenches));
+            let numbers: Vec<f64> = (moved.0.iter().copied().chain(rest))
+                .map(|x| x / apart)
+                .collect();
+            let known = numbers.iter().all(|x| x.is_finite());
+            slope.set_row(i, |k| if known { numbers[k] } else { 0.0 });
+        }
+        standing.slopes.push(slope);
+        Ok(())
     }
 }
 
@@ -77,19 +120,15 @@ impl Batch {
     }
 
     /// The same, for many machines that are loaded about like this one by `wrenches`: their equilibria are searched from where
-    /// this one stands, in half the passes, and found as along a path, to a millionth of a tenth of a micrometre.
+    /// this one stands, or from where derivatives say that they stand ([`Commanded::go_along`]), with the corrections of this one, and
+    /// found as along a path, to a millionth of a tenth of a micrometre.
     ///
     /// # Errors
     /// As [`Self::equilibrium`].
     pub fn commanded_under(&self, poses: &[Pose], wrenches: &[Wrench]) -> Result<Commanded> {
         let mut commanded = self.commanded(poses);
-        let mut found = BatchEquilibrium::default();
-        let on_tips = self.standing(&commanded.places(self), wrenches, &mut found)?;
-        commanded.standing = Some(Box::new(Standing {
-            tool: found.tool,
-            coordinates: found.coordinates,
-            wrenches: on_tips,
-        }));
+        let standing = self.standing(&commanded.places(self, &[]), wrenches)?;
+        commanded.standing = Some(Box::new(standing));
         Ok(commanded)
     }
 
@@ -146,6 +185,22 @@ impl Batch {
         details: Details,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
-        self.loaded(&places.places(self), wrenches, details, out)
+        self.equilibrium_foretold_into(places, &[], wrenches, details, out)
+    }
+
+    /// The same of a machine whose numbers differ from those of the drawing by `deviations`, in the order in which
+    /// [`Commanded::go_along`] has learnt of them: searched from where derivatives say that it stands.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn equilibrium_foretold_into(
+        &self,
+        places: &Commanded,
+        deviations: &[f64],
+        wrenches: &[Wrench],
+        details: Details,
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
+        self.loaded(&places.places(self, deviations), wrenches, details, out)
     }
 }

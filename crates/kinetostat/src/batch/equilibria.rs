@@ -1,9 +1,10 @@
 //! Loaded postures: what is wanted of them, and where the answers go.
 
 use crate::batch::compiled::{BLOCKS, Batch, LOADED_BLOCKS, in_parallel, left};
-use crate::batch::limb::loaded::{EXACT, IN_USE};
+use crate::batch::limb::loaded::{EXACT, FORETOLD, IN_USE};
 use crate::batch::limb::shape::springs;
-use crate::batch::machine::group::Places;
+use crate::batch::machine::group::{Places, Standing};
+use crate::batch::machine::kept;
 use crate::batch::plan::steps::Plan;
 use crate::batch::run::{Answers, Job};
 use crate::batch::status::{Engine, Status};
@@ -24,9 +25,6 @@ use crate::spatial::{Directions, Pose, Wrench};
 pub struct BatchEquilibrium {
     /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
     pub tool: Table,
-    /// Where the tool is commanded as the machine is drawn, numbers as of `tool`: where commands were given. Empty where poses
-    /// were.
-    pub targets: Table,
     /// Coordinates of all limbs (m, rad), limb after limb in their chains' order.
     pub coordinates: Table,
     /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`].
@@ -113,7 +111,6 @@ impl BatchEquilibrium {
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
         let stiffness = if query >= Details::Stiffness { 36 } else { 0 };
         self.tool.reset(12, count);
-        self.targets.reset(0, count);
         self.coordinates.reset(coordinates, count);
         self.commands.reset(commands, count);
         self.actuator_forces.reset(commands, count);
@@ -154,33 +151,42 @@ impl BatchEquilibrium {
         pose(&self.tool, posture)
     }
 
-    /// Where the tool of one posture is commanded, base from tool; `None` where poses were given, and without an answer.
-    ///
-    /// # Panics
-    /// If the index is out of range, as for a slice.
-    #[must_use]
-    pub fn target_pose(&self, posture: usize) -> Option<Pose> {
-        let known = self.targets.width() > 0 && self.status[posture].is_solved();
-        known.then(|| pose(&self.targets, posture))
+    fn tables(&mut self) -> [&mut Table; 6] {
+        [
+            &mut self.tool,
+            &mut self.coordinates,
+            &mut self.commands,
+            &mut self.actuator_forces,
+            &mut self.stiffness,
+            &mut self.stability,
+        ]
+    }
+
+    /// Takes one posture of another result of the same machine and question.
+    fn take(&mut self, i: usize, other: &Self, from: usize) {
+        let theirs = [
+            &other.tool,
+            &other.coordinates,
+            &other.commands,
+            &other.actuator_forces,
+            &other.stiffness,
+            &other.stability,
+        ];
+        for (own, theirs) in self.tables().into_iter().zip(theirs) {
+            own.set_row(i, |k| theirs.get(from, k));
+        }
+        self.status[i] = other.status[from];
+        self.found_by[i] = other.found_by[from];
     }
 
     fn set(&mut self, i: usize, answer: Option<&Scalar>) {
         let Some(answer) = answer else {
-            for table in [
-                &mut self.tool,
-                &mut self.targets,
-                &mut self.coordinates,
-                &mut self.commands,
-                &mut self.actuator_forces,
-                &mut self.stiffness,
-                &mut self.stability,
-            ] {
+            for table in self.tables() {
                 table.set_row(i, |_| f64::NAN);
             }
             return;
         };
         self.tool.set_row(i, numbers(&answer.tool));
-        self.targets.set_row(i, numbers(&answer.target));
         self.coordinates.set_row(i, |k| answer.coordinates[k]);
         self.commands.set_row(i, |k| answer.commands[k]);
         self.actuator_forces.set_row(i, |k| answer.forces[k]);
@@ -379,7 +385,8 @@ impl Batch {
         // Rotations about some axes only do not add up: what they lead to depends on the way there.
         if (3..6).all(|k| directions[k] == directions[3]) {
             let wanted = Some(directions);
-            let beside = [&mut table, &mut Table::none(poses.len())];
+            let [tips, correctors] = &mut [(); 2].map(|()| Table::none(poses.len()));
+            let beside = [&mut table, tips, correctors];
             self.vectorised(&places, wrenches, wanted, &mut equilibrium, beside);
         }
         let mut targets = poses.to_vec();
@@ -420,23 +427,24 @@ impl Batch {
             .is_ok_and(|plans| plans.iter().all(whole))
     }
 
-    /// Solves those postures that kernels can. Beside the equilibria: where they are commanded (12 numbers as of the tool), and
-    /// the wrenches on the tips of all limbs, both only where the tables have columns.
+    /// Solves those postures that kernels can. Beside the equilibria: where they are commanded (12 numbers as of the tool),
+    /// the wrenches on the tips of all limbs, and what corrects a pass there, each only where its table has columns.
     fn vectorised(
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
         directions: Option<Directions>,
         out: &mut BatchEquilibrium,
-        [targets, tips]: [&mut Table; 2],
+        [targets, tips, correctors]: [&mut Table; 3],
     ) {
         let (Ok(nominal), Ok(actual)) = (&self.nominal, &self.actual) else {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-        let precision = match places.have_a_start() || self.along {
-            true => IN_USE,
-            false => EXACT,
+        let precision = match (places.have_a_start(), self.along) {
+            (true, _) => FORETOLD,
+            (false, true) => IN_USE,
+            (false, false) => EXACT,
         };
         // On a path only the first posture of each lane's run has no start from its neighbour.
         let blocks = if self.along { BLOCKS } else { LOADED_BLOCKS };
@@ -449,11 +457,12 @@ impl Batch {
             &mut out.stability,
             targets,
             tips,
+            correctors,
         ]
         .map(|table| table.parts(blocks));
         let parts = out.status.chunks_mut(BLOCK * blocks).enumerate();
         let jobs = parts.map(|(k, status)| {
-            let next = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| tables[i].next().unwrap_or_default());
+            let next = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|i| tables[i].next().unwrap_or_default());
             let [
                 tool_out,
                 coordinates,
@@ -463,6 +472,7 @@ impl Batch {
                 stability,
                 targets,
                 tips,
+                correctors,
             ] = next;
             Job::Loaded {
                 nominal,
@@ -484,6 +494,7 @@ impl Batch {
                     stability,
                     targets,
                     wrenches: tips,
+                    correctors,
                     status,
                 },
             }
@@ -503,27 +514,58 @@ impl Batch {
         })
     }
 
-    /// Those equilibria that kernels find, with the wrenches on the tips of all limbs (six numbers each, about the tip, base
-    /// axes); the tool's numbers are none where they find nothing.
-    pub(crate) fn standing(
-        &self,
-        places: &Places<'_>,
-        wrenches: &[Wrench],
-        out: &mut BatchEquilibrium,
-    ) -> Result<Table> {
+    /// Those equilibria that kernels find; the tool's numbers are none where they find nothing.
+    pub(crate) fn standing(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<Standing> {
         self.as_many(places, wrenches)?;
         let count = places.len();
+        let mut out = BatchEquilibrium::default();
         out.reset(self, Details::Rest, count);
-        let mut tips = Table::default();
+        let (mut tips, mut correctors) = (Table::default(), Table::default());
         tips.reset(6 * self.mechanism.limbs().len(), count);
-        let beside = [&mut Table::none(count), &mut tips];
-        self.vectorised(places, wrenches, None, out, beside);
+        let width = self.actual.as_ref().map_or(0, |actual| kept::width(actual));
+        correctors.reset(width, count);
+        let beside = [&mut Table::none(count), &mut tips, &mut correctors];
+        self.vectorised(places, wrenches, None, &mut out, beside);
         for i in 0..count {
             if out.status[i] != Status::Vectorised {
                 out.tool.set_row(i, |_| f64::NAN);
             }
         }
-        Ok(tips)
+        Ok(Standing {
+            tool: out.tool,
+            coordinates: out.coordinates,
+            wrenches: tips,
+            correctors,
+            slopes: Vec::new(),
+        })
+    }
+
+    /// Solves those that kernels left over from the start that was known, once more from the unloaded machine.
+    fn once_more(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        query: Details,
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
+        let Places::Known { poses, .. } = places else {
+            return Ok(());
+        };
+        let all = 0..poses.len();
+        let left: Vec<usize> = all
+            .filter(|i| out.status[*i] != Status::Vectorised)
+            .collect();
+        if left.is_empty() {
+            return Ok(());
+        }
+        let poses: Vec<Pose> = left.iter().map(|i| poses[*i]).collect();
+        let wrenches: Vec<Wrench> = left.iter().map(|i| wrenches[*i]).collect();
+        let mut found = BatchEquilibrium::default();
+        self.loaded(&Places::Poses(&poses), &wrenches, query, &mut found)?;
+        for (from, to) in left.into_iter().enumerate() {
+            out.take(to, &found, from);
+        }
+        Ok(())
     }
 
     pub(crate) fn loaded(
@@ -535,14 +577,12 @@ impl Batch {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, query, places.len());
-        if matches!(places, Places::Joints { .. }) {
-            out.targets.reset(12, places.len());
-        }
         if query != Details::Stability || self.stability_by_kernels() {
-            let mut targets = std::mem::take(&mut out.targets);
-            let beside = [&mut targets, &mut Table::none(places.len())];
-            self.vectorised(places, wrenches, None, out, beside);
-            out.targets = targets;
+            let mut beside = [(); 3].map(|()| Table::none(places.len()));
+            self.vectorised(places, wrenches, None, out, beside.each_mut());
+            if places.have_a_start() {
+                return self.once_more(places, wrenches, query, out);
+            }
         }
         let scalar = |i: usize| {
             let posture = self.posture(places, i)?;
@@ -567,7 +607,7 @@ fn numbers(pose: &Pose) -> impl Fn(usize) -> f64 + use<> {
 }
 
 /// A pose among 12 numbers each.
-fn pose(table: &Table, i: usize) -> Pose {
+pub(crate) fn pose(table: &Table, i: usize) -> Pose {
     let rotation = nalgebra::Matrix3::from_fn(|r, c| table.get(i, 3 * r + c));
     let place = nalgebra::Vector3::from_fn(|k, _| table.get(i, 9 + k));
     // Rounding of a rotation matrix, not a search for the nearest rotation.

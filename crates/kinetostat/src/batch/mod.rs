@@ -33,6 +33,7 @@ mod run;
 mod status;
 mod stiffness;
 mod table;
+mod targets;
 
 pub use commanded::Commanded;
 pub use compiled::Batch;

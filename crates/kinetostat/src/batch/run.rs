@@ -21,6 +21,10 @@ use crate::batch::table::BLOCK;
 use crate::spatial::{Directions, Pose, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one for hundreds of postures, and used up where it is made"
+)]
 pub(crate) enum Job<'a> {
     Unloaded {
         plans: &'a [Plan],
@@ -36,6 +40,12 @@ pub(crate) enum Job<'a> {
         nominal: &'a [Plan],
         poses: &'a [Pose],
         joints: &'a mut [f64],
+    },
+    /// Where commands lead the tool of a serial machine as it is drawn, 12 numbers as [`Answers::tool`].
+    Targets {
+        plan: &'a Plan,
+        commands: &'a [f64],
+        targets: &'a mut [f64],
     },
     Loaded {
         nominal: &'a Arc<[Plan]>,
@@ -67,6 +77,8 @@ pub(crate) struct Answers<'a> {
     pub targets: &'a mut [f64],
     /// On the tips of all limbs, six numbers each, about the tip, base axes.
     pub wrenches: &'a mut [f64],
+    /// See [`crate::batch::machine::kept`].
+    pub correctors: &'a mut [f64],
     pub status: &'a mut [Status],
 }
 
@@ -80,6 +92,7 @@ impl Job<'_> {
         match self {
             Self::Unloaded { status, .. } => status.len(),
             Self::Joints { poses, .. } => poses.len(),
+            Self::Targets { plan, commands, .. } => commands.len() / plan.commands,
             Self::Loaded { answers, .. } => answers.status.len(),
         }
     }
@@ -111,6 +124,11 @@ impl WithSimd for Job<'_> {
                 poses,
                 joints,
             } => known(simd, nominal, poses, joints),
+            Self::Targets {
+                plan,
+                commands,
+                targets,
+            } => aimed(simd, plan, commands, targets),
             Self::Loaded {
                 nominal,
                 actual,
@@ -145,16 +163,17 @@ impl WithSimd for Job<'_> {
                         let wrench = group.wrench(simd, wrenches);
                         let start = match places {
                             Places::Joints { commands, each } => {
-                                let aim = !answers.targets.is_empty();
-                                machine.start_at_joints(simd, &group, (commands, each), aim)
+                                machine.start_at_joints(simd, &group, (commands, each))
                             }
                             Places::Known {
                                 poses,
                                 joints,
                                 standing,
+                                deviations,
                                 first,
                             } => {
                                 let target = group.target(simd, poses);
+                                let standing = standing.map(|s| (s, deviations));
                                 let known = (joints, standing, first);
                                 machine.start_with(simd, &group, target, known)
                             }
@@ -194,6 +213,9 @@ impl<S: Simd> Machine<S> {
             for (i, limb) in self.limbs.iter().enumerate() {
                 group.put(answers.wrenches, 6 * i, &limb.wrench);
             }
+        }
+        if !answers.correctors.is_empty() {
+            self.keep_correctors(group, answers.correctors);
         }
         group.put(answers.tool, 0, &self.rotation);
         group.put(answers.tool, 9, &self.point);
@@ -249,6 +271,21 @@ fn known<S: Simd>(simd: S, nominal: &[Plan], poses: &[Pose], joints: &mut [f64])
                 from += numbers.len();
             }
         }
+    }
+}
+
+/// Where the commands of a serial machine lead.
+#[inline(always)]
+fn aimed<S: Simd>(simd: S, plan: &Plan, commands: &[f64], targets: &mut [f64]) {
+    let mut forward = ForwardPass::new(simd, plan);
+    let mut own = vec![Lanes::new(simd, 0.0); plan.commands];
+    let count = commands.len() / plan.commands;
+    for first in (0..count).step_by(S::F64_LANES) {
+        let group = Group::of_neighbours(first, count);
+        group.commands(simd, commands, plan.commands, &mut own);
+        forward.along(plan, false, plan.steps.len(), &own, &[]);
+        group.put(targets, 0, &forward.rotation);
+        group.put(targets, 9, &forward.point);
     }
 }
 

@@ -30,6 +30,22 @@ pub(crate) struct Precision {
     pub last: f64,
     /// Most of what a limb is off its platform, share of the natural length or rad.
     pub place: f64,
+    /// How many times `place` a limb may be off, and `torque` its wrench may change, in the last pass, if the next one would be
+    /// within them by how fast the passes contract.
+    pub ahead: f64,
+}
+
+impl Precision {
+    /// One where a square is above the `most` that is allowed of it, and the next one would be so too: if it falls by as much once
+    /// more as since the `last` pass. Before the first pass that was zero.
+    #[inline(always)]
+    pub fn goes_on<S: Simd>(&self, square: Lanes<S>, last: Lanes<S>, most: Lanes<S>) -> Lanes<S> {
+        let (zero, one) = (most.same(0.0), most.same(1.0));
+        let above = most.where_less(square, one, zero);
+        let stays = (most * last).where_less(square * square, one, zero);
+        let far = (most * (self.ahead * self.ahead)).where_less(square, one, zero);
+        above * stays.max(far)
+    }
 }
 
 /// To rounding.
@@ -37,14 +53,22 @@ pub(crate) const EXACT: Precision = Precision {
     torque: 1e-13,
     last: 1e-10,
     place: 1e-13,
+    ahead: 1.0,
 };
 
-/// Along a path, and of one machine of many. A program is written in tenths of micrometres, and so are tolerances: what is
-/// left of a place is a millionth of that.
+/// Along a path. A program is written in tenths of micrometres, and so are tolerances: what is left of a place is a millionth
+/// of that.
 pub(crate) const IN_USE: Precision = Precision {
     torque: 1e-10,
     last: 1e-7,
     place: 1e-12,
+    ahead: 1.0,
+};
+
+/// Of one machine of many, which starts next to where it stands.
+pub(crate) const FORETOLD: Precision = Precision {
+    ahead: 10.0,
+    ..IN_USE
 };
 
 /// Springs turn less than this, rad: see [`crate::batch::limb::outwards`].

@@ -31,11 +31,11 @@ pub(crate) struct Corrector<S: Simd> {
     /// Wrench by motion of the end: the limb's stiffness.
     pub stiffness: Symmetric<S>,
     /// Row `k`: wrench by the torque of passive joint `k`, and motion of that joint by motion of the end.
-    joints: Mat6<S>,
+    pub joints: Mat6<S>,
     /// Motion of passive joints by their torques.
-    among: Mat6<S>,
+    pub among: Mat6<S>,
     /// Passive joints.
-    count: usize,
+    pub count: usize,
 }
 
 impl<S: Simd> Corrector<S> {
@@ -130,6 +130,9 @@ pub(crate) struct AttachedLimb<S: Simd> {
     pub noise: Lanes<S>,
     /// What the pass at hand changes.
     pub change: Correction<S>,
+    /// Squares of what the limb was off its platform in the last pass (share of the natural length, rad), and of the change of its
+    /// wrench (N m).
+    pub last: [Lanes<S>; 2],
 }
 
 impl<S: Simd> AttachedLimb<S> {
@@ -143,6 +146,7 @@ impl<S: Simd> AttachedLimb<S> {
                 wrench: nothing,
                 joints: nothing,
             },
+            last: [nothing[0]; 2],
         }
     }
 

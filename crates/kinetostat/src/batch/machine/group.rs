@@ -24,6 +24,8 @@ pub(crate) enum Places<'a> {
         poses: &'a [Pose],
         joints: &'a Table,
         standing: Option<&'a Standing>,
+        /// By how much numbers of the machine differ, as [`Standing::slopes`] has them.
+        deviations: &'a [f64],
         /// Row of the first pose in both.
         first: usize,
     },
@@ -36,6 +38,11 @@ pub(crate) struct Standing {
     pub tool: Table,
     pub coordinates: Table,
     pub wrenches: Table,
+    /// What corrects the passes of an equilibrium there ([`crate::batch::machine::kept`]).
+    pub correctors: Table,
+    /// By how much it goes along with numbers of the machine, per unit of each: six numbers of the tool's motion, coordinates,
+    /// wrenches.
+    pub slopes: Vec<Table>,
 }
 
 impl<'a> Places<'a> {
@@ -63,11 +70,13 @@ impl<'a> Places<'a> {
                 poses,
                 joints,
                 standing,
+                deviations,
                 first: before,
             } => Self::Known {
                 poses: &poses[first..],
                 joints,
                 standing,
+                deviations,
                 first: before + first,
             },
         }
@@ -201,6 +210,15 @@ impl Group {
     /// Numbers of these postures from their places of a table, those after the first `from` of `width`.
     #[inline(always)]
     pub fn numbers<S: Simd>(&self, simd: S, table: Columns<'_>, from: usize, to: &mut [Lanes<S>]) {
+        if self.stride == 1 && self.first + S::F64_LANES <= self.count {
+            // They lie side by side.
+            let start = ((self.first / BLOCK) * table.width + from) * BLOCK;
+            let (places, _) = table.numbers[start..start + to.len() * BLOCK].as_chunks::<BLOCK>();
+            for (x, place) in to.iter_mut().zip(places) {
+                *x = Lanes::load(simd, &place[self.first % BLOCK..]);
+            }
+            return;
+        }
         for (k, x) in to.iter_mut().enumerate() {
             let mut values = [0.0; BLOCK];
             for lane in 0..S::F64_LANES {

@@ -16,13 +16,16 @@ use crate::batch::numbers::symmetric::Symmetric;
 use crate::batch::numbers::vectors::{Mat3, Vec3, identity};
 use crate::batch::plan::steps::Plan;
 
+/// Commands (m, rad) are smaller than this where sines are exact for them.
+pub(crate) const MOST_COMMAND: f64 = 1e5;
+
 /// One where all commands are angles and lengths that sines are exact for.
 #[inline(always)]
 pub(crate) fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
     let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
     let mut good = one;
     for x in commands {
-        good = x.abs().where_less(one * 1e5, good, zero);
+        good = x.abs().where_less(one * MOST_COMMAND, good, zero);
     }
     good
 }

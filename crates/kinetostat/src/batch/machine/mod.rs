@@ -10,6 +10,7 @@ pub(crate) mod compensate;
 pub(crate) mod converge;
 pub(crate) mod corrector;
 pub(crate) mod group;
+pub(crate) mod kept;
 pub(crate) mod loaded;
 pub(crate) mod platform;
 pub(crate) mod stability;

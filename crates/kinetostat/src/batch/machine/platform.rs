@@ -61,13 +61,17 @@ impl<S: Simd> Machine<S> {
         apart!(simd, {
             let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
             let mut moving = zero;
+            let looks_ahead = self.precision.ahead > 1.0;
             // The unbalanced wrench, to first order, with the platform where it is.
             let mut unbalanced = self.borne(simd, wrench);
             let limbs = self.limbs.iter_mut().zip(self.actual.iter());
             for ((limb, plan), attached) in limbs.zip(&mut self.attached) {
                 // Before the first pass nothing has changed, and the tip is still that of another posture.
                 match first {
-                    true => limb.outwards(plan, &self.gravity),
+                    true => {
+                        attached.last = [zero; 2];
+                        limb.outwards(plan, &self.gravity);
+                    }
                     false => {
                         limb.outwards_after(plan, &self.gravity, &attached.change.wrench, active);
                     }
@@ -80,10 +84,21 @@ impl<S: Simd> Machine<S> {
                 for k in 0..6 {
                     residual[k] = residual[k] - gone[k];
                 }
-                for k in 0..6 {
-                    let unit = if k < 3 { plan.length } else { 1.0 };
-                    let most = self.precision.place * unit;
-                    moving = (one * most).where_less(residual[k].abs(), one, moving);
+                if looks_ahead {
+                    let mut off = zero;
+                    for k in 0..6 {
+                        let share = residual[k] * if k < 3 { 1.0 / plan.length } else { 1.0 };
+                        off = share.times_plus(share, off);
+                    }
+                    let most = zero + self.precision.place * self.precision.place;
+                    moving = moving.max(self.precision.goes_on(off, attached.last[0], most));
+                    attached.last[0] = off;
+                } else {
+                    for k in 0..6 {
+                        let unit = if k < 3 { plan.length } else { 1.0 };
+                        let most = self.precision.place * unit;
+                        moving = (one * most).where_less(residual[k].abs(), one, moving);
+                    }
                 }
                 // On every coordinate, N or N m.
                 let torques = attached.noise * attached.noise * (limb.coordinates.len() as f64);
@@ -120,7 +135,11 @@ impl<S: Simd> Machine<S> {
                 // What a residual of rounding makes of wrenches is rounding too: limbs that brace each other
                 // know their inner forces no better.
                 let allowed = (size * (share * share)).max(attached.noise * attached.noise);
-                moving = allowed.where_less(change, one, moving);
+                moving = match looks_ahead {
+                    true => moving.max(self.precision.goes_on(change, attached.last[1], allowed)),
+                    false => allowed.where_less(change, one, moving),
+                };
+                attached.last[1] = change;
                 for (k, own) in plan.passive.iter().enumerate() {
                     let x = limb.coordinates[*own];
                     let to = x + attached.change.joints[k] + along.joints[k];

@@ -8,8 +8,8 @@ use crate::batch::machine::group::{Group, REGULAR, Standing};
 use crate::batch::machine::loaded::{Machine, bounded};
 use crate::batch::numbers::lanes::Lanes;
 use crate::batch::numbers::symmetric::Symmetric;
-use crate::batch::numbers::vectors::{minus, product, product_transposed, select};
-use crate::batch::table::Table;
+use crate::batch::numbers::vectors::{minus, product, product_transposed, select, turned};
+use crate::batch::table::{Columns, Table};
 use crate::spatial::Directions;
 
 /// The unloaded machine's own compliance, which corrects the passes of an equilibrium, is found anew where the machine
@@ -18,30 +18,25 @@ use crate::spatial::Directions;
 const SAME_PLACE: f64 = 0.01;
 
 impl<S: Simd> Machine<S> {
-    /// A serial machine at these commands, unloaded: one in the lanes that can go on. Its target is where they lead the machine
-    /// as it is drawn, if it shall `aim`.
+    /// A serial machine at these commands, unloaded: one in the lanes that can go on.
     #[inline(always)]
     pub fn start_at_joints(
         &mut self,
         simd: S,
         group: &Group,
         (commands, each): (&[f64], usize),
-        aim: bool,
     ) -> Lanes<S> {
         group.commands(simd, commands, each, &mut self.joints[0].commands);
         let good = bounded(simd, &self.joints[0].commands);
-        let serial = self.is_serial();
-        if aim || !serial {
-            let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
-            forward.along(plan, false, plan.steps.len(), &self.joints[0].commands, &[]);
-            self.target = Target {
-                rotation: forward.rotation,
-                point: forward.point,
-            };
-        }
-        if serial {
+        if self.is_serial() {
             return good;
         }
+        let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
+        forward.along(plan, false, plan.steps.len(), &self.joints[0].commands, &[]);
+        self.target = Target {
+            rotation: forward.rotation,
+            point: forward.point,
+        };
         (self.rotation, self.point) = (self.target.rotation, self.target.point);
         self.start_limbs();
         good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
@@ -72,7 +67,7 @@ impl<S: Simd> Machine<S> {
         simd: S,
         group: &Group,
         place: Target<S>,
-        (joints, standing, first): (&Table, Option<&Standing>, usize),
+        (joints, standing, first): (&Table, Option<(&Standing, &[f64])>, usize),
     ) -> Lanes<S> {
         let joints = joints.columns().from(first);
         let mut all = Lanes::new(simd, 0.0);
@@ -94,10 +89,41 @@ impl<S: Simd> Machine<S> {
             return good;
         }
         self.start_limbs();
-        if let Some(standing) = standing {
-            self.stand(simd, group, standing, first);
+        let Some((standing, deviations)) = standing else {
+            return good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)));
+        };
+        self.stand(simd, group, standing, first);
+        for (slope, deviation) in standing.slopes.iter().zip(deviations) {
+            self.go_along(simd, group, slope.columns().from(first), *deviation);
         }
-        good.least_of(self.update_compliance(simd, Lanes::new(simd, 1.0)))
+        good.least_of(self.take_correctors(simd, group, standing.correctors.columns().from(first)))
+    }
+
+    /// Goes along as a number of the machine differs.
+    #[inline(always)]
+    fn go_along(&mut self, simd: S, group: &Group, slope: Columns<'_>, by: f64) {
+        let zero = Lanes::new(simd, 0.0);
+        let mut motion = [zero; 6];
+        group.numbers(simd, slope, 0, &mut motion);
+        let by = zero + by;
+        for k in 0..3 {
+            self.point[k] = motion[k].times_plus(by, self.point[k]);
+        }
+        let turn = [motion[3] * by, motion[4] * by, motion[5] * by];
+        self.rotation = turned(&turn, &self.rotation);
+        let mut from = 6;
+        let mut own = [zero];
+        let limbs = &mut self.limbs;
+        for x in limbs.iter_mut().flat_map(|limb| &mut limb.coordinates) {
+            group.numbers(simd, slope, from, &mut own);
+            *x = own[0].times_plus(by, *x);
+            from += 1;
+        }
+        for x in limbs.iter_mut().flat_map(|limb| &mut limb.wrench) {
+            group.numbers(simd, slope, from, &mut own);
+            *x = own[0].times_plus(by, *x);
+            from += 1;
+        }
     }
 
     /// Started limbs and platform as those of another machine stand, in the lanes where that is known.

@@ -247,13 +247,10 @@ fn commands_tell_where_the_tool_is_commanded() {
     let found = batch
         .equilibrium_at_joints(&commands, &wrenches, Details::Rest)
         .expect("sizes");
+    let targets = batch.targets_at_joints(&commands).expect("sizes");
     for i in 0..count {
         if i == 13 {
-            assert_eq!(
-                (found.status[i], found.target_pose(i)),
-                (Status::Unsolved, None)
-            );
-            continue;
+            assert_eq!(found.status[i], Status::Unsolved);
         }
         let mut wanted = Pose::identity();
         for (axis, angle) in [Vector3::z(), Vector3::y(), Vector3::new(0.2, 0.9, -0.3)]
@@ -264,15 +261,18 @@ fn commands_tell_where_the_tool_is_commanded() {
             wanted = wanted * turn * Pose::translation(0.4, 0.05, 0.3);
         }
         wanted *= tool;
-        let target = found.target_pose(i).expect("commands were given");
-        let off = (target.to_homogeneous() - wanted.to_homogeneous()).largest_entry();
+        let off = (targets[i].to_homogeneous() - wanted.to_homogeneous()).largest_entry();
         assert!(off < 1e-14, "posture {i} is off by {off}");
     }
-    let poses = poses(2);
-    let of_poses = batch
-        .equilibrium(&poses, &wrenches[..2], Details::Rest)
-        .expect("sizes");
-    assert_eq!(of_poses.target_pose(0), None);
+    assert_eq!(batch.targets_at_joints(&[]).expect("none"), []);
+    assert!(batch.targets_at_joints(&commands[1..]).is_err());
+    // Commands beyond what sines of kernels are exact for, and one that is none.
+    let odd = [1e6, 0.2, 0.3, f64::NAN, 0.2, 0.3];
+    let odd = batch.targets_at_joints(&odd).expect("sizes");
+    let near = batch.targets_at_joints(&[1e6_f64.rem_euclid(std::f64::consts::TAU), 0.2, 0.3]);
+    let off = (odd[0].to_homogeneous() - near.expect("sizes")[0].to_homogeneous()).largest_entry();
+    assert!(off < 1e-9, "off by {off}");
+    assert!(odd[1].translation.vector.iter().all(|x| x.is_nan()));
 }
 
 #[test]
