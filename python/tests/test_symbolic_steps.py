@@ -272,7 +272,7 @@ def test_a_stiffness_of_zero_is_a_passive_joint_or_refused(without):
     unloaded = chain.stiffness(directions=PLANE, steps=True)
     with pytest.raises(ArgumentError, match=f"values makes {without[0]} zero, and steps divide by it: make a spring without stiffness"):
         unloaded.subs(values)
-    with pytest.raises(ArgumentError, match="values makes k. zero"):
+    with pytest.raises(ArgumentError, match=r"values makes k\d zero"):
         unloaded.subs({without[-1]: 0})
 
     # The same arm in numpy: springs with stiffness bend, the others are passive joints [R 3.7, 3.8].
@@ -288,4 +288,3 @@ def test_a_stiffness_of_zero_is_a_passive_joint_or_refused(without):
     found = chain.stiffness(directions=PLANE, wrench=[0] * 6, steps=True)
     np.testing.assert_allclose(np.array(found.subs(values).matrix.evalf(), float), expected, rtol=1e-9, atol=1e-6)
     np.testing.assert_allclose(found.lambdify()(**{s.name: values[s.name] for s in found.symbols}), expected, rtol=1e-9, atol=1e-6)
-    np.testing.assert_allclose(np.array(chain.stiffness(directions=PLANE).subs(values).matrix, float), expected, rtol=1e-9, atol=1e-6)

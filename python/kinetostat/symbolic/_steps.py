@@ -102,7 +102,9 @@ def put_in(matrix: sp.Matrix, definitions: Definitions, values: Mapping[str | sp
 def _divides(formula: sp.Basic, values: Mapping[sp.Symbol, sp.Expr]) -> None:
     """Refuses values at which steps divide by zero: they divide by stiffnesses, and by reciprocals that know when there is none."""
     for power in formula.atoms(sp.Pow):
-        if power.exp.is_negative and power.base.xreplace(values).is_zero:
+        # Only what has become a number is asked: of a long formula the question alone takes minutes.
+        base = power.base.xreplace(values) if power.exp.could_extract_minus_sign() else sp.S.One
+        if base.is_Number and base.is_zero:
             raise ArgumentError(
                 f"values makes {power.base} zero, and steps divide by it: make a spring without stiffness a passive joint, "
                 "ask for the stiffness with wrench=[0] * 6, whose steps take single stiffnesses of zero, or without steps"
