@@ -31,15 +31,13 @@ _MOST_SEGMENTS = 100
 """As the reader of model files has it."""
 
 
-def placement(pose: ArrayLike, name: str = "pose") -> dict[str, Any]:
+def placement(pose: ArrayLike) -> dict[str, Any]:
     """A pose as the model file writes it.
 
     Parameters
     ----------
     pose : array_like, shape (4, 4) or (3,)
         Pose, or position without a rotation, m.
-    name : str
-        What it is called in messages.
 
     Returns
     -------
@@ -51,7 +49,11 @@ def placement(pose: ArrayLike, name: str = "pose") -> dict[str, Any]:
     >>> placement([0.1, 0, 0])
     {'position_m': [0.1, 0.0, 0.0]}
     """
-    given = finite(text("name", name), pose)
+    return _placed("pose", pose)
+
+
+def _placed(name: str, pose: ArrayLike) -> dict[str, Any]:
+    given = finite(name, pose)
     if given.shape not in ((3,), (4, 4)):
         raise ArgumentError(f"{name} has shape {given.shape}, expected (4, 4), or a position (3,)")
     if given.shape == (3,):
@@ -346,7 +348,7 @@ class MachineBuilder:
         --------
         >>> MachineBuilder("press").platform("ram", [0, 0, 1])
         """
-        table: dict[str, Any] = {"name": text("name", name), "home": placement(home, "home")}
+        table: dict[str, Any] = {"name": text("name", name), "home": _placed("home", home)}
         if mass is not None:
             table["mass_kg"] = real("mass", mass)
         if centre is not None:
@@ -398,7 +400,7 @@ class MachineBuilder:
         table: dict[str, Any] = {"name": name, "from": text("begins_at", begins_at), "to": text("to", to), "chain": name}
         for key, value in (("start", start), ("end", end)):
             if value is not None:
-                table[key] = placement(value, key)
+                table[key] = _placed(key, value)
         self._limbs.append((made, table))
         return made
 
