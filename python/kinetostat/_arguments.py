@@ -33,7 +33,10 @@ _SHORT = _Short()
 
 def shown(value: Any) -> str:
     """A value in a message."""
-    return _SHORT.repr(value)
+    try:
+        return _SHORT.repr(value)
+    except Exception:  # as of whole numbers with more digits than Python prints
+        return f"<{type(value).__name__}>"
 
 
 def refused(name: str, value: Any, expected: str) -> ArgumentError:
