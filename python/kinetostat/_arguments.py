@@ -90,8 +90,9 @@ def function(name: str, value: Any, expected: str = "a function") -> Any:
 
 def told(progress: T) -> T:
     """What is told of the progress of a call: a function, or None."""
-    if progress is not None and not callable(progress):
-        raise refused("progress", progress, "a function of what is done, how much there is and the name of the stage, or None")
+    given: Any = progress
+    if given is not None and not callable(given):
+        raise refused("progress", given, "a function of what is done, how much there is and the name of the stage, or None")
     return progress
 
 
