@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kinetostat._arguments import shown
 from kinetostat.errors import ArgumentError
 
 Floats = NDArray[np.float64]
@@ -18,11 +19,18 @@ def _shape(shape: tuple[Any, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
 
 
-def masked(value: Any) -> bool:
+_FEW = 36
+"""Numbers that a message still shows."""
+
+_DEEPEST = 64
+"""Axes that an array can have."""
+
+
+def masked(value: Any, depth: int = 0) -> bool:
     """Whether entries are masked, in lists of arrays too: numpy would take what is behind the mask."""
     if isinstance(value, np.ma.MaskedArray):
         return bool(np.asarray(value.mask).any())
-    return isinstance(value, (list, tuple)) and any(map(masked, value))
+    return depth < _DEEPEST and isinstance(value, (list, tuple)) and any(masked(inner, depth + 1) for inner in value)
 
 
 def numbers(name: str, value: ArrayLike) -> Floats:
@@ -31,7 +39,7 @@ def numbers(name: str, value: ArrayLike) -> Floats:
         raise ArgumentError(f"{name} has masked entries: fill or leave them out")
     try:
         given = np.asarray(value)
-    except ValueError as ragged:
+    except (ValueError, TypeError, OverflowError, RecursionError) as ragged:
         raise ArgumentError(f"{name} is no array: {ragged}") from None
     if given.dtype.kind not in "fiub":
         raise ArgumentError(f"{name} has dtype {given.dtype}, expected real numbers")
@@ -43,6 +51,16 @@ def fitting(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
     given = numbers(name, value)
     if given.shape[max(given.ndim - len(shape), 0) :] != shape:
         raise ArgumentError(f"{name} has shape {_shape(given.shape)}, expected {_shape(('...', *shape))}")
+    return given
+
+
+def finite(name: str, value: ArrayLike) -> Floats:
+    """Finite numbers of any shape."""
+    given = numbers(name, value)
+    if not np.all(np.isfinite(given)):
+        culprit = float(given[~np.isfinite(given)].flat[0])
+        said = f"is {given.tolist()}" if given.size <= _FEW else f"holds {culprit}"
+        raise ArgumentError(f"{name} {said}: give finite numbers")
     return given
 
 
@@ -62,9 +80,7 @@ def one(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Floats:
     given = numbers(name, value)
     if given.shape != shape:
         raise ArgumentError(f"{name} has shape {_shape(given.shape)}, expected {_shape(shape)}")
-    if not np.all(np.isfinite(given)):
-        raise ArgumentError(f"{name} is {given.tolist()}: give finite numbers")
-    return given
+    return finite(name, given)
 
 
 def whole_number(name: str, value: int, least: int, most: int) -> int:
@@ -72,9 +88,9 @@ def whole_number(name: str, value: int, least: int, most: int) -> int:
     try:
         found = operator.index(value)
     except TypeError:
-        raise ArgumentError(f"{name} is {value!r}, expected a whole number from {least} to {most}") from None
+        raise ArgumentError(f"{name} is {shown(value)}, expected a whole number from {least} to {most}") from None
     if not least <= found <= most:
-        raise ArgumentError(f"{name} is {found}, expected a whole number from {least} to {most}")
+        raise ArgumentError(f"{name} is {shown(found)}, expected a whole number from {least} to {most}")
     return found
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kinetostat._arguments import of_kind, refused, texts
 from kinetostat._arrays import Floats, one
 from kinetostat._tool import with_tool_in_model
 from kinetostat.errors import ArgumentError, KinetostatError
@@ -36,14 +37,27 @@ def node_loads(loads: Mapping[str, ArrayLike] | Sequence[str] | None) -> list[st
     if loads is None:
         return None
     if not isinstance(loads, Mapping):
-        return list(loads)
+        return texts("loads", loads, "a dictionary of forces by node, or a list of text as 'node=fx,fy,fz'") or None
+    for node in loads:
+        if not isinstance(node, str):
+            raise refused("a key of loads", node, "the name of a node")
     forces = ((node, one(f"loads[{node!r}]", force, (3,)).tolist()) for node, force in loads.items())
-    return [f"{node}={','.join(map(repr, force))}" for node, force in forces]
+    return [f"{node}={','.join(map(repr, force))}" for node, force in forces] or None
+
+
+def handed_on(own: dict[str, Any], further: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a command: those that a function makes of its own arguments, and further ones of its caller."""
+    for name in further:
+        if name in own:
+            raise ArgumentError(f"{name} is not expected here: this function gives it to the command itself, by its own arguments")
+    return {**own, **further}
 
 
 def bare(machine: Machine) -> tuple[Machine, float | None]:
     """The machine without its tool, and the length of a straight one in mm; another tool becomes part of the model."""
-    tool = machine.tool
+    from kinetostat.machine import Machine
+
+    tool = of_kind("machine", machine, Machine, "a Machine").tool
     if np.array_equal(tool, np.eye(4)):
         return machine, None
     straight = np.eye(4)
@@ -66,7 +80,9 @@ def place(posture: Posture) -> dict[str, Any]:
     The command finds the posture by the place of its tool; where that leads to another one, as with redundant arms and other elbows, by
     its joints. Where these do not say where the machine is, the command would answer for another posture.
     """
-    machine = posture.machine
+    from kinetostat.posture import Posture
+
+    machine = of_kind("posture", posture, Posture, "a Posture").machine
     target = posture.target
     model, length = bare(machine)
     options: dict[str, Any] = {"model": model, "tool_length_mm": length}

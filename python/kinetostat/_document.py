@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from kinetostat._arguments import shown
 from kinetostat.errors import ModelError
 
 __all__ = ["plain", "without_none"]
@@ -22,16 +22,24 @@ def without_none(value: Any) -> Any:
     return value
 
 
-def plain(value: Any, at: str = "") -> Any:
-    """Arrays and numbers of numpy as plain ones, without None."""
+_DEEPEST = 32
+"""Tables within tables: far more than a model has."""
+
+
+def plain(value: Any, at: str = "", depth: int = 0) -> Any:
+    """Arrays and numbers of numpy as plain ones, without None; refuses what no model file can hold."""
+    if depth > _DEEPEST:
+        raise ModelError(f"{at[:100]} is nested more than {_DEEPEST} deep: a model is not")
     if isinstance(value, Mapping):
-        return {str(key): plain(inner, f"{at}.{key}" if at else str(key)) for key, inner in value.items() if inner is not None}
+        return {str(key): plain(inner, f"{at}.{key}" if at else str(key), depth + 1) for key, inner in value.items() if inner is not None}
     if isinstance(value, (list, tuple)):
-        return [plain(inner, f"{at}[{index}]") for index, inner in enumerate(value)]
+        return [plain(inner, f"{at}[{index}]", depth + 1) for index, inner in enumerate(value)]
     if isinstance(value, np.ndarray):
-        return plain(value.tolist(), at)
-    if isinstance(value, np.generic):
-        return plain(value.item(), at)
+        return plain(value.tolist(), at, depth + 1)
+    if isinstance(value, np.generic) and not isinstance(value.item(), np.generic):
+        return plain(value.item(), at, depth + 1)
     if isinstance(value, float) and not np.isfinite(value):
         raise ModelError(f"{at} is {value}: give a finite number")
-    return copy.copy(value)
+    if not isinstance(value, (bool, int, float, str)):
+        raise ModelError(f"{at} is {shown(value)}, expected a number, text, a list or a dictionary")
+    return value

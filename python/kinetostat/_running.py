@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 
 from kinetostat import _core
+from kinetostat._arguments import path as file_path
+from kinetostat._arguments import refused, shown, told
 from kinetostat._arrays import masked, thread_count
 from kinetostat.errors import ArgumentError, ToleranceMissedWarning, UnansweredError
 from kinetostat.machine import Machine
@@ -58,39 +60,59 @@ def run(words: Sequence[str | os.PathLike[str]], progress: Callable[[int, int, s
     >>> run(["model", "list"]).code
     0
     """
-    return Completed(*_core.run_command([os.fspath(word) for word in words], progress))
+    if isinstance(words, (str, bytes)) or not isinstance(words, Sequence):
+        raise refused("words", words, "a list of words as ['model', 'list']")
+    each = [file_path(f"words[{index}]", word) for index, word in enumerate(words)]
+    return Completed(*_core.run_command(each, told(progress)))
 
 
-def _words(value: Any) -> list[str]:
-    if isinstance(value, (bool, np.bool_)):
-        raise ArgumentError(f"{value} is no value of an option")
-    if isinstance(value, (int, float, np.integer, np.floating)):
-        return [repr(value.item() if isinstance(value, np.generic) else value)]
-    if not isinstance(value, (str, os.PathLike)):
-        raise ArgumentError(f"{value!r} ({type(value).__name__}) is no value of an option: give numbers, text or paths")
-    return [os.fspath(value)]
+def _word(name: str, value: Any, of_option: bool) -> str:
+    """The word of a value."""
+    plain = value.item() if isinstance(value, np.generic) else value
+    if isinstance(plain, (int, float)) and not isinstance(plain, bool):
+        return repr(plain)
+    if not isinstance(plain, (str, os.PathLike)):
+        raise refused(name, value, "a number, text or a path")
+    word = file_path(name, plain)
+    if not of_option and word.startswith("-"):
+        raise ArgumentError(f"{name} is {shown(word)}: what begins with a dash is taken for an option")
+    return word
 
 
-def _option(name: str, value: Any) -> list[str]:
+def _shape(row: Any) -> tuple[int, ...] | None:
+    """The shape of a row, none where its own rows are not alike."""
+    try:
+        return tuple(np.shape(row))
+    except ValueError:
+        return None
+
+
+def _option(option: str, value: Any) -> list[str]:
+    """An option of the command line with its value; an argument without an option has its name without dashes."""
+    name = option.removeprefix("--").replace("-", "_")
+    head = [option] if option.startswith("--") else []
     if value is None or value is False:
         return []
-    if value is True:
-        return [name]
+    if isinstance(value, (bool, np.bool_)):
+        if not head:
+            raise refused(name, value, "text or a path")
+        return head if value else []
     if masked(value):
-        raise ArgumentError(f"{name or 'argument'} has masked entries: fill or leave them out")
-    if isinstance(value, (list, tuple, np.ndarray)):
-        if len(value) == 0:
-            raise ArgumentError(f"{name or 'argument'} is empty")
-        if len({np.shape(inner) for inner in value}) > 1:
-            raise ArgumentError(f"{name or 'argument'} is {value!r}: its rows are not alike")
-    if not name and isinstance(value, str) and value.startswith("-"):
-        raise ArgumentError(f"{value!r} is no argument: it begins with a dash")
-    head = [name] if name else []
-    if isinstance(value, (str, os.PathLike)) or np.ndim(value) == 0:
-        return head + _words(value)
-    if np.ndim(value[0]) == 0 and not (isinstance(value[0], str) and name):
-        return head + [word for inner in value for word in _words(inner)]
-    return [word for inner in value for word in _option(name, inner)]
+        raise ArgumentError(f"{name} has masked entries: fill or leave them out")
+    if hasattr(value, "__array__"):
+        value = np.asarray(value)
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, (str, os.PathLike)) or not isinstance(value, (Sequence, np.ndarray)):
+        return [*head, _word(name, value, bool(head))]
+    if len(value) == 0:
+        raise ArgumentError(f"{name} is empty")
+    shapes = {_shape(inner) for inner in value}
+    if len(shapes) > 1 or None in shapes:
+        raise ArgumentError(f"{name} is {shown(value)}: its rows are not alike")
+    if np.ndim(value[0]) == 0 and not (isinstance(value[0], str) and head):
+        return head + [_word(f"{name}[{index}]", inner, bool(head)) for index, inner in enumerate(value)]
+    return [word for inner in value for word in _option(option, inner)]
 
 
 def _in_words(command: Sequence[str], options: Sequence[tuple[str, Any]], folder: str) -> tuple[list[str], dict[str, str]]:
@@ -115,6 +137,7 @@ def _done(
     progress: Callable[[int, int, str], object] | None,
     extra: Sequence[str],
 ) -> Completed:
+    told(progress)
     with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
         words, names = _in_words(command, options, folder)
         done = run([*words, *extra], progress)

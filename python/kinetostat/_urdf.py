@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from kinetostat._arrays import Floats, numbers
+from kinetostat._arguments import mapping, one_of, path, refused, shown, text
+from kinetostat._arrays import Floats, real
 from kinetostat.errors import ArgumentError
 
 __all__ = ["in_words_of_python", "stiffness_table", "text_of", "with_ratings"]
@@ -37,9 +38,12 @@ def text_of(robot: object) -> tuple[str, str, Floats | None]:
     if isinstance(robot, str) and robot.lstrip().startswith("<"):
         return robot, "text.urdf", None
     if isinstance(robot, (str, os.PathLike)):
-        path = os.fspath(robot)
-        with open(path, encoding="utf-8-sig") as file:
-            return file.read(), path, None
+        name = path("robot", robot)
+        try:
+            with open(name, encoding="utf-8-sig") as file:
+                return file.read(), name, None
+        except UnicodeDecodeError as wrong:
+            raise ArgumentError(f"robot is {shown(name)}, expected a URDF as text in UTF-8: {wrong}") from None
     raise ArgumentError(
         f"robot is a {type(robot).__name__}, expected a path, the text of a URDF, an object of yourdfpy or urdf_parser_py, "
         "or a model of Pinocchio"
@@ -147,12 +151,29 @@ def stiffness_table(stiffness: Mapping[str, tuple[float, str]]) -> str:
     """Stiffness of joints by name as a table of text with units."""
     lines = ["name,value,unit"]
     for name, given in stiffness.items():
-        pair = given if isinstance(given, (tuple, list)) else ()
-        if len(pair) != 2 or pair[1] not in _STIFFNESS_UNITS:
-            told = f"stiffness[{name!r}] is {given!r}, expected a value and its unit as (2e5, 'N m/rad')"
-            raise ArgumentError(f"{told}; units: {', '.join(_STIFFNESS_UNITS)}")
-        lines.append(f"{name},{float(numbers(f'stiffness[{name!r}]', pair[0]))!r},{pair[1]}")
+        own = f"stiffness[{shown(name)}]"
+        value, unit = _pair(own, given, f"a value and its unit as (2e5, 'N m/rad'); units: {', '.join(_STIFFNESS_UNITS)}")
+        if unit not in _STIFFNESS_UNITS:
+            raise ArgumentError(f"{own} has the unit {shown(unit)}, expected one of the units: {', '.join(_STIFFNESS_UNITS)}")
+        lines.append(f"{text(f'the joint of {own}', name)},{real(own, value)!r},{unit}")
     return "\n".join([*lines, ""])
+
+
+def stands_at(home: Any) -> dict[str, tuple[bool, float]]:
+    """Where joints stand at home by name: whether they turn, and rad or m."""
+    found: dict[str, tuple[bool, float]] = {}
+    for name, given in mapping("home", home, "a dictionary as {'joint': ('revolute', 0.5)}").items():
+        own = f"home[{shown(name)}]"
+        kind, at = _pair(own, given, "what the joint does and where it stands as ('revolute', 0.5), rad or m")
+        turns = one_of(f"the kind of {own}", kind, ("revolute", "prismatic")) == "revolute"
+        found[text(f"the joint of {own}", name)] = (turns, real(own, at))
+    return found
+
+
+def _pair(name: str, given: Any, expected: str) -> tuple[Any, Any]:
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise refused(name, given, expected)
+    return given[0], given[1]
 
 
 def with_ratings(document: dict[str, Any], text: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import commands
+from kinetostat._arguments import texts
 from kinetostat._arrays import Floats
 from kinetostat._asking import place, triple
 
@@ -125,9 +126,10 @@ def assembly(
     >>> found.over_constraint, found.wrench.shape
     (3, (3, 6))
     """
+    further = texts("deviations", deviations, "a list of text as 'leg x:line:1deg about x'")
     answer = commands.assemble(
         **place(posture),
-        deviation=list(deviations) or None,
+        deviation=further or None,
         force=triple("force", force),
         moment=triple("moment", moment),
         all=True,

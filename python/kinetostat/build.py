@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kinetostat._arrays import numbers, one
+from kinetostat._arguments import mapping, one_of, or_none, refused, text, text_or_none
+from kinetostat._arrays import finite, numbers, one, real, whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
 from kinetostat.spatial import rotation_vector
@@ -24,6 +25,10 @@ __all__ = ["LimbBuilder", "MachineBuilder", "placement"]
 
 _Axis = str | Sequence[float]
 _Kind = Literal["revolute", "prismatic"]
+_KINDS = ("revolute", "prismatic")
+_PASSIVE = (*_KINDS, "universal", "spherical")
+_MOST_SEGMENTS = 100
+"""As the reader of model files has it."""
 
 
 def placement(pose: ArrayLike) -> dict[str, Any]:
@@ -44,10 +49,18 @@ def placement(pose: ArrayLike) -> dict[str, Any]:
     >>> placement([0.1, 0, 0])
     {'position_m': [0.1, 0.0, 0.0]}
     """
-    given = numbers("pose", pose)
+    return _placed("pose", pose)
+
+
+def _placed(name: str, pose: ArrayLike) -> dict[str, Any]:
+    given = finite(name, pose)
+    if given.shape not in ((3,), (4, 4)):
+        raise ArgumentError(f"{name} has shape {given.shape}, expected (4, 4), or a position (3,)")
     if given.shape == (3,):
-        return {"position_m": one("pose", given, (3,)).tolist()}
-    matrix = one("pose", given, (4, 4))
+        return {"position_m": given.tolist()}
+    matrix = given
+    if matrix[3].tolist() != [0, 0, 0, 1]:
+        raise ArgumentError(f"{name} is no pose: the last row of a 4 x 4 pose is 0 0 0 1, found {matrix[3].tolist()}")
     out = {"position_m": matrix[:3, 3].tolist()}
     if not np.array_equal(matrix[:3, :3], np.eye(3)):
         out["rotation_vector_rad"] = rotation_vector(matrix[:3, :3]).tolist()
@@ -55,16 +68,20 @@ def placement(pose: ArrayLike) -> dict[str, Any]:
 
 
 def _axis(axis: _Axis) -> Any:
-    return axis if isinstance(axis, str) else one("axis", axis, (3,)).tolist()
+    return text("axis", axis) if isinstance(axis, str) else one("axis", axis, (3,)).tolist()
+
+
+def _kind(kind: Any) -> Any:
+    return one_of("kind", kind, _KINDS)
 
 
 def _stiffness(kind: _Kind, value: float) -> dict[str, float]:
-    return {"stiffness_n_per_m" if kind == "prismatic" else "stiffness_n_m_per_rad": float(value)}
+    return {"stiffness_n_per_m" if kind == "prismatic" else "stiffness_n_m_per_rad": real("stiffness", value)}
 
 
-def _in(kind: _Kind, key: str, value: Any) -> dict[str, Any]:
+def _in(kind: _Kind, key: str, value: Any, shape: tuple[int, ...] = ()) -> dict[str, Any]:
     unit = "m" if kind == "prismatic" else "rad"
-    return {} if value is None else {f"{key}_{unit}": numbers(key, value).tolist()}
+    return {} if value is None else {f"{key}_{unit}": one(key, value, shape).tolist()}
 
 
 class LimbBuilder:
@@ -80,7 +97,7 @@ class LimbBuilder:
     """
 
     def __init__(self, name: str) -> None:
-        self.name = name
+        self.name = text("name", name)
         self.elements: list[dict[str, Any]] = []
         self.loads: list[dict[str, Any]] = []
 
@@ -96,7 +113,7 @@ class LimbBuilder:
         >>> LimbBuilder("arm").rigid([0.5, 0, 0]).elements
         [{'rigid': {'position_m': [0.5, 0.0, 0.0]}}]
         """
-        return self._add({"rigid": placement(pose), "name": name})
+        return self._add({"rigid": placement(pose), "name": text_or_none("name", name)})
 
     def actuator(
         self,
@@ -133,17 +150,18 @@ class LimbBuilder:
         >>> LimbBuilder("arm").actuator("shoulder", "revolute", "z", 2e5).elements[0]["stiffness_n_m_per_rad"]
         200000.0
         """
+        _kind(kind)
         spring: dict[str, Any] = {"rigid_drive": True} if stiffness is None else _stiffness(kind, stiffness)
         rated = "rated_force_n" if kind == "prismatic" else "rated_torque_n_m"
         return self._add(
             {
                 "actuator": kind,
-                "name": name,
+                "name": text("name", name),
                 "axis": _axis(axis),
                 **spring,
-                rated: rating,
+                rated: or_none(real, "rating", rating),
                 **_in(kind, "home", home),
-                **_in(kind, "limits", limits),
+                **_in(kind, "limits", limits, (2,)),
             }
         )
 
@@ -162,15 +180,18 @@ class LimbBuilder:
         >>> LimbBuilder("leg").passive("gimbal", "universal", ["y", "z"]).elements
         [{'passive': 'universal', 'name': 'gimbal', 'axes': ['y', 'z']}]
         """
-        element: dict[str, Any] = {"passive": kind, "name": name}
+        one_of("kind", kind, _PASSIVE)
+        element: dict[str, Any] = {"passive": kind, "name": text("name", name)}
         if kind == "universal":
-            element["axes"] = [_axis(a) for a in (() if axis is None else axis)]  # type: ignore[arg-type]
+            if isinstance(axis, str) or not isinstance(axis, (Sequence, np.ndarray)) or len(axis) != 2:
+                raise refused("axis", axis, "two axes of a universal joint as ['y', 'z']")
+            element["axes"] = [_axis(a) for a in axis]  # type: ignore[arg-type]
         elif axis is not None:
             element["axis"] = _axis(axis)  # type: ignore[arg-type]
         if home is not None:
             element |= (
-                {"homes_rad": numbers("home", home).tolist()}
-                if np.ndim(home) > 0
+                {"homes_rad": finite("home", home).tolist()}
+                if finite("home", home).ndim
                 else _in("prismatic" if kind == "prismatic" else "revolute", "home", home)
             )
         return self._add(element)
@@ -183,8 +204,10 @@ class LimbBuilder:
         >>> LimbBuilder("arm").spring("give", "prismatic", "x", 1e6).elements[0]["stiffness_n_per_m"]
         1000000.0
         """
-        more = {**_in(kind, "rest", rest), **_in(kind, "home", home)} if rest or home else {}
-        return self._add({"spring": kind, "name": name, "axis": _axis(axis), **_stiffness(kind, stiffness), **more})
+        _kind(kind)
+        more = {**_in(kind, "rest", rest), **_in(kind, "home", home)}
+        more = more if any(more.values()) else {}
+        return self._add({"spring": kind, "name": text("name", name), "axis": _axis(axis), **_stiffness(kind, stiffness), **more})
 
     def spring6(self, name: str, stiffness: ArrayLike) -> LimbBuilder:
         """A spring of six freedoms: matrix (6, 6) or diagonal (6,), N/m, N/rad; N m/m, N m/rad.
@@ -196,7 +219,9 @@ class LimbBuilder:
         """
         given = numbers("stiffness", stiffness)
         key = "diagonal_n_m_rad" if given.shape == (6,) else "matrix_n_m_rad"
-        return self._add({"spring6": {key: one("stiffness", given, (6,) if given.shape == (6,) else (6, 6)).tolist()}, "name": name})
+        return self._add(
+            {"spring6": {key: one("stiffness", given, (6,) if given.shape == (6,) else (6, 6)).tolist()}, "name": text("name", name)}
+        )
 
     def link(self, name: str, section: str, length: float, *, segments: int | None = None) -> LimbBuilder:
         """A straight elastic link along x: name of a section of the machine, length in m.
@@ -206,7 +231,9 @@ class LimbBuilder:
         >>> LimbBuilder("arm").link("boom", "tube", 0.8).elements
         [{'link': 'tube', 'name': 'boom', 'length_m': 0.8}]
         """
-        return self._add({"link": section, "name": name, "length_m": float(length), "segments": segments})
+        parts = or_none(whole_number, "segments", segments, 1, _MOST_SEGMENTS)
+        where = {"link": text("section", section), "name": text("name", name)}
+        return self._add({**where, "length_m": real("length", length), "segments": parts})
 
     def node(self, name: str) -> LimbBuilder:
         """A named place, for loads.
@@ -216,7 +243,7 @@ class LimbBuilder:
         >>> LimbBuilder("arm").node("elbow").elements
         [{'node': 'elbow'}]
         """
-        return self._add({"node": name})
+        return self._add({"node": text("name", name)})
 
     def body(self, name: str, mass: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> LimbBuilder:
         """A mass, kg, with its centre in the frame reached there, m.
@@ -226,7 +253,8 @@ class LimbBuilder:
         >>> LimbBuilder("arm").body("motor", 12).elements[0]["mass_kg"]
         12.0
         """
-        return self._add({"body": name, "mass_kg": float(mass), "centre_of_mass_m": one("centre", centre, (3,)).tolist()})
+        where = one("centre", centre, (3,)).tolist()
+        return self._add({"body": text("name", name), "mass_kg": real("mass", mass), "centre_of_mass_m": where})
 
     def element(self, element: Mapping[str, Any]) -> LimbBuilder:
         """Any other element, with the keys of the model file.
@@ -236,7 +264,7 @@ class LimbBuilder:
         >>> LimbBuilder("leg").element({"coupled": "q1", "motion": "revolute", "axis": "z", "ratio": -1}).elements[0]["ratio"]
         -1
         """
-        return self._add(element)
+        return self._add(mapping("element", element, "a dictionary with the keys of the model file"))
 
     def wrench(self, name: str, node: str, force: ArrayLike = (0.0, 0.0, 0.0), moment: ArrayLike = (0.0, 0.0, 0.0)) -> LimbBuilder:
         """A load on a node all the time, N and N m, base axes; it keeps its direction.
@@ -248,8 +276,8 @@ class LimbBuilder:
         """
         return self.load(
             {
-                "wrench": name,
-                "node": node,
+                "wrench": text("name", name),
+                "node": text("node", node),
                 "axes": "base",
                 "force_n": one("force", force, (3,)).tolist(),
                 "moment_n_m": one("moment", moment, (3,)).tolist(),
@@ -264,7 +292,7 @@ class LimbBuilder:
         >>> len(LimbBuilder("arm").load({"counterweight": "w", "at": {"node": "elbow"}, "mass_kg": 40}).loads)
         1
         """
-        self.loads.append(dict(load))
+        self.loads.append(dict(mapping("load", load, "a dictionary with the keys of the model file")))
         return self
 
 
@@ -292,8 +320,8 @@ class MachineBuilder:
 
     def __init__(self, name: str, *, gravity: ArrayLike | None = None, description: str | None = None) -> None:
         fields = {
-            "name": name,
-            "description": description,
+            "name": text("name", name),
+            "description": text_or_none("description", description),
             "gravity_m_per_s2": None if gravity is None else one("gravity", gravity, (3,)).tolist(),
         }
         self._mechanism = {key: value for key, value in fields.items() if value is not None}
@@ -320,9 +348,9 @@ class MachineBuilder:
         --------
         >>> MachineBuilder("press").platform("ram", [0, 0, 1])
         """
-        table: dict[str, Any] = {"name": name, "home": placement(home)}
+        table: dict[str, Any] = {"name": text("name", name), "home": _placed("home", home)}
         if mass is not None:
-            table["mass_kg"] = float(mass)
+            table["mass_kg"] = real("mass", mass)
         if centre is not None:
             table["centre_of_mass_m"] = one("centre", centre, (3,)).tolist()
         self._platforms.append(table)
@@ -341,7 +369,7 @@ class MachineBuilder:
         --------
         >>> MachineBuilder("arm").section("bar", round={"diameter_m": 0.05}, youngs_modulus_gpa=210, poissons_ratio=0.3)
         """
-        if name in self._sections:
+        if text("name", name) in self._sections:
             raise ArgumentError(f"there is a section {name!r} already")
         self._sections[name] = values
 
@@ -367,12 +395,12 @@ class MachineBuilder:
         'arm'
         """
         if any(name == made.name for made, _ in self._limbs):
-            raise ArgumentError(f"there is a limb {name!r} already")
+            raise ArgumentError(f"name is {name!r}, and there is a limb of that name already")
         made = LimbBuilder(name)
-        table: dict[str, Any] = {"name": name, "from": begins_at, "to": to, "chain": name}
+        table: dict[str, Any] = {"name": name, "from": text("begins_at", begins_at), "to": text("to", to), "chain": name}
         for key, value in (("start", start), ("end", end)):
             if value is not None:
-                table[key] = placement(value)
+                table[key] = _placed(key, value)
         self._limbs.append((made, table))
         return made
 
@@ -383,7 +411,7 @@ class MachineBuilder:
         --------
         >>> MachineBuilder("arm").load({"wrench": "hose", "platform": "tool", "axes": "base", "force_n": [0, 0, -20]})
         """
-        self._loads.append(dict(load))
+        self._loads.append(dict(mapping("load", load, "a dictionary with the keys of the model file")))
 
     def to_dict(self) -> dict[str, Any]:
         """The dictionary of the model file.

@@ -340,7 +340,7 @@ def compensate(
     (True, 6)
     """
     options: list[tuple[str, Any]] = [
-        ("", job),
+        ("job", job),
         ("--model", model),
         ("--program", program),
         ("--tool-length-mm", tool_length_mm),
@@ -605,7 +605,7 @@ def deflect(
     (True, 0.0333)
     """
     options: list[tuple[str, Any]] = [
-        ("", subject),
+        ("subject", subject),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),
@@ -717,7 +717,7 @@ def stiffness(
     (6, 6)
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),
@@ -809,7 +809,7 @@ def shares(
     1.0
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),
@@ -887,8 +887,8 @@ def compare(
     True
     """
     options: list[tuple[str, Any]] = [
-        ("", a),
-        ("", b),
+        ("a", a),
+        ("b", b),
         ("--at", at),
         ("--x", x),
         ("--y", y),
@@ -993,7 +993,7 @@ def map(
     (3, 'N/mm')
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--x", x),
         ("--y", y),
         ("--z", z),
@@ -1140,7 +1140,7 @@ def mirror(
     ('go_on', 0.05, 0.05)
     """
     options: list[tuple[str, Any]] = [
-        ("", program),
+        ("program", program),
         ("--measured", measured),
         ("--state", state),
         ("--job", job),
@@ -1251,7 +1251,7 @@ def tolerance(
     (256, 'normal')
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--uncertain", uncertain),
         ("--at", at),
         ("--rotation", rotation),
@@ -1353,7 +1353,7 @@ def assemble(
     (3, 'leg x')
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--deviation", deviation),
         ("--at", at),
         ("--rotation", rotation),
@@ -1492,7 +1492,7 @@ def curve(
     ['start', 'pitchfork', 'end', 'end', 'end']
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),
@@ -1624,7 +1624,7 @@ def equilibria(
     [True, False]
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),
@@ -2104,7 +2104,7 @@ def engagement(
     (1.0, [])
     """
     options: list[tuple[str, Any]] = [
-        ("", subject),
+        ("subject", subject),
         ("--job", job),
         ("--program", program),
         ("--material", material),
@@ -2252,7 +2252,7 @@ def expand(
     3
     """
     options: list[tuple[str, Any]] = [
-        ("", program),
+        ("program", program),
         ("--out", out),
         ("--subprograms", subprograms),
         ("--tool-diameter-mm", tool_diameter_mm),
@@ -2414,7 +2414,7 @@ def convert(
     4
     """
     options: list[tuple[str, Any]] = [
-        ("", program),
+        ("program", program),
         ("--to", to),
         ("--out", out),
         ("--template", template),
@@ -2502,7 +2502,7 @@ def dialect_show(
     'followed'
     """
     options: list[tuple[str, Any]] = [
-        ("", name),
+        ("name", name),
     ]
     return answered(["dialect", "show"], options, progress)
 
@@ -2549,7 +2549,7 @@ def check(
     (3, 3, [])
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--force", force),
         ("--pose", pose),
         ("--pose-tolerance-mm", pose_tolerance_mm),
@@ -2621,7 +2621,7 @@ def import_urdf(
     ('crane', ['shoulder'])
     """
     options: list[tuple[str, Any]] = [
-        ("", file),
+        ("file", file),
         ("--base", base),
         ("--tip", tip),
         ("--loops", loops),
@@ -2717,7 +2717,7 @@ def import_matrix(
     ('boom', 6)
     """
     options: list[tuple[str, Any]] = [
-        ("", file),
+        ("file", file),
         ("--dofs", dofs),
         ("--matrix", matrix),
         ("--interface", interface),
@@ -2818,7 +2818,7 @@ def import_link_displacements(
     (2000, 5000000)
     """
     options: list[tuple[str, Any]] = [
-        ("", file),
+        ("file", file),
         ("--end-mm", end_mm),
         ("--loads", loads),
         ("--force-n", force_n),
@@ -2870,7 +2870,7 @@ def reproduce(
     ('eq-3.34', 'agrees')
     """
     options: list[tuple[str, Any]] = [
-        ("", id),
+        ("id", id),
         ("--html", html),
         ("--force-overwrite", force_overwrite),
     ]
@@ -2928,7 +2928,7 @@ def model_show(
     True
     """
     options: list[tuple[str, Any]] = [
-        ("", name),
+        ("name", name),
     ]
     return texted(["model", "show"], options, progress)
 
@@ -2989,8 +2989,8 @@ def model_compare(
     True
     """
     options: list[tuple[str, Any]] = [
-        ("", a),
-        ("", b),
+        ("a", a),
+        ("b", b),
     ]
     return answered(["model", "compare"], options, progress)
 
@@ -3067,7 +3067,7 @@ def model_draw(
     True
     """
     options: list[tuple[str, Any]] = [
-        ("", model),
+        ("model", model),
         ("--at", at),
         ("--rotation", rotation),
         ("--joints", joints),

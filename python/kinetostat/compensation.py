@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
-from kinetostat._arrays import Floats
-from kinetostat._asking import bare, numbers_or_nan, triple, wrenches
+from kinetostat._arguments import or_none
+from kinetostat._arguments import path as file_path
+from kinetostat._arrays import Floats, positive
+from kinetostat._asking import bare, handed_on, numbers_or_nan, triple, wrenches
 
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
@@ -111,22 +113,24 @@ def compensate(
     import tempfile
 
     model, length = bare(machine)
+    program, out = file_path("program", program), file_path("out", out)
+    largest = or_none(positive, "tolerance", tolerance)
     # A job names its model by a file.
     with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
         path = os.path.join(folder, "model.toml")
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             file.write(model.text)
-        answer = commands.compensate(
-            model=path,
-            program=program,
-            out=out,
-            tool_length_mm=length,
-            force=triple("force", force),
-            moment=triple("moment", moment),
-            part_origin_mm=triple("part_origin", part_origin, 1e3),
-            tolerance_um=None if tolerance is None else 1e6 * tolerance,
-            **({"all_points": True} | options),
-        )
+        own = {
+            "model": path,
+            "program": program,
+            "out": out,
+            "tool_length_mm": length,
+            "force": triple("force", force),
+            "moment": triple("moment", moment),
+            "part_origin_mm": triple("part_origin", part_origin, 1e3),
+            "tolerance_um": None if largest is None else 1e6 * largest,
+        }
+        answer = commands.compensate(**handed_on(own, {"all_points": True} | options))
     points = answer["points"]
 
     def vectors(key: str) -> Floats:

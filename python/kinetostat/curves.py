@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
-from kinetostat._arrays import Floats, one
-from kinetostat._asking import coordinates_in_si, node_loads, numbers_or_nan, place, triple, wrenches
+from kinetostat._arguments import flag
+from kinetostat._arrays import Floats, one, positive
+from kinetostat._asking import coordinates_in_si, handed_on, node_loads, numbers_or_nan, place, triple, wrenches
 from kinetostat.errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -388,7 +389,7 @@ def curve(
         load=node_loads(loads),
         branches=branches,
         points=points,
-        all=search_all,
+        all=flag("search_all", search_all),
         progress=progress,
     )
     names = answer["coordinates"]
@@ -431,6 +432,5 @@ def critical_load(posture: Posture, force: ArrayLike, *, most: float = 10.0, **q
     >>> round(shape.factor, 6), round(shape.linear, 6)
     (1.033477, 1.015104)
     """
-    if not most > 0:
-        raise ArgumentError(f"most is {most}, expected a factor above 0")
-    return curve(posture, force=force, factor=(0.0, most), **question)
+    own = {"force": force, "factor": (0.0, positive("most", most))}
+    return curve(posture, **handed_on(own, question))

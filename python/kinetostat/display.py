@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kinetostat._arguments import of_kind, refused, text, texts
+
 if TYPE_CHECKING:
     from kinetostat.machine import Machine
     from kinetostat.posture import Equilibrium, Stiffness
@@ -45,10 +47,14 @@ def table(head: Sequence[str], rows: Sequence[Sequence[Any]], caption: str = "")
             return f"{value + 0.0:.5g}"
         return html.escape(str(value))
 
+    names = texts("head", head)
+    if isinstance(rows, str) or not isinstance(rows, Sequence) or any(isinstance(r, str) or not isinstance(r, Sequence) for r in rows):
+        raise refused("rows", rows, "a list of rows, each a list of cells")
+    caption = text("caption", caption)
     title = f"<caption>{html.escape(caption)}</caption>" if caption else ""
-    names = "".join(f"<th>{html.escape(name)}</th>" for name in head)
+    columns = "".join(f"<th>{html.escape(name)}</th>" for name in names)
     body = "".join("<tr>" + "".join(f"<td>{cell(value)}</td>" for value in row) + "</tr>" for row in rows)
-    return f"<table>{title}<thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
+    return f"<table>{title}<thead><tr>{columns}</tr></thead><tbody>{body}</tbody></table>"
 
 
 def _matrix(values: np.ndarray[Any, Any], caption: str) -> str:
@@ -66,6 +72,9 @@ def machine_html(machine: Machine) -> str:
     >>> "<svg" in shown and "arm" in shown
     True
     """
+    from kinetostat.machine import Machine
+
+    of_kind("machine", machine, Machine, "a Machine")
 
     def shown(drive: Any) -> list[Any]:
         limits = "" if drive.limits is None else f"{drive.limits[0]:.5g} to {drive.limits[1]:.5g}"
@@ -100,6 +109,9 @@ def stiffness_html(stiffness: Stiffness) -> str:
     >>> "N/m" in stiffness_html(ks.Machine.preset("two_link").posture().stiffness())
     True
     """
+    from kinetostat.posture import Stiffness
+
+    of_kind("stiffness", stiffness, Stiffness, "a Stiffness of a Posture")
     caption = "stiffness: N/m, N/rad; N m/m, N m/rad; base axes, about the tool's reference point"
     matrix = _matrix(_without_rounding(stiffness.matrix), caption)
     # The longest part of a twist is 1 m.
@@ -117,6 +129,9 @@ def equilibrium_html(equilibrium: Equilibrium) -> str:
     >>> "mm" in equilibrium_html(ks.Machine.preset("orthoglide").posture().deflected_by([1, 0, 0, 0, 0, 0]))
     True
     """
+    from kinetostat.posture import Equilibrium
+
+    of_kind("equilibrium", equilibrium, Equilibrium, "an Equilibrium")
     moved, wrench = equilibrium.displacement, equilibrium.wrench
     units = [("mm", 1e3, "N")] * 3 + [("deg", 180 / np.pi, "N m")] * 3
     rows = [[_AXES[k], f"{moved[k] * units[k][1]:.5g} {units[k][0]}", f"{wrench[k]:.5g} {units[k][2]}"] for k in range(6)]

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinetostat._arrays import Floats, numbers
+from kinetostat._arguments import function as callable_given
+from kinetostat._arguments import of_kind, or_none
+from kinetostat._arrays import Floats, numbers, positive, thread_count, whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.results import Equilibria
 from kinetostat.spatial import rotation_from_vector
@@ -26,6 +28,8 @@ ForceModel = Callable[[Floats], ArrayLike]
 
 _STEP = 1e-6
 """Step of differences, m and rad."""
+
+_MOST_ITERATIONS = 100_000
 
 _ROUNDING = 1e-10
 """Eigenvalues below this share of the largest stiffness are zero: what differences of a model leave."""
@@ -152,9 +156,9 @@ def equilibrium_under(
     tangent : callable, optional
         Poses (n, 4, 4) to derivatives (n, 6, 6) of the wrench by motion of the tool (m, rad, base axes). By differences without it.
     tolerance : float
-        Largest unbalanced part of the wrench: of its size, and at least this many N and N m.
+        Largest unbalanced part of the wrench, above 0: of its size, and at least this many N and N m.
     most_iterations : int
-        Iterations at most.
+        Iterations at most, from 1.
     threads : int, optional
         Number of threads; all cores without it.
 
@@ -166,7 +170,7 @@ def equilibrium_under(
     Raises
     ------
     ArgumentError
-        The model or its tangent gives another shape, or numbers that are not finite.
+        An argument of another kind or out of range; a model or a tangent that gives another shape, or numbers that are not finite.
 
     Examples
     --------
@@ -178,10 +182,15 @@ def equilibrium_under(
     >>> found.converged.tolist(), found.wrench.shape
     ([True, True], (2, 6))
     """
+    from kinetostat.machine import Machine
     from kinetostat.posture import Posture
 
-    if most_iterations < 1:
-        raise ArgumentError(f"most_iterations is {most_iterations}, expected at least 1")
+    of_kind("where", where, (Machine, Posture), "a Machine or a Posture")
+    callable_given("model", model, "a function of poses (n, 4, 4)")
+    or_none(callable_given, "tangent", tangent, "a function of poses (n, 4, 4), or None")
+    allowed = positive("tolerance", tolerance)
+    most = whole_number("most_iterations", most_iterations, 1, _MOST_ITERATIONS)
+    threads = thread_count(threads)
     single = isinstance(where, Posture)
     if single == (poses is not None):
         raise ArgumentError("give poses with a machine, and none with a posture")
@@ -194,7 +203,7 @@ def equilibrium_under(
     unbalanced = np.full((len(flat), 6), np.nan)
     done = np.zeros(len(flat), dtype=bool)
     iterations = 0
-    while iterations < most_iterations:
+    while iterations < most:
         iterations += 1
         answer = _solved(where, machine, flat, loads, threads)
         assert answer.stiffness is not None
@@ -206,7 +215,7 @@ def equilibrium_under(
         unbalanced[good] = _called("model", model, at, (6,)) - loads[good]
         slope[good] = _by_differences(model, at) if tangent is None else _called("tangent", tangent, at, (6, 6))
         size = np.maximum(np.linalg.norm(loads, axis=-1), 1.0)
-        done = np.linalg.norm(unbalanced, axis=-1) <= tolerance * size
+        done = np.linalg.norm(unbalanced, axis=-1) <= allowed * size
         open_ = good[~done[good]]
         if len(open_) == 0:
             break

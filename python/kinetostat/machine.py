@@ -13,9 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import _core
-from kinetostat._arrays import Floats, fitting, numbers, one, rows, thread_count
+from kinetostat._arguments import flag, mapping, of_kind, one_of, or_none, refused, text_or_none, texts, told
+from kinetostat._arguments import path as file_path
+from kinetostat._arguments import text as checked_text
+from kinetostat._arrays import Floats, fitting, numbers, one, real, rows, thread_count
 from kinetostat._document import plain, without_none
-from kinetostat._urdf import in_words_of_python, stiffness_table, text_of, with_ratings
+from kinetostat._urdf import in_words_of_python, stands_at, stiffness_table, text_of, with_ratings
 from kinetostat.display import machine_html
 from kinetostat.errors import ArgumentError, ModelError
 from kinetostat.posture import Posture
@@ -122,7 +125,7 @@ class Machine:
         >>> Machine.preset("two_link").name
         'two_link'
         """
-        return cls._of(_core.Machine.preset(name))
+        return cls._of(_core.Machine.preset(checked_text("name", name, "the name of a preset")))
 
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Machine:
@@ -138,7 +141,7 @@ class Machine:
         >>> Machine.open("orthoglide").name
         'orthoglide'
         """
-        return cls._of(_core.Machine.open(os.fspath(path)))
+        return cls._of(_core.Machine.open(file_path("path", path)))
 
     @classmethod
     def from_toml(cls, text: str, file: str = "model.toml") -> Machine:
@@ -150,7 +153,9 @@ class Machine:
         >>> Machine.from_toml(text) == Machine.preset("two_link")
         True
         """
-        return cls._of(_core.Machine.from_toml(text, file))
+        # What the text holds is told with its lines by the reader.
+        written = checked_text("text", text, "the text of a model file", longest=None)
+        return cls._of(_core.Machine.from_toml(written, checked_text("file", file)))
 
     @classmethod
     def from_dict(cls, document: Mapping[str, Any], file: str = "dictionary") -> Machine:
@@ -163,7 +168,8 @@ class Machine:
         >>> Machine.from_dict(document).name
         'mine'
         """
-        return cls._of(_core.Machine.from_json(json.dumps(plain(document), allow_nan=True), file))
+        given = plain(mapping("document", document, "a dictionary with the keys of a model file"))
+        return cls._of(_core.Machine.from_json(json.dumps(given, allow_nan=True), checked_text("file", file)))
 
     @classmethod
     def from_urdf(
@@ -221,17 +227,19 @@ class Machine:
         >>> round(float(loaded.displacement[2]), 6)
         -0.0005
         """
-        text, file, gravity = text_of(robot)
+        base, tip, idle = text_or_none("base", base), text_or_none("tip", tip), texts("passive", passive, "a list of names of joints")
+        stands = {} if home is None else stands_at(home)
         table = stiffness_table(stiffness) if isinstance(stiffness, Mapping) else None
-        stands = {name: (kind == "revolute", at) for name, (kind, at) in (home or {}).items()}
-        single = None if isinstance(stiffness, Mapping) else stiffness
+        single = None if table is not None else or_none(real, "stiffness", stiffness)
+        ratings = flag("efforts_are_ratings", efforts_are_ratings)
+        text, file, gravity = text_of(robot)
         try:
-            toml, _ = _core.urdf_to_toml(text, file, base, tip, list(passive), stands, single, table)
+            toml, _ = _core.urdf_to_toml(text, file, base, tip, idle, stands, single, table)
         except ModelError as wrong:
             raise ModelError(in_words_of_python(str(wrong))) from None
         made = cls._of(_core.Machine.from_toml(toml, file))
         document = made.to_dict()
-        if efforts_are_ratings:
+        if ratings:
             document = with_ratings(document, text)
         if gravity is not None:
             document["mechanism"]["gravity_m_per_s2"] = gravity.tolist()
@@ -335,7 +343,7 @@ class Machine:
         ...     Machine.open(path).name
         'two_link'
         """
-        target = os.fspath(path)
+        target = file_path("path", path)
         beside = f"{target}.{os.getpid()}.part"
         try:
             with open(beside, "w", encoding="utf-8", newline="\n") as file:
@@ -366,7 +374,7 @@ class Machine:
             raise ArgumentError("give a tool or its length, m")
         pose = np.eye(4)
         if length is not None:
-            pose[2, 3] = float(one("length", length, ()))
+            pose[2, 3] = real("length", length)
         else:
             pose = one("tool", cast(ArrayLike, tool), (4, 4))
         return self._of(self._native.with_tool(pose[None]))
@@ -413,8 +421,8 @@ class Machine:
         >>> posture.commands.round(4).tolist()
         [-0.3405, -0.3503, -0.3503]
         """
-        if near is not None and not isinstance(near, Posture):
-            raise ArgumentError(f"near is {near!r}, expected a Posture")
+        if near is not None:
+            of_kind("near", near, Posture, "a Posture")
         found = self._posture(position, rotation, pose, joints, None if near is None else near._native)
         return Posture(self, found)
 
@@ -487,6 +495,12 @@ class Machine:
         Stiffnesses
             Arrays with the leading axes of what was given.
 
+        Notes
+        -----
+        Near a singular posture rounding takes digits: an entry may be off by the largest one times ``eps cond``, with ``eps`` = 2.2e-16
+        and the condition number of the matrix (rotations at 1 m). :meth:`Posture.stiffness` loses by ``4 eps sqrt(cond)`` only: beyond
+        a condition of 1e8, where the two may differ in the eighth digit, take that of the posture.
+
         Examples
         --------
         >>> machine = Machine.preset("orthoglide")
@@ -495,7 +509,7 @@ class Machine:
         (5, 6, 6)
         """
         places, commands, leading = self._places(poses, joints)
-        found = _core.stiffness_of_many(self._native, places, commands, thread_count(threads), progress)
+        found = _core.stiffness_of_many(self._native, places, commands, thread_count(threads), told(progress))
         return Stiffnesses(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def shares(
@@ -572,12 +586,11 @@ class Machine:
         >>> bool(found.stable.all()), found.displacement.shape
         (True, (2, 6))
         """
-        if details not in _DETAILS:
-            raise ArgumentError(f"details is {details!r}, expected one of {', '.join(_DETAILS)}")
+        one_of("details", details, _DETAILS)
         places, commands, leading = self._places(poses, joints)
         loads = self._wrenches(wrenches, leading)
         level = _DETAILS.index(details)
-        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, thread_count(threads), progress)
+        found = _core.equilibrium_of_many(self._native, loads, level, places, commands, thread_count(threads), told(progress))
         stability = found.pop("stability", None)
         arrays: dict[str, Any] = {name: _shaped(array, leading) for name, array in found.items()}
         if stability is not None:
@@ -627,13 +640,14 @@ class Machine:
         >>> bool(np.abs(found.tool[0, :3, 3]).max() < 1e-12)
         True
         """
-        names = {"position": _DIRECTIONS[:3], "pose": _DIRECTIONS}.get(str(directions), directions)
-        if isinstance(names, str) or not isinstance(names, Sequence) or any(name not in _DIRECTIONS for name in names):
-            raise ArgumentError(f"directions is {directions!r}, expected 'position', 'pose' or some of {_DIRECTIONS}")
+        known = {"position": _DIRECTIONS[:3], "pose": _DIRECTIONS}
+        names = known.get(directions, ()) if isinstance(directions, str) else directions
+        if not isinstance(names, Sequence) or not names or any(name not in _DIRECTIONS for name in names):
+            raise refused("directions", directions, f"'position', 'pose' or some of {', '.join(_DIRECTIONS)}")
         places, leading = self._poses(poses)
         loads = self._wrenches(wrenches, leading)
         wanted = [name in names for name in _DIRECTIONS]
-        found = _core.targets_of_many(self._native, places, loads, wanted, thread_count(threads), progress)
+        found = _core.targets_of_many(self._native, places, loads, wanted, thread_count(threads), told(progress))
         return Targets(**{name: _shaped(array, leading) for name, array in found.items()})
 
     def map(
@@ -695,7 +709,7 @@ class Machine:
             folder=folder,
             executor=executor,
             chunk=chunk,
-            threads=thread_count(threads),
+            threads=threads,
             progress=progress,
         )
 
@@ -734,11 +748,11 @@ class Machine:
         True
         """
         from kinetostat import commands
-        from kinetostat._asking import bare, place
+        from kinetostat._asking import bare, handed_on, place
 
         model, length = bare(self)
-        where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(posture)
-        return commands.model_draw(**where, **options)
+        where: dict[str, Any] = {"model": model, "tool_length_mm": length} if posture is None else place(self._own(posture))
+        return commands.model_draw(**handed_on(where, options))
 
     def to_pyvista(self, posture: Posture | None = None, *, axes: float | None = None) -> Any:
         """The machine as a ``pyvista.MultiBlock``, at home or at a posture; see :func:`kinetostat.view.to_pyvista`.
@@ -751,9 +765,14 @@ class Machine:
         """
         from kinetostat.view import to_pyvista
 
-        if posture is not None and posture.machine != self:
-            raise ArgumentError(f"the posture is one of {posture.machine!r}, not of this machine")
-        return to_pyvista(self.posture() if posture is None else posture, axes=axes)
+        return to_pyvista(self.posture() if posture is None else self._own(posture), axes=axes)
+
+    def _own(self, posture: Posture) -> Posture:
+        """A posture of this machine."""
+        found = of_kind("posture", posture, Posture, "a Posture")
+        if found.machine != self:
+            raise ArgumentError(f"posture is one of {found.machine!r}, not of this machine")
+        return found
 
     def _repr_html_(self) -> str:
         return machine_html(self)

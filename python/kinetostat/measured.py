@@ -6,13 +6,16 @@ import dataclasses
 import os
 import tempfile
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinetostat import commands
-from kinetostat._arrays import Floats, numbers
+from kinetostat._arguments import flag, or_none, told
+from kinetostat._arguments import path as file_path
+from kinetostat._arrays import Floats, numbers, real
+from kinetostat._asking import handed_on
 from kinetostat.errors import ArgumentError, KinetostatError
 from kinetostat.spatial import rotation_from_vector
 
@@ -28,18 +31,12 @@ _DEG = np.pi / 180
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Measurement:
-    r"""What one measurement of a trial says; lengths in m.
+    """What one measurement of a trial says; lengths in m.
 
     Examples
     --------
-    >>> import os, tempfile
-    >>> import numpy as np
-    >>> points = np.array([[1e-3 * x, 5e-5, 0] for x in range(41)])
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     program = os.path.join(folder, "groove.ngc")
-    ...     with open(program, "w") as file:
-    ...         _ = file.write("G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n")
-    ...     found = mirror(program, points, os.path.join(folder, "trial2.ngc"), register=False)
+    >>> from kinetostat._example import trial  # a groove that was cut 50 um to its left, see mirror()
+    >>> found = trial()
     >>> found.measurements[0].points, round(1e6 * found.measurements[0].rms)
     (41, 50)
     """
@@ -71,18 +68,12 @@ class Measurement:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class MirroredProgram:
-    r"""What became of a trial; lengths in m.
+    """What became of a trial; lengths in m.
 
     Examples
     --------
-    >>> import os, tempfile
-    >>> import numpy as np
-    >>> points = np.array([[1e-3 * x, 5e-5, 0] for x in range(41)])
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     program = os.path.join(folder, "groove.ngc")
-    ...     with open(program, "w") as file:
-    ...         _ = file.write("G21 G90\nG0 X0 Y0 Z0\nG1 X40 F600\nM30\n")
-    ...     found = mirror(program, points, os.path.join(folder, "trial2.ngc"), register=False)
+    >>> from kinetostat._example import trial  # a groove that was cut 50 um to its left, see mirror()
+    >>> found = trial()
     >>> found.trial, found.outcome, round(1e6 * found.left)
     (1, 'go_on', 50)
     """
@@ -192,29 +183,30 @@ def mirror(
     ('go_on', 50, 50)
     """
 
-    def scaled(length: float | None, factor: float) -> float | None:
-        return None if length is None else factor * float(length)
+    def scaled(name: str, length: float | None, factor: float) -> float | None:
+        return None if length is None else factor * real(name, length)
 
+    program, out = file_path("program", program), file_path("out", out)
+    state, job = or_none(file_path, "state", state), or_none(file_path, "job", job)
     with tempfile.TemporaryDirectory(prefix="kinetostat-") as folder:
         files = _files(measured, folder)
         try:
-            answer = commands.mirror(
-                program,
-                measured=[path for path, _ in files],
-                out=out,
-                state=state,
-                job=job,
-                relaxation=relaxation,
-                smoothing_mm=scaled(smoothing, 1e3),
-                window_mm=scaled(window, 1e3),
-                repeatability_um=scaled(repeatability, 1e6),
-                align=align,
-                no_register=not register,
-                scale=scale,
-                tolerance_um=scaled(tolerance, 1e6),
-                progress=progress,
-                **options,
-            )
+            own = {
+                "measured": [path for path, _ in files],
+                "out": out,
+                "state": state,
+                "job": job,
+                "relaxation": relaxation,
+                "smoothing_mm": scaled("smoothing", smoothing, 1e3),
+                "window_mm": scaled("window", window, 1e3),
+                "repeatability_um": scaled("repeatability", repeatability, 1e6),
+                "align": align,
+                "no_register": not flag("register", register),
+                "scale": flag("scale", scale),
+                "tolerance_um": scaled("tolerance", tolerance, 1e6),
+                "progress": told(progress),
+            }
+            answer = commands.mirror(program, **handed_on(own, options))
         except KinetostatError as wrong:
             raise type(wrong)(_with_names(str(wrong), files)) from None
     convergence = answer["convergence"] or {}
@@ -223,7 +215,7 @@ def mirror(
         trial=answer["trial"],
         outcome=answer["outcome"],
         left=1e-3 * answer["left_mm"],
-        floor=scaled(floor, 1e-3),
+        floor=None if floor is None else 1e-3 * floor,
         left_in_trials=1e-3 * np.array(answer["left_in_trials_mm"], dtype=float),
         largest_correction=1e-3 * answer["largest_correction_mm"],
         factor=convergence.get("factor"),
@@ -233,23 +225,24 @@ def mirror(
     )
 
 
-def _files(measured: Any, folder: str) -> list[tuple[_Path, str]]:
+def _files(measured: Any, folder: str) -> list[tuple[str, str]]:
     """Measurements as files, each with what it is called here: points become tables in a folder."""
     if _is_path(measured):
-        return [(measured, os.fspath(measured))]
+        path = file_path("measured", measured)
+        return [(path, path)]
     several = isinstance(measured, (list, tuple)) and any(_is_path(one) or np.ndim(one) > 1 for one in measured)
-    files: list[tuple[_Path, str]] = []
+    files: list[tuple[str, str]] = []
     for index, one in enumerate(measured if several else [measured]):
         name = f"measured[{index}]" if several else "measured"
-        path = cast(_Path, one) if _is_path(one) else _table(one, index, folder, name)
-        files.append((path, os.fspath(path) if _is_path(one) else name))
+        path = file_path(name, one) if _is_path(one) else _table(one, index, folder, name)
+        files.append((path, path if _is_path(one) else name))
     return files
 
 
-def _with_names(message: str, files: Sequence[tuple[_Path, str]]) -> str:
+def _with_names(message: str, files: Sequence[tuple[str, str]]) -> str:
     """A table that is gone is no name of a measurement."""
     for path, name in files:
-        message = message.replace(os.fspath(path), name)
+        message = message.replace(path, name)
     return message
 
 

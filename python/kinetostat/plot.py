@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kinetostat._arguments import of_kind, refused
+
 if TYPE_CHECKING:
     from kinetostat.curves import ForceCurve
 
@@ -37,6 +39,11 @@ def force_curve(curve: ForceCurve, axes: Any = None) -> Any:
     """
     import matplotlib.pyplot as plt
 
+    from kinetostat.curves import ForceCurve
+
+    of_kind("curve", curve, ForceCurve, "a ForceCurve")
+    if axes is not None and not hasattr(axes, "plot"):
+        raise refused("axes", axes, "Axes of matplotlib, or None")
     if axes is None:
         axes = plt.subplots()[1]
     turning = curve.answer["grows"] == "rotation"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kinetostat._arguments import of_kind
 from kinetostat._arrays import Floats, one
 from kinetostat.spatial import rotation_from_vector
 
@@ -60,7 +61,9 @@ class EquilibriumProblem:
     __slots__ = ("_last", "posture", "wrench")
 
     def __init__(self, posture: Posture, wrench: ArrayLike = (0.0,) * 6) -> None:
-        self.posture = posture
+        from kinetostat.posture import Posture
+
+        self.posture = of_kind("posture", posture, Posture, "a Posture")
         """The commanded posture."""
         self.wrench = one("wrench", wrench, (6,)).copy()
         """(6,): N, N m."""

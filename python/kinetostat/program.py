@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
+from kinetostat._arguments import function, refused
 from kinetostat._arrays import Floats, numbers, positive, whole_number
 from kinetostat.errors import ArgumentError
 
@@ -99,8 +100,7 @@ def correct_program(
             raise ArgumentError(f"field gives shape {found.shape}, expected {positions.shape}")
         return np.ascontiguousarray(found)
 
-    if not callable(field):
-        raise ArgumentError(f"field is {field!r}, expected a function of positions and directions")
+    function("field", field, "a function of positions and directions")
     digits = None if decimals is None else whole_number("decimals", decimals, 3, 8)
     written, told = _core.correct_program(_bytes(program), called, positive("tolerance", tolerance), digits)
     return Corrected(written, **told)
@@ -110,7 +110,7 @@ def _bytes(program: str | bytes) -> bytes:
     if isinstance(program, (bytes, bytearray, memoryview)):
         return bytes(program)
     if not isinstance(program, str):
-        raise ArgumentError(f"program is {program!r} ({type(program).__name__}), expected text or bytes of G-code")
+        raise refused("program", program, "text or bytes of G-code")
     try:
         # As text is read with errors="surrogateescape".
         return program.encode("utf-8", "surrogateescape")

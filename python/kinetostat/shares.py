@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kinetostat._arrays import Floats, one
+from kinetostat._arguments import one_of, shown
+from kinetostat._arrays import Floats, one, real
 from kinetostat._asking import bare, joint_words, place
 from kinetostat.errors import ArgumentError
 
@@ -97,8 +98,7 @@ class Shares:
         >>> round(found["leg x"], 12)
         1.0
         """
-        if what not in ("limb", "kind"):
-            raise ArgumentError(f"what is {what!r}, expected limb or kind")
+        one_of("what", what, ("limb", "kind"))
         found: dict[str | None, float] = {}
         for part in self.parts:
             key = part.limb if what == "limb" else part.kind
@@ -217,7 +217,7 @@ def _asked(
     options = {**where, **more}
     if isinstance(direction, str):
         if direction not in _AXES:
-            raise ArgumentError(f"direction is {direction!r}, expected one of {', '.join(_AXES)}, or three components")
+            raise ArgumentError(f"direction is {shown(direction)}, expected one of {', '.join(_AXES)}, or three components")
         options["direction"] = direction
     else:
         options["along"] = one("direction", direction, (3,)).tolist()
@@ -332,9 +332,10 @@ def cheapest_stiffening(
     >>> found.possible, round(found.reached, 9)
     (True, 0.75)
     """
-    if not 0 < less < 1:
-        raise ArgumentError(f"less is {less}, expected a share between 0 and 1")
-    answer = _asked(_at(machine, position, joints), direction, None, progress, reduce_percent=100 * float(less))
+    share = real("less", less)
+    if not 0 < share < 1:
+        raise ArgumentError(f"less is {share}, expected a share between 0 and 1")
+    answer = _asked(_at(machine, position, joints), direction, None, progress, reduce_percent=100 * share)
     found = answer["stiffening"]
 
     def number(value: float | None) -> float:

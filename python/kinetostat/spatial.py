@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinetostat._arrays import fitting
+from kinetostat._arrays import fitting, numbers
 from kinetostat.errors import ArgumentError
 
 __all__ = ["pose", "rotation_from_vector", "rotation_vector", "wrench"]
@@ -43,9 +43,10 @@ def pose(position: ArrayLike = (0.0, 0.0, 0.0), rotation: ArrayLike | None = Non
     array([0.1, 0. , 0.5])
     """
     places = fitting("position", position, (3,))
-    if rotation is not None and np.shape(rotation) == (3,):
+    given = np.eye(3) if rotation is None else numbers("rotation", rotation)
+    if given.shape == (3,):
         raise ArgumentError("rotation has shape (3,), expected (..., 3, 3): of a rotation vector, rad, rotation_from_vector makes one")
-    turns = fitting("rotation", np.eye(3) if rotation is None else rotation, (3, 3))
+    turns = fitting("rotation", given, (3, 3))
     _check_rotations(turns)
     leading = np.broadcast_shapes(places.shape[:-1], turns.shape[:-2])
     out = np.zeros((*leading, 4, 4))

@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core
+from kinetostat._arguments import flag, mapping, of_kind, one_of, refused, shown, text, texts, told
+from kinetostat._arguments import function as callable_given
 from kinetostat._arrays import Floats, numbers, one, real, scalar, thread_count, whole_number
 from kinetostat.errors import ArgumentError, UnansweredError
 from kinetostat.machine import Machine
@@ -21,6 +23,7 @@ from kinetostat.machine import Machine
 __all__ = ["Distribution", "MachineSamples", "SobolIndices", "draws", "machines", "normal", "sobol", "triangular", "uniform"]
 
 _QUANTITIES = ("error", "deflection", "deviation", "compensated", "stiffness")
+_WORDS = ("normal", "uniform", "triangular")
 _MOST_DRAWS = 2**20
 _LEAST_SOBOL = 128
 """With 16 sequences, 8 draws in each: below, the scatter between the sequences is no honest interval."""
@@ -46,6 +49,11 @@ class Distribution:
     """Standard deviation of a normal one, half width of another."""
     percent: bool = False
     """The spread is a percentage of the value."""
+
+    def __post_init__(self) -> None:
+        one_of("word", self.word, _WORDS)
+        scalar("spread", self.spread)
+        flag("percent", self.percent)
 
 
 def normal(deviation: float, *, percent: bool = False) -> Distribution:
@@ -131,9 +139,7 @@ class MachineSamples:
         >>> found.column("error_mm").shape
         (64, 1)
         """
-        if name not in self.columns:
-            raise ArgumentError(f"there is no column '{name}'; there are {', '.join(self.columns)}")
-        return self.samples[:, :, self.columns.index(name)]
+        return self.samples[:, :, self.columns.index(one_of("name", name, self.columns))]
 
     def nonlinearity(self) -> Floats:
         """Root mean square of exact minus linear in standard deviations, shape (places, columns); beyond 0.1 linear is not enough.
@@ -156,7 +162,7 @@ def _distribution(name: str, own: Distribution) -> Distribution:
     """Itself, if it is one with a finite spread: a plain number says neither its distribution nor its unit."""
     if not isinstance(own, Distribution):
         hint = f": normal({own!r}), uniform({own!r}), ..." if isinstance(own, (int, float)) else ""
-        raise ArgumentError(f"{name} is {own!r}, expected a Distribution{hint}")
+        raise ArgumentError(f"{name} is {shown(own)}, expected a Distribution{hint}")
     real(name, own.spread)
     return own
 
@@ -164,11 +170,16 @@ def _distribution(name: str, own: Distribution) -> Distribution:
 def _toml(spread: Mapping[str, Distribution], correlations: Mapping[tuple[str, str], float]) -> str:
     lines = ["schema = 1"]
     for name, own in spread.items():
+        text("a key of spread", name, "the path of a number of the model")
         own = _distribution(f"the spread of {name!r}", own)
         key, word = ("load", name[5:]) if name.startswith("load ") else ("parameter", name)
         lines += ["[[uncertain]]", f"{key} = {json.dumps(word)}", f"{own.word}{'_percent' if own.percent else ''} = {float(own.spread)!r}"]
-    for (a, b), coefficient in correlations.items():
-        lines += ["[[correlation]]", f"between = [{json.dumps(a)}, {json.dumps(b)}]", f"coefficient = {float(coefficient)!r}"]
+    for pair, coefficient in correlations.items():
+        if not isinstance(pair, tuple) or len(pair) != 2:
+            raise refused("a key of correlations", pair, "two names of numbers as ('a', 'b')")
+        a, b = texts("a key of correlations", pair)
+        value = real(f"correlations[{a!r}, {b!r}]", coefficient)
+        lines += ["[[correlation]]", f"between = [{json.dumps(a)}, {json.dumps(b)}]", f"coefficient = {value!r}"]
     return "\n".join(lines) + "\n"
 
 
@@ -228,16 +239,23 @@ def machines(
     >>> found.samples.shape[:2], found.inputs.shape
     ((64, 1), (64, 1))
     """
-    unknown = [name for name in quantities if name not in _QUANTITIES]
-    if unknown or isinstance(quantities, str):
-        raise ArgumentError(f"quantities is {quantities!r}, expected some of {', '.join(_QUANTITIES)}")
+    of_kind("machine", machine, Machine, "a Machine")
+    asked = texts("quantities", quantities, f"some of {', '.join(_QUANTITIES)}")
+    if not asked or any(name not in _QUANTITIES for name in asked):
+        raise ArgumentError(f"quantities is {shown(quantities)}, expected one or more of {', '.join(_QUANTITIES)}")
     count = whole_number("draws", draws, 1, _MOST_DRAWS)
     threads = thread_count(threads)
-    text = spread if isinstance(spread, str) else _toml(spread, correlations or {})
+    pairs = {} if correlations is None else mapping("correlations", correlations, "a dictionary of numbers by pairs of names")
+    if isinstance(spread, str):
+        if pairs:
+            raise ArgumentError("correlations goes with a dictionary of Distributions: the text of a file states its own")
+        stated = text("spread", spread, "the text of a file", longest=None)
+    else:
+        stated = _toml(mapping("spread", spread, "a dictionary of Distributions by paths of numbers, or the text of a file"), pairs)
     places, _ = machine._poses(poses)
     load = one("wrench", wrench, (6,))[None]
     found: dict[str, Any] = _core.tolerance_of_machine(
-        machine._native, text, "spread", places, load, list(quantities), count, _seed(seed), threads, progress
+        machine._native, stated, "spread", places, load, asked, count, _seed(seed), threads, told(progress)
     )
     found["names"], found["columns"] = tuple(found["names"]), tuple(found["columns"])
     found["values"] = np.asarray(found["values"])
@@ -270,7 +288,7 @@ def draws(values: ArrayLike, spread: Sequence[Distribution], n: int, *, correlat
 
 def _each(values: ArrayLike, spread: Sequence[Distribution]) -> list[tuple[float, str, float]]:
     if isinstance(spread, str) or not isinstance(spread, Sequence):
-        raise ArgumentError(f"spread is {spread!r}, expected Distributions, one for each number")
+        raise refused("spread", spread, "Distributions, one for each number")
     each = [_distribution(f"spread[{i}]", own) for i, own in enumerate(spread)]
     centre = one("values", values, (len(each),))
     return [(float(x), d.word, float(d.spread) * (abs(float(x)) / 100 if d.percent else 1)) for x, d in zip(centre, each, strict=True)]
@@ -330,6 +348,7 @@ def sobol(
     >>> bool(np.all(np.abs(found.first[0] - [0.36, 0.64]) < found.first_plus_minus[0]))
     True
     """
+    callable_given("function", function, "a function of an array (m, numbers)")
     each = _each(values, spread)
     design = _core.sobol_design(each, whole_number("n", n, _LEAST_SOBOL, _MOST_DRAWS), _seed(seed))
     rows = design.reshape(-1, len(each))

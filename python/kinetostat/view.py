@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kinetostat.errors import ArgumentError
+from kinetostat._arguments import of_kind
+from kinetostat._arrays import positive
 
 if TYPE_CHECKING:
     from kinetostat.posture import Posture
@@ -53,13 +54,14 @@ def to_pyvista(posture: Posture, *, axes: float | None = None) -> Any:
     >>> blocks.keys()
     ['leg x', 'leg y', 'leg z', 'tool', 'workspace']
     """
+    from kinetostat.posture import Posture
+
     pyvista = library()
+    of_kind("posture", posture, Posture, "a Posture")
     machine, lines, tool = posture.machine, posture.limb_lines(), posture.target
     everything = np.concatenate([*lines, tool[None, :3, 3]])
     size = float(np.ptp(everything, axis=0).max())
-    length = 0.1 * size if axes is None else float(axes)
-    if not (np.isfinite(length) and length > 0):
-        raise ArgumentError(f"axes is {axes}, expected a length above 0")
+    length = 0.1 * size if axes is None else positive("axes", axes)
     blocks = pyvista.MultiBlock()
     for name, line in zip(machine.limbs, lines, strict=True):
         blocks.append(_polyline(pyvista, line), name)

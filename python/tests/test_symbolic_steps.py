@@ -259,3 +259,32 @@ def test_links_with_steps_are_refused_where_formulas_are_needed():
         symbolic.with_passive_joint(k, "x")
     with pytest.raises(ArgumentError, match="has steps"):
         symbolic.Chain().spring6("s", k)
+
+
+@pytest.mark.parametrize("without", [["k1"], ["k2"], ["k3"], ["k1", "k2"], ["k2", "k3"]])
+def test_a_stiffness_of_zero_is_a_passive_joint_or_refused(without):
+    chain = symbolic.Chain("arm")
+    for i in "123":
+        chain = chain.actuator(f"q{i}", "revolute", "z", stiffness=f"k{i}").move(f"L{i}")
+    angles, lengths, k = np.array([0.3, 0.5, -0.4]), np.array([1.0, 0.8, 0.5]), np.array([1e5, 2e5, 3e5])
+    k[[int(name[1]) - 1 for name in without]] = 0
+    values = {f"{word}{i + 1}": float(each[i]) for word, each in (("q", angles), ("L", lengths), ("k", k)) for i in range(3)}
+    unloaded = chain.stiffness(directions=PLANE, steps=True)
+    with pytest.raises(ArgumentError, match=f"values makes {without[0]} zero, and steps divide by it: make a spring without stiffness"):
+        unloaded.subs(values)
+    with pytest.raises(ArgumentError, match=r"values makes k\d zero"):
+        unloaded.subs({without[-1]: 0})
+
+    # The same arm in numpy: springs with stiffness bend, the others are passive joints [R 3.7, 3.8].
+    along = np.cumsum(angles)
+    links = np.stack([lengths * np.cos(along), lengths * np.sin(along)])
+    levers = links[:, ::-1].cumsum(axis=1)[:, ::-1]
+    jacobian = np.stack([-levers[1], levers[0], np.ones(3)])
+    stiff, free = k > 0, k == 0
+    compliance = jacobian[:, stiff] @ np.diag(1 / k[stiff]) @ jacobian[:, stiff].T
+    passive = jacobian[:, free]
+    bordered = np.block([[compliance, passive], [passive.T, np.zeros((free.sum(),) * 2)]])
+    expected = np.linalg.inv(bordered)[:3, :3]
+    found = chain.stiffness(directions=PLANE, wrench=[0] * 6, steps=True)
+    np.testing.assert_allclose(np.array(found.subs(values).matrix.evalf(), float), expected, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(found.lambdify()(**{s.name: values[s.name] for s in found.symbols}), expected, rtol=1e-9, atol=1e-6)

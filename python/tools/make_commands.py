@@ -129,7 +129,7 @@ def function(path: list[str], command: dict[str, Any]) -> str:
     doc += ["", "    Examples", "    --------", textwrap.indent(example(name), "    "), '    """']
     if any("\\" in line for line in doc):
         doc[0] = doc[0].replace('"""', 'r"""', 1)
-    pairs = [f'        ("{"" if a["positional"] else "--" + a["name"]}", {identifier(a["name"])}),' for a in [*positional, *named]]
+    pairs = [f'        ("{"" if a["positional"] else "--"}{a["name"]}", {identifier(a["name"])}),' for a in [*positional, *named]]
     words = ", ".join(f'"{word}"' for word in path)
     return "\n".join(
         [

@@ -162,8 +162,8 @@ fn compliance_deviation(inverse: &DMatrix<f64>, fits: &[RigidFit]) -> Matrix6<f6
     })
 }
 
-/// Standard deviations of the stiffness, by linear propagation: an error e at D[a, m] changes K[i, j] by
-/// -e sum_b P[m, b] (K[i,a] K[b,j] + K[i,b] K[a,j]) / 2.
+/// Standard deviations of the stiffness, by linear propagation: an error `e` at `D[a, m]` changes `K[i, j]` by
+/// `-e sum_b P[m, b] (K[i,a] K[b,j] + K[i,b] K[a,j]) / 2`.
 fn stiffness_deviation(
     k: &Matrix6<f64>,
     inverse: &DMatrix<f64>,

@@ -4,7 +4,7 @@
 //! A node at `p` moves by `u = d + phi x (p - e)` when the interface moves by `d` at the point `e` and
 //! turns by `phi` (small). Least squares over all nodes gives `d`, `phi`; the residual is what is not
 //! rigid: noise, and warping of the interface. This is the linear form of the fit in
-//! [Klimchik2013], A. Klimchik, A. Pashkevich, D. Chablat, "CAD-based approach for identification of
+//! \[Klimchik2013\], A. Klimchik, A. Pashkevich, D. Chablat, "CAD-based approach for identification of
 //! elasto-static parameters of robotic manipulators", Finite Elements in Analysis and Design 75 (2013).
 
 use kinetostat::number::larger;

@@ -11,6 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kinetostat import _core, sweep
+from kinetostat._arguments import of_kind, or_none, told
+from kinetostat._arguments import path as file_path
+from kinetostat._arrays import thread_count, whole_number
 from kinetostat.machine import Machine, Progress
 from kinetostat.maps._question import Question, asked
 from kinetostat.maps._rows import rows
@@ -97,6 +100,9 @@ def evaluate(
     'N/m'
     """
     _xarray()
+    of_kind("machine", machine, Machine, "a Machine")
+    chunk, threads = whole_number("chunk", chunk, 1, 2**40), thread_count(threads)
+    folder, progress = or_none(file_path, "folder", folder), told(progress)
     question = asked(machine, x, y, z, orientations, over_orientations, loads, variables)
     # What makes no sense of one place is said here, not by a worker.
     rows(0, 1, threads=1, **question.settings(places=False))

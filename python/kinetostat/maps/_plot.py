@@ -6,15 +6,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kinetostat._arguments import of_kind, refused
+from kinetostat._arguments import shown as in_words
+from kinetostat._arguments import text as checked_text
+from kinetostat._arrays import whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
-from kinetostat.maps._variables import Variable, variables
+from kinetostat.maps._variables import Variable, a_map, variables
 from kinetostat.status import Status
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = ["best_and_worst", "plot"]
+
+_MOST_LEVELS = 1000
 
 _SCALES = {"N/m": (1e-6, "N/um"), "m": (1e3, "mm"), "N m/rad": (1e-3, "kN m/rad"), "rad": (180 / np.pi, "deg"), "m/N": (1e6, "um/N")}
 
@@ -58,7 +64,7 @@ def best_and_worst(found: xarray.Dataset, variable: str) -> tuple[dict[str, Any]
     size = np.abs(values) if about.worse == "larger size" else values
     size = size if about.worse == "smaller" else -size
     ends = []
-    for at in (np.where(good, size, -np.inf).argmax(), np.where(good, size, np.inf).argmin()):
+    for at in (np.argmax(np.where(good, size, -np.inf)), np.argmin(np.where(good, size, np.inf))):
         index = np.unravel_index(at, values.shape)
         place = {str(dim): found[dim].values[k] for dim, k in zip(found[variable].dims, index, strict=True)}
         ends.append({**place, "value": values[index]})
@@ -106,6 +112,11 @@ def plot(
     'x, mm'
     """
     about = _single(found, variable)
+    if machine is not None:
+        of_kind("machine", machine, Machine, "a Machine, or None")
+    levels = whole_number("levels", levels, 1, _MOST_LEVELS)
+    if ax is not None and not hasattr(ax, "plot"):
+        raise refused("ax", ax, "Axes of matplotlib, or None")
     dims = [str(dim) for dim in found[variable].dims]
     if len(dims) not in (1, 2) or not set(dims) <= set("xyz"):
         raise ArgumentError(f"{variable} has dimensions {dims}, expected one or two of x, y, z: select the others first")
@@ -137,10 +148,11 @@ def plot(
 
 
 def _single(found: xarray.Dataset, name: str) -> Variable:
-    about = variables().get(name)
+    a_map(found)
+    about = variables().get(checked_text("variable", name, "the name of a variable of the map"))
     if about is None or name not in found:
         have = [str(other) for other in found.data_vars if other != "status"]
-        raise ArgumentError(f"the map has no variable {name!r}, expected one of {', '.join(have)}")
+        raise ArgumentError(f"variable is {in_words(name)}, which the map does not have, expected one of {', '.join(have)}")
     if found[name].dims != found["status"].dims:
         # A column of a variable of several, selected by its user, has lost its dimension.
         raise ArgumentError(f"{name} has several numbers for each place: select one of {[str(dim) for dim in about.dims]}")

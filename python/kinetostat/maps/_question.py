@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kinetostat._arguments import refused
 from kinetostat._arrays import Floats, fitting, numbers
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
@@ -81,8 +82,8 @@ def asked(
     turns, turn_names = _several("orientations", orientations, (3, 3))
     if turns is not None:
         _rotations(turns)
-    if over_orientations not in (None, "worst"):
-        raise ArgumentError(f"over_orientations is {over_orientations!r}, expected 'worst' or None")
+    if over_orientations is not None and (not isinstance(over_orientations, str) or over_orientations != "worst"):
+        raise refused("over_orientations", over_orientations, "'worst' or None")
     if over_orientations is not None and turn_names is None:
         raise ArgumentError("over_orientations needs several orientations")
     wrenches, load_names = _several("loads", loads, (6,))
@@ -112,7 +113,10 @@ def _several(name: str, value: Any, shape: tuple[int, ...]) -> tuple[Floats | No
     if value is None:
         return None, None
     if isinstance(value, Mapping):
-        names = [str(key) for key in value]
+        for key in value:
+            if not isinstance(key, str):
+                raise refused(f"a key of {name}", key, "a name")
+        names = list(value)
         if not names:
             raise ArgumentError(f"{name} is empty")
         found = np.stack([fitting(f"{name}[{key!r}]", inner, shape) for key, inner in value.items()])

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kinetostat._arguments import path as file_path
 from kinetostat.errors import ArgumentError
+from kinetostat.maps._variables import a_map
 from kinetostat.sweep import _parquet
 
 if TYPE_CHECKING:
@@ -38,7 +40,8 @@ def to_parquet(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     ...     to_parquet(found, os.path.join(folder, "map.parquet"))
     """
     _, parquet = _parquet.library()
-    dims = found["status"].dims
+    path = file_path("path", path)
+    dims = a_map(found)["status"].dims
     shape = found["status"].shape
     notes = {str(name): str(array.attrs["units"]) for name, array in found.variables.items() if "units" in array.attrs}
     columns = {str(name): array.transpose(*dims, ...).values for name, array in found.data_vars.items()}
@@ -95,10 +98,11 @@ def to_vtk(found: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         import meshio
     except ImportError as absent:
         raise ImportError("VTK files are written by meshio: pip install 'kinetostat[io]'") from absent
+    path = file_path("path", path)
     ending = os.path.splitext(path)[1].lower()
     if ending not in _VTK:
-        raise ArgumentError(f"path is {os.fspath(path)!r}, expected an ending of {', '.join(_VTK)}")
-    axes = grid_axes(found)
+        raise ArgumentError(f"path is {path!r}, expected an ending of {', '.join(_VTK)}")
+    axes = grid_axes(a_map(found))
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     kind, cells = _cells([len(axis) for axis in axes])
     parts = list(grid_values(found))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 from kinetostat import _core
+from kinetostat._arguments import refused, shown, texts
 from kinetostat.errors import ArgumentError
 
 __all__ = ["Variable", "variables"]
@@ -61,13 +62,20 @@ def variables() -> dict[str, Variable]:
     return {row[0]: Variable(*row) for row in _core.map_variables()}
 
 
+def a_map(found: Any) -> Any:
+    """A Dataset that is a map."""
+    if not hasattr(found, "data_vars") or "status" not in found.data_vars:
+        raise refused("found", found, "a map, a Dataset of xarray with the variable 'status'")
+    return found
+
+
 def chosen(names: str | Sequence[str]) -> list[Variable]:
     """Variables by their names, each known and once."""
     known = variables()
-    wanted = [names] if isinstance(names, str) else list(names)
+    wanted = [names] if isinstance(names, str) else texts("variables", names, f"a list of {', '.join(known)}")
     for name in wanted:
         if name not in known:
-            raise ArgumentError(f"variables has {name!r}, expected some of {', '.join(known)}")
+            raise ArgumentError(f"variables has {shown(name)}, expected some of {', '.join(known)}")
     if not wanted or len(set(wanted)) < len(wanted):
-        raise ArgumentError(f"variables is {wanted}, expected one or more names, each once")
+        raise ArgumentError(f"variables is {shown(wanted)}, expected one or more names, each once")
     return [known[name] for name in wanted]

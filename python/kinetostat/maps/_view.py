@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kinetostat.maps._table import grid_axes, grid_values
+from kinetostat.maps._variables import a_map
 from kinetostat.view import library
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def to_pyvista(found: xarray.Dataset) -> Any:
     >>> grid.dimensions, grid.point_data["stiffness_softest"].shape
     ((3, 3, 3), (27,))
     """
-    grid = library().RectilinearGrid(*(np.array(axis, dtype=float) for axis in grid_axes(found)))
+    grid = library().RectilinearGrid(*(np.array(axis, dtype=float) for axis in grid_axes(a_map(found))))
     for part in grid_values(found):
         values = part.values
         # Points of PyVista run along x first.

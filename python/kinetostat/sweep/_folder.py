@@ -15,6 +15,8 @@ from typing import IO, Any
 
 import numpy as np
 
+from kinetostat._arguments import or_none, texts
+from kinetostat._arguments import path as file_path
 from kinetostat.errors import ArgumentError
 from kinetostat.sweep import _parquet
 from kinetostat.sweep._identity import FORMAT, Columns, Plan, difference, schema
@@ -85,7 +87,7 @@ def verify(folder: str | os.PathLike[str]) -> Verified:
     ...     sweep.verify(folder).complete
     True
     """
-    path = Path(folder)
+    path = Path(file_path("folder", folder))
     manifest = _manifest(path)
     recorded = _recorded(path, manifest)
     total = _chunks(manifest)
@@ -118,14 +120,17 @@ def chunks(folder: str | os.PathLike[str], names: Collection[str] | None = None)
     ...     [(first, last) for first, last, columns in sweep.chunks(folder)]
     [(0, 4), (4, 8), (8, 10)]
     """
-    path = Path(folder)
+    path = Path(file_path("folder", folder))
     manifest = _manifest(path)
     recorded = _recorded(path, manifest)
     fields = manifest["schema"] or []
-    absent = sorted(set(names or ()) - {field["name"] for field in fields})
+    wanted_names = or_none(texts, "names", names, "a list of names of columns, or None")
+    absent = sorted(set(wanted_names or ()) - {field["name"] for field in fields})
     if absent and recorded:
-        raise ArgumentError(f"{path} has no column {absent[0]!r}; it has {', '.join(field['name'] for field in fields)}")
-    wanted = [field for field in fields if names is None or field["name"] in names]
+        raise ArgumentError(
+            f"names has {absent[0]!r}, and {path} has no such column; it has {', '.join(field['name'] for field in fields)}"
+        )
+    wanted = [field for field in fields if wanted_names is None or field["name"] in wanted_names]
     alien = sorted(set(recorded) - set(range(_chunks(manifest))))
     if alien:
         raise damaged(path / "manifest.json", f"chunk {alien[0]} is none of the {_chunks(manifest)} of this sweep")
@@ -170,6 +175,7 @@ def read(folder: str | os.PathLike[str], names: Collection[str] | None = None) -
     ...     sweep.read(folder)["square"].tolist()
     [0.0, 1.0, 4.0, 9.0, 16.0]
     """
+    names = or_none(texts, "names", names, "a list of names of columns, or None")
     found = verify(folder)
     if not found.complete:
         raise ArgumentError(
@@ -190,7 +196,7 @@ class Store:
 
     def __init__(self, folder: str | os.PathLike[str], plan: Plan, notes: Mapping[str, str] | None) -> None:
         _parquet.library()
-        self.path = Path(folder)
+        self.path = Path(file_path("folder", folder))
         self.notes = notes
         (self.path / "chunks").mkdir(parents=True, exist_ok=True)
         self.lock = lock(self.path / "journal.jsonl")

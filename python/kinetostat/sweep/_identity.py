@@ -12,11 +12,15 @@ from typing import Any
 import numpy as np
 
 from kinetostat import _core
+from kinetostat._arguments import function, refused
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
 
 FORMAT = 1
 """Counts changes of the manifest that old readers would misunderstand."""
+
+_MOST_ROWS = 2**48
+"""More than any memory or disk holds."""
 
 Columns = dict[str, np.ndarray[Any, np.dtype[Any]]]
 """Arrays by name, with one row for each row of the chunk."""
@@ -35,15 +39,18 @@ class Plan:
     size: int
 
     def __post_init__(self) -> None:
+        function("function", self.function, "a function of first, last, threads and the settings")
         for name, value, least in (("count", self.count, 0), ("chunk", self.size, 1)):
-            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-                raise ArgumentError(f"{name} is {value!r}, expected a whole number, {least} or more")
+            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= _MOST_ROWS:
+                raise refused(name, value, f"a whole number, {least} or more")
         if "threads" in self.settings:
             raise ArgumentError("settings has 'threads': how many threads a worker uses is not part of what is computed")
         try:
             pickle.dumps(self.function)
         except Exception as failed:
-            raise ArgumentError(f"{self.function!r} cannot be sent to a worker: define it at the top of a module ({failed})") from None
+            raise ArgumentError(
+                f"function is {self.function!r}, which cannot be sent to a worker: define it at the top of a module ({failed})"
+            ) from None
 
     @property
     def chunks(self) -> int:

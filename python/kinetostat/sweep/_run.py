@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from kinetostat._arguments import mapping, or_none, text, told
+from kinetostat._arrays import thread_count, whole_number
 from kinetostat.errors import ArgumentError
 from kinetostat.sweep._folder import Store
 from kinetostat.sweep._identity import Columns, Function, Plan, schema
@@ -18,6 +20,8 @@ from kinetostat.sweep._workers import compute
 __all__ = ["Done", "run", "to_folder"]
 
 Progress = Callable[[int, int, str], object]
+
+_MOST_UNDER_WAY = 1_000_000
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,8 +98,8 @@ def run(
     >>> sweep.run(squares, 5, {"power": 3.0}, chunk=2)["square"].tolist()
     [0.0, 1.0, 8.0, 27.0, 64.0]
     """
-    plan = Plan(function, dict(settings or {}), count, chunk)
-    _positive("under_way", under_way)
+    plan, under_way, threads = _planned(function, count, settings, chunk, under_way, threads)
+    told(progress)
     whole: Columns = {}
     done: set[int] = set()
     found: list[Any] = []
@@ -167,8 +171,9 @@ def to_folder(
     >>> first.computed, again.computed
     (3, 0)
     """
-    plan = Plan(function, dict(settings or {}), count, chunk)
-    _positive("under_way", under_way)
+    plan, under_way, threads = _planned(function, count, settings, chunk, under_way, threads)
+    told(progress)
+    or_none(mapping, "units", units, "a dictionary of units by column, or None")
     store = Store(folder, plan, units)
     before = len(store.done)
 
@@ -186,9 +191,15 @@ def to_folder(
     return Done(plan.chunks, len(store.done) - before, store.damaged)
 
 
-def _positive(name: str, value: int | None) -> None:
-    if value is not None and value < 1:
-        raise ArgumentError(f"{name} is {value}, expected 1 or more")
+def _planned(
+    function: Function, count: int, settings: Mapping[str, Any] | None, chunk: int, under_way: int | None, threads: int | None
+) -> tuple[Plan, int | None, int | None]:
+    """What is computed, and how much at a time."""
+    given = {} if settings is None else mapping("settings", settings, "a dictionary of arguments of the function, or None")
+    for key in given:
+        text("a key of settings", key, "the name of an argument of the function")
+    plan = Plan(function, dict(given), count, chunk)
+    return plan, or_none(whole_number, "under_way", under_way, 1, _MOST_UNDER_WAY), thread_count(threads)
 
 
 def _tell(progress: Progress | None, plan: Plan, done: Any) -> None:

@@ -8,9 +8,12 @@ from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
+from kinetostat._arguments import flag, mapping, one_of, shown, text, texts
 from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._condensed import Bordered, condensed
 from kinetostat.symbolic._expression import Formula, Stiffness
+from kinetostat.symbolic._given import formula, formulas
+from kinetostat.symbolic._given import matrix as matrix_given
 from kinetostat.symbolic._linear import UnsolvableError, solved
 from kinetostat.symbolic._placement import rotation
 from kinetostat.symbolic._stepwise import Sprung, loaded_in_steps, unloaded_in_steps
@@ -34,20 +37,15 @@ class _Motion:
     passive: bool
 
 
-def _formula(value: Expression) -> sp.Expr:
-    """A symbol by its name, or a formula as it is; lengths and stiffnesses are taken as real."""
-    return sp.Symbol(value, real=True) if isinstance(value, str) else sp.sympify(value)
-
-
 def _axis(axis: str | Sequence[Expression]) -> sp.Matrix:
     if isinstance(axis, str):
         sign, letter = (-1, axis[1:]) if axis.startswith("-") else (1, axis)
         if letter not in ("x", "y", "z"):
-            raise ArgumentError(f"axis is {axis!r}, expected x, y, z, -x, -y, -z or three entries")
+            raise ArgumentError(f"axis is {shown(axis)}, expected x, y, z, -x, -y, -z or three entries")
         return sign * sp.Matrix([int(letter == other) for other in "xyz"])
-    found = sp.Matrix([_formula(a) for a in axis])
-    if found.shape != (3, 1) or sp.simplify(found.dot(found)) != 1:
-        raise ArgumentError("axis has to be three entries of a unit vector")
+    found = formulas("axis", axis, 3)
+    if sp.simplify(found.dot(found)) != 1:
+        raise ArgumentError(f"axis is {tuple(found)}, expected a unit vector")
     return found
 
 
@@ -79,7 +77,7 @@ class Chain:
     """
 
     def __init__(self, name: str = "chain") -> None:
-        self.name = name
+        self.name = text("name", name)
         self._turn = sp.eye(3)
         self._place = sp.zeros(3, 1)
         self._motions: list[_Motion] = []
@@ -127,7 +125,7 @@ class Chain:
         >>> Chain().move("L", 0, "h").end.T
         Matrix([[L, 0, h]])
         """
-        self._place = (self._place + self._turn * sp.Matrix([_formula(v) for v in (x, y, z)])).applyfunc(neat)
+        self._place = (self._place + self._turn * sp.Matrix([formula(n, v) for n, v in (("x", x), ("y", y), ("z", z))])).applyfunc(neat)
         return self
 
     def turn(self, axis: str | Sequence[Expression], angle: Expression) -> Chain:
@@ -138,7 +136,7 @@ class Chain:
         >>> Chain().turn("z", sp.pi / 2).move("L").end.T
         Matrix([[0, L, 0]])
         """
-        return self._turned(rotation(_axis(axis), _formula(angle)))
+        return self._turned(rotation(_axis(axis), formula("angle", angle)))
 
     def _turned(self, by: sp.Matrix) -> Chain:
         self._turn = (self._turn * by).applyfunc(neat)
@@ -152,9 +150,8 @@ class Chain:
         >>> Chain().place([0, 0, "h"], sp.Matrix([[0, -1, 0], [1, 0, 0], [0, 0, 1]])).move("L").end.T
         Matrix([[0, L, h]])
         """
-        if rotation.shape != (3, 3):
-            raise ArgumentError(f"rotation has shape {rotation.shape}, expected (3, 3)")
-        return self.move(*position)._turned(rotation)
+        turn = matrix_given("rotation", rotation, (3, 3))
+        return self.move(*formulas("position", position, 3))._turned(turn)
 
     def node(self, name: str) -> Chain:
         """A place that a load may act on.
@@ -164,21 +161,19 @@ class Chain:
         >>> Chain().move("L").node("middle").name
         'chain'
         """
-        if name in self._nodes:
+        if text("name", name) in self._nodes:
             raise ArgumentError(f"there is a node {name!r} already")
         self._nodes[name] = (len(self._motions), self._place)
         return self
 
     def _joint(self, name: str, kind: Kind, axis: str | Sequence[Expression], at: Expression, passive: bool) -> None:
-        if kind not in ("revolute", "prismatic"):
-            raise ArgumentError(f"kind of {name!r} is {kind!r}, expected 'revolute' or 'prismatic'")
         unit = _axis(axis)
-        where = self._turn * unit
+        where, by = self._turn * unit, formula("at", at)
         self._motions.append(_Motion(name, kind, where, self._place, passive))
         if kind == "revolute":
-            self.turn(list(unit), at)
+            self.turn(list(unit), by)
         else:
-            self._place = (self._place + where * _formula(at)).applyfunc(neat)
+            self._place = (self._place + where * by).applyfunc(neat)
 
     def passive(self, name: str, kind: Kind, axis: str | Sequence[Expression], at: Expression | None = None) -> Chain:
         """A joint that nothing drives, at the coordinate ``at`` (its own name without it), rad or m.
@@ -188,6 +183,7 @@ class Chain:
         >>> Chain().passive("q", "prismatic", "x").end.T
         Matrix([[q, 0, 0]])
         """
+        _named(name, kind)
         self._joint(name, kind, axis, name if at is None else at, True)
         return self
 
@@ -207,16 +203,14 @@ class Chain:
         >>> Chain().actuator("q", "revolute", "z", stiffness="k").move("L").end.T
         Matrix([[L*cos(q), L*sin(q), 0]])
         """
-        where = name if at is None else at
+        _named(name, kind)
+        where = formula("at", name if at is None else at)
         if stiffness is None:
-            _axis(axis)
-            return self.turn(axis, where) if kind == "revolute" else self._slide(axis, where)
+            return self.turn(axis, where) if kind == "revolute" else self.move(*(_axis(axis) * where))
+        given = formula("stiffness", stiffness)
         self._joint(name, kind, axis, where, False)
-        self._springs.append((len(self._motions) - 1, sp.Matrix([[_formula(stiffness)]])))
+        self._springs.append((len(self._motions) - 1, sp.Matrix([[given]])))
         return self
-
-    def _slide(self, axis: str | Sequence[Expression], by: Expression) -> Chain:
-        return self.move(*(_axis(axis) * _formula(by)))
 
     def spring(self, name: str, kind: Kind, axis: str | Sequence[Expression], *, stiffness: Expression, at: Expression = 0) -> Chain:
         """A virtual spring of one direction, at rest without ``at``.
@@ -243,14 +237,14 @@ class Chain:
         >>> Chain().move("L").spring6("link", "K").coordinates[:2]
         ('link.x', 'link.y')
         """
+        text("name", name)
         if isinstance(stiffness, Stiffness) and stiffness.definitions:
             raise ArgumentError(f"stiffness of {name!r} has steps: put numbers in with subs, or use expanded()")
         if isinstance(stiffness, str):
+            text("stiffness", stiffness)
             k = sp.Matrix(6, 6, lambda i, j: sp.Symbol(f"{stiffness}{min(i, j) + 1}{max(i, j) + 1}", real=True))
         else:
-            k = sp.Matrix(stiffness.matrix if isinstance(stiffness, Stiffness) else stiffness)
-        if k.shape != (6, 6):
-            raise ArgumentError(f"stiffness of {name!r} has shape {k.shape}, expected (6, 6)")
+            k = matrix_given("stiffness", stiffness.matrix if isinstance(stiffness, Stiffness) else stiffness, (6, 6))
         if (k - k.T).applyfunc(sp.simplify) != sp.zeros(6):
             raise ArgumentError(f"stiffness of {name!r} is not symmetric")
         self._springs.append((len(self._motions), k))
@@ -286,6 +280,7 @@ class Chain:
         >>> Chain().passive("q", "revolute", "z").move("L").jacobian().matrix.T
         Matrix([[-L*sin(q), L*cos(q), 0, 0, 0, 1]])
         """
+        one_of("of", of, ("all", "passive", "springs"))
         wanted = [i for i, m in enumerate(self._motions) if of == "all" or m.passive == (of == "passive")]
         place, count = self._end_or(node)
         linear, angular = self._columns(place, count)
@@ -294,7 +289,7 @@ class Chain:
     def _end_or(self, node: str | None) -> tuple[sp.Matrix, int]:
         if node is None:
             return self._place, len(self._motions)
-        if node not in self._nodes:
+        if text("node", node) not in self._nodes:
             raise ArgumentError(f"there is no node {node!r}; nodes: {', '.join(self._nodes) or 'none'}")
         count, place = self._nodes[node]
         return place, count
@@ -351,10 +346,9 @@ class Chain:
         """
         n = len(self._motions)
         total = sp.zeros(n)
-        for node, load in [(None, wrench), *(loads or {}).items()]:
-            if len(load) != 6:
-                raise ArgumentError(f"the load on {node or 'the end'} has {len(load)} entries, expected 6")
-            f, m = sp.Matrix([_formula(v) for v in load[:3]]), sp.Matrix([_formula(v) for v in load[3:]])
+        for node, load in [(None, wrench), *_on_nodes(loads).items()]:
+            given = formulas("wrench" if node is None else f"loads[{node!r}]", load, 6)
+            f, m = given[:3, :], given[3:, :]
             place, count = self._end_or(node)
             v, w = self._columns(place, count)
             for i in range(count):
@@ -384,8 +378,10 @@ class Chain:
         steps : bool
             Give intermediate results names (``definitions`` of what comes back) instead of one formula in lowest terms. For more than
             about four joints with angles as symbols: the one formula takes minutes or longer, the steps a second. They hold for all values
-            of angles and lengths, special ones (all links in line) too, and for all stiffnesses that are not zero. At values that hold
-            the end rigidly somewhere, or at which loads make it buckle, entries are infinite or NaN.
+            of angles and lengths, special ones (all links in line) too, and for all stiffnesses that are not zero: steps divide by
+            them. ``subs`` refuses a zero; printed functions and ``lambdify`` divide by it. Where a stiffness may vanish ask with
+            ``wrench=[0] * 6``, whose steps take zeros as long as not all springs vanish. At values that hold the end rigidly
+            somewhere, or at which loads make it buckle, entries are infinite or NaN.
 
         Returns
         -------
@@ -417,9 +413,10 @@ class Chain:
         ['L1', 'L2', 'L3', 'k1', 'k2', 'k3', 'q1', 'q2', 'q3']
         """
         rows = _rows(directions)
+        flag("steps", steps)
         linear, angular = self._columns(self._place, len(self._motions))
         jacobian, names = linear.col_join(angular), [m.name for m in self._motions]
-        loaded = wrench is not None or bool(loads)
+        loaded = wrench is not None or len(_on_nodes(loads)) > 0
         hessian = self.hessian(wrench if wrench is not None else [0] * 6, loads).matrix if loaded else None
         if steps:
             own = Sprung(self.name, tuple(directions), rows, jacobian, self._springs, names)
@@ -437,8 +434,20 @@ class Chain:
         return f"<Chain {self.name!r}: {len(self._motions)} coordinates>"
 
 
+def _on_nodes(loads: Any) -> Mapping[str, Any]:
+    """Wrenches by names of nodes."""
+    return {} if loads is None else mapping("loads", loads, "a dictionary of wrenches by names of nodes")
+
+
+def _named(name: Any, kind: Any) -> None:
+    """A joint says what it is called and what it does."""
+    text("name", name)
+    one_of("kind", kind, ("revolute", "prismatic"))
+
+
 def _rows(directions: Sequence[str]) -> list[int]:
-    unknown = [d for d in directions if d not in DIRECTIONS]
-    if unknown or len(set(directions)) != len(directions) or not directions:
-        raise ArgumentError(f"directions is {tuple(directions)!r}, expected some of {', '.join(DIRECTIONS)}, each once")
-    return [DIRECTIONS.index(d) for d in directions]
+    given = texts("directions", directions, f"some of {', '.join(DIRECTIONS)}, each once")
+    unknown = [d for d in given if d not in DIRECTIONS]
+    if unknown or len(set(given)) != len(given) or not given:
+        raise ArgumentError(f"directions is {tuple(given)!r}, expected some of {', '.join(DIRECTIONS)}, each once")
+    return [DIRECTIONS.index(d) for d in given]

@@ -11,6 +11,7 @@ import mpmath
 import sympy as sp
 from sympy.printing.rust import RustCodePrinter
 
+from kinetostat._arguments import refused, shown, texts
 from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._linear import Definitions, numbers
 from kinetostat.symbolic._steps import expanded, put_in, symbols_of
@@ -51,6 +52,12 @@ class Formula:
     definitions: Definitions = dataclasses.field(default=(), kw_only=True)
     """Steps on the way: symbols that stand in :attr:`matrix` and what they are, each in terms of those before it. Empty for most."""
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.matrix, sp.MatrixBase):
+            raise refused("matrix", self.matrix, "a matrix of SymPy")
+        if not isinstance(self.definitions, tuple) or any(not isinstance(d, tuple) or len(d) != 2 for d in self.definitions):
+            raise refused("definitions", self.definitions, "pairs of a symbol and what it is, in order")
+
     @property
     def symbols(self) -> tuple[sp.Symbol, ...]:
         """Its symbols in alphabetic order, without those of steps: the order of the arguments of printed functions."""
@@ -62,7 +69,7 @@ class Formula:
         Raises
         ------
         ArgumentError
-            A name that the formulas do not have.
+            A name that the formulas do not have, or a value of zero by which a step divides.
 
         Examples
         --------
@@ -153,6 +160,7 @@ class Formula:
             out[0] = 2*k;
         }
         """
+        _is_name(name)
         steps, entries, plain = self._steps()
         arguments = ", ".join([*(f"double {s}" for s in plain.values()), "double *out"])
         lines = [f"    const double {s} = {sp.ccode(e)};" for s, e in steps]
@@ -168,6 +176,7 @@ class Formula:
         >>> "-> [f64; 1]" in Formula(sp.Matrix([sp.Symbol("k") * 2])).rust()
         True
         """
+        _is_name(name)
         steps, entries, plain = self._steps()
         arguments = ", ".join(f"{s}: f64" for s in plain.values())
         lines = [f"    let {s}: f64 = {_rust(e)};" for s, e in steps]
@@ -186,6 +195,7 @@ class Formula:
         >>> space["f"](0.0)
         [[1.0]]
         """
+        _is_name(name)
         steps, entries, plain = self._steps()
         wide = self.matrix.shape[1]
         lines = [f"    {s} = {sp.pycode(e)}" for s, e in steps]
@@ -208,6 +218,11 @@ class Formula:
         array([[6.]])
         """
         steps, entries, plain = self._steps()
+        if arguments is not None and (isinstance(arguments, str) or not isinstance(arguments, Sequence)):
+            raise refused("arguments", arguments, "a list of symbols or their names, or None")
+        for index, own in enumerate(arguments or ()):
+            if not isinstance(own, (str, sp.Symbol)):
+                raise refused(f"arguments[{index}]", own, "a symbol or its name")
         by_name = {str(s.name): p for s, p in plain.items()}
         order = list(by_name) if arguments is None else [str(a) for a in arguments]
         missing = [name for name in by_name if name not in order]
@@ -218,6 +233,12 @@ class Formula:
         names = [by_name.get(name, sp.Dummy(name)) for name in order]
         function: Callable[..., Any] = sp.lambdify(names, matrix, modules="numpy", cse=lambda whole: (steps, whole))
         return function
+
+
+def _is_name(name: Any) -> None:
+    """A name that every printed language takes for a function."""
+    if not isinstance(name, str) or not (name.isascii() and name.isidentifier()) or name in _KEYWORDS:
+        raise ArgumentError(f"name is {shown(name)}, expected letters, digits and _ that are no word of C, Rust or Python")
 
 
 class _RustPrinter(RustCodePrinter):  # type: ignore[misc]
@@ -267,6 +288,11 @@ class Stiffness(Formula):
     """Rows and columns."""
     redundant: tuple[str, ...] = ()
     """Passive joints that turn or slide without the end moving, with the others; they do not change the stiffness."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        texts("directions", self.directions, "names of rows and columns")
+        texts("redundant", self.redundant, "names of passive joints")
 
     @property
     def null_space(self) -> list[sp.Matrix]:

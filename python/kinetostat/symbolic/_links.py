@@ -6,8 +6,10 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from kinetostat._arguments import of_kind, refused, shown
 from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._expression import Stiffness
+from kinetostat.symbolic._given import formula, formulas
 from kinetostat.symbolic._steps import joined
 
 __all__ = ["beam", "hat", "in_parallel", "leg", "planar_beam", "with_passive_joint"]
@@ -80,16 +82,14 @@ def with_passive_joint(link: Stiffness, joint: str | Sequence[sp.Expr]) -> Stiff
     [    0, 3*E*I_z/L**3, 0],
     [    0,            0, 0]])
     """
-    if link.definitions:
+    if of_kind("link", link, Stiffness, "a Stiffness of this module").definitions:
         raise ArgumentError("the link's stiffness has steps: add the passive joint to the chain instead, or use expanded()")
     if isinstance(joint, str):
         if joint not in link.directions:
-            raise ArgumentError(f"joint is {joint!r}, expected one of {', '.join(link.directions)}")
+            raise ArgumentError(f"joint is {shown(joint)}, expected one of {', '.join(link.directions)}")
         column = sp.Matrix([1 if d == joint else 0 for d in link.directions])
     else:
-        column = sp.Matrix(list(joint))
-        if len(column) != len(link.directions):
-            raise ArgumentError(f"joint has {len(column)} entries, expected {len(link.directions)}")
+        column = formulas("joint", joint, len(link.directions))
     u = link.matrix * column
     left = link.matrix.T * column
     mu = sp.simplify((column.T * u)[0])
@@ -114,11 +114,11 @@ def leg(direction: Sequence[sp.Expr], stiffness: sp.Expr | str) -> Stiffness:
     >>> leg([0, 0, 2], "K11").matrix[2, 2]
     K11
     """
-    u = sp.Matrix(list(direction))
+    u = formulas("direction", direction, 3)
     square = sp.expand((u.T * u)[0])
-    if u.shape != (3, 1) or sp.simplify(square) == 0:
-        raise ArgumentError("direction has to be three numbers or formulas, not all zero")
-    k = sp.Symbol(stiffness, positive=True) if isinstance(stiffness, str) else sp.sympify(stiffness)
+    if sp.simplify(square) == 0:
+        raise ArgumentError(f"direction is {tuple(u)}, expected three numbers or formulas, not all zero")
+    k = formula("stiffness", stiffness, positive=True)
     return Stiffness(sp.diag(k * u * u.T / sp.simplify(square), sp.zeros(3)))
 
 
@@ -144,15 +144,19 @@ def in_parallel(limbs: Sequence[Stiffness], arms: Sequence[Sequence[sp.Expr]]) -
     >>> pair.matrix[2, 2], pair.matrix[4, 4], pair.rank
     (2*k, 2*k, 2)
     """
+    for name, each, expected in (("limbs", limbs, "a list of Stiffness"), ("arms", arms, "a list of three entries for each limb")):
+        if isinstance(each, str) or not isinstance(each, Sequence):
+            raise refused(name, each, expected)
     if len(limbs) != len(arms) or not limbs:
         raise ArgumentError(f"{len(limbs)} limbs and {len(arms)} arms: give one arm for each limb")
-    for limb, arm in zip(limbs, arms, strict=True):
-        if limb.matrix.shape != (6, 6) or len(list(arm)) != 3:
-            raise ArgumentError("limbs need six directions and arms three entries")
+    for index, limb in enumerate(limbs):
+        if of_kind(f"limbs[{index}]", limb, Stiffness, "a Stiffness of this module").matrix.shape != (6, 6):
+            raise ArgumentError(f"limbs[{index}] has the directions {', '.join(limb.directions)}, expected all six")
+    offsets = [formulas(f"arms[{index}]", arm, 3) for index, arm in enumerate(arms)]
     parts, definitions = joined([(limb.matrix, limb.definitions) for limb in limbs])
     total = sp.zeros(6)
-    for part, arm in zip(parts, arms, strict=True):
+    for part, arm in zip(parts, offsets, strict=True):
         t = sp.eye(6)
-        t[:3, 3:] = -hat(sp.Matrix(list(arm)))
+        t[:3, 3:] = -hat(arm)
         total += t.T * part * t
     return Stiffness(total if definitions else total.applyfunc(sp.simplify), definitions=definitions)

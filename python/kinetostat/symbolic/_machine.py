@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from kinetostat._arguments import of_kind, text_or_none, texts
 from kinetostat.errors import ArgumentError
 from kinetostat.machine import Machine
 from kinetostat.symbolic._chain import Chain
@@ -94,13 +95,15 @@ def from_machine(machine: Machine, symbols: Sequence[str] = ("lengths", "angles"
     >>> found.chain.end.subs(found.values).evalf(5).T
     Matrix([[1.9319, 0, 0]])
     """
-    unknown = [s for s in symbols if s not in ("lengths", "angles", "stiffnesses")]
-    if unknown or isinstance(symbols, str):
-        raise ArgumentError(f"symbols is {symbols!r}, expected some of 'lengths', 'angles', 'stiffnesses'")
+    of_kind("machine", machine, Machine, "a Machine")
+    text_or_none("limb", limb, "the name of a limb, or None")
+    wanted = texts("symbols", symbols, "some of 'lengths', 'angles', 'stiffnesses'")
+    if any(s not in ("lengths", "angles", "stiffnesses") for s in wanted):
+        raise ArgumentError(f"symbols is {wanted!r}, expected some of 'lengths', 'angles', 'stiffnesses'")
     document = machine.to_dict()
     own = _limb(machine, document, limb)
     _unloaded(machine, document)
-    names = _Names(symbols)
+    names = _Names(wanted)
     chain = Chain(machine.name if limb is None else f"{machine.name}: {limb}")
     start, end = own.get("start", {}), own.get("end", {})
     chain.place(translation(start), orientation(start))
@@ -127,7 +130,7 @@ def _unloaded(machine: Machine, document: Mapping[str, Any]) -> None:
     heavy += [e.get("name", "body") for c in document["chain"].values() for e in c["elements"] if "body" in e]
     if heavy and any(document["mechanism"].get("gravity_m_per_s2", ())):
         raise ArgumentError(f"{told}, and it has weights ({', '.join(heavy[:3])}): set gravity_m_per_s2 to [0, 0, 0] to leave them out")
-    if abs(machine.tool - np.eye(4)).max() > 0:
+    if not np.array_equal(machine.tool, np.eye(4)):
         raise ArgumentError(f"{machine.name} carries a tool: add it to the chain with move")
 
 

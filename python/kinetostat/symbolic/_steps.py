@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from kinetostat.errors import ArgumentError
 from kinetostat.symbolic._linear import Definitions
 from kinetostat.symbolic._reciprocal import Reciprocal
 from kinetostat.symbolic._substitution import by_name
@@ -86,13 +87,28 @@ def put_in(matrix: sp.Matrix, definitions: Definitions, values: Mapping[str | sp
     matrix, definitions = _renamed(matrix, definitions, {str(s.name) for v in found.values() for s in v.free_symbols})
     left: list[tuple[sp.Symbol, sp.Expr]] = []
     for symbol, e in definitions:
+        _divides(e, found)
         new = e.xreplace(found)
         if new.is_number:
             # Exact numbers would grow into formulas from step to step.
             found[symbol] = new if new.is_Number else new.evalf(_DIGITS)
         else:
             left.append((symbol, new))
+    if definitions:
+        _divides(matrix, found)
     return matrix.xreplace(found), tuple(left)
+
+
+def _divides(formula: sp.Basic, values: Mapping[sp.Symbol, sp.Expr]) -> None:
+    """Refuses values at which steps divide by zero: they divide by stiffnesses, and by reciprocals that know when there is none."""
+    for power in formula.atoms(sp.Pow):
+        # Only what has become a number is asked: of a long formula the question alone takes minutes.
+        base = power.base.xreplace(values) if power.exp.could_extract_minus_sign() else sp.S.One
+        if base.is_Number and base.is_zero:
+            raise ArgumentError(
+                f"values makes {power.base} zero, and steps divide by it: make a spring without stiffness a passive joint, "
+                "ask for the stiffness with wrench=[0] * 6, whose steps take single stiffnesses of zero, or without steps"
+            )
 
 
 def _renamed(matrix: sp.Matrix, definitions: Definitions, taken: set[str]) -> tuple[sp.Matrix, Definitions]:

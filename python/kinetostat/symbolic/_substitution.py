@@ -7,7 +7,10 @@ from typing import Any
 
 import sympy as sp
 
+from kinetostat._arguments import refused
 from kinetostat.errors import ArgumentError
+from kinetostat.symbolic._given import formula as formula_given
+from kinetostat.symbolic._given import values_by_name
 
 __all__ = ["by_name", "substitute"]
 
@@ -41,6 +44,8 @@ def substitute(expression: Any, values: Mapping[str | sp.Symbol, Any]) -> Any:
     >>> substitute(beam().matrix[0, 0], {"E": 210e9, "A": "a", "L": 1})
     210000000000.0*a
     """
+    if not isinstance(expression, (sp.Expr, sp.MatrixBase)):
+        raise refused("expression", expression, "a formula or a matrix of formulas of SymPy")
     return expression.subs(by_name(expression.free_symbols, values), simultaneous=True)
 
 
@@ -50,14 +55,14 @@ def by_name(symbols: set[sp.Symbol], values: Mapping[str | sp.Symbol, Any]) -> d
     for symbol in symbols:
         there.setdefault(str(symbol.name), []).append(symbol)
     found: dict[sp.Symbol, sp.Expr] = {}
-    for key, value in values.items():
+    for key, value in values_by_name(values).items():
         if not isinstance(key, (str, sp.Symbol)):
-            raise ArgumentError(f"a key of values is {key!r} ({type(key).__name__}), expected a name or a symbol")
+            raise refused("a key of values", key, "a name or a symbol")
         name = key if isinstance(key, str) else str(key.name)
         if isinstance(key, str) and name not in there:
             known = ", ".join(sorted(there)) or "none"
             raise ArgumentError(f"the formula has no symbol {name!r}; its symbols are {known}")
-        formula = sp.Symbol(value, real=True) if isinstance(value, str) else sp.sympify(value)
+        formula = formula_given(f"values[{name!r}]", value)
         for symbol in there.get(name, []):
             if found.get(symbol, formula) != formula:
                 raise ArgumentError(f"{name!r} is given twice: {found[symbol]} and {formula}")

@@ -7,6 +7,8 @@ mod answer;
 pub(crate) mod arguments;
 mod columns;
 mod fields;
+mod files;
+mod orientations;
 mod over;
 mod picture;
 mod query;
@@ -15,19 +17,23 @@ mod store;
 mod text;
 mod unanswered;
 
-use kinetostat::Wrench;
-use kinetostat_formats::fields::Fields;
+use std::path::{Path, PathBuf};
+
+use kinetostat::{Mechanism, Wrench};
 use kinetostat_machining::{MapTask, Warning, straight_tool, unusual_load};
+use kinetostat_model::Model;
 use nalgebra::UnitQuaternion;
 
 use crate::files::hash::sha256;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::model_warnings::{deviation_descriptions, no_potential, of_model};
-use crate::map::answer::MapAnswer;
+use crate::map::answer::{Figures, MapAnswer};
 use crate::map::arguments::MapArgs;
-use crate::map::columns::asked;
+use crate::map::columns::{Column, asked};
 use crate::map::fields::Gathering;
+use crate::map::files::Files;
+use crate::map::orientations::Orientations;
 use crate::map::picture::Picture;
 use crate::map::query::{grid, loads};
 use crate::map::solve::{Sinks, solve};
@@ -39,91 +45,40 @@ use crate::ui::numbers::short;
 use crate::ui::{json, threads};
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
-    let (model, path) = InputFiles::default().model(&args.model, std::path::Path::new(""))?;
-    let length = args.tool_length_mm.unwrap_or(0.0);
-    if length.abs() > 1e5 {
-        return Err(Failure::input(format!(
-            "--tool-length-mm is {length}; tools are shorter than 100 m"
-        )));
-    }
-    let mechanism = model.mechanism.with_tool(&straight_tool(1e-3 * length));
+    let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
+    let mechanism = with_tool(args, &model)?;
     let home = mechanism.platforms()[mechanism.tool()].home;
     let grid = grid(args, (home.translation.vector * 1e3).into())?;
-    let requested = args.rotation.iter();
-    let requested: Vec<Option<UnitQuaternion<f64>>> = requested
-        .map(|text| orientation::option_or_follows("--rotation", text))
-        .collect::<Answer<_>>()?;
-    if requested.len() > 1 && requested.iter().any(Option::is_none) {
-        return Err(Failure::input(
-            "--rotation follows is the only orientation, or none of them",
-        ));
-    }
-    let first = requested.first().copied();
-    let rotation = first.flatten().unwrap_or(home.rotation);
-    let follows = first.map_or_else(|| mechanism.turns_as_it_moves(), |a| a.is_none());
+    let orientations = Orientations::asked(args, &mechanism)?;
     let loads = loads(args)?;
-    let load = loads.first().copied();
-    if load.is_none() && matches!(&*args.show, "displacement" | "rotation") {
-        return Err(Failure::input(
-            "--show displacement and --show rotation need a load; give --force or --moment",
-        ));
-    }
-    let cases = requested.len().max(1) * loads.len().max(1);
-    if cases > 1 && follows {
-        return Err(Failure::input(
-            "several loads are compared where the orientation is held; give --rotation, or one load",
-        ));
-    }
+    shown_with_a_load(args, &loads)?;
+    let cases = orientations.cases(&loads)?;
+    let loaded = !loads.is_empty();
     let actuators = mechanism.actuator_count();
-    let (variables, shown) = asked(args, actuators, load.is_some(), cases)?;
+    let (variables, shown) = asked(args, actuators, loaded, cases)?;
     let further = columns::columns(&variables, actuators);
     let picture = Picture::new(args, &grid, shown)?;
     let mut task = MapTask {
         mechanism: &mechanism,
         grid,
-        orientation: rotation,
-        orientation_follows: follows,
-        load,
-        further: others(&requested, rotation, &loads),
+        orientation: orientations.first,
+        orientation_follows: orientations.follows,
+        load: loads.first().copied(),
+        further: orientations.further(&loads),
         variables,
         ratings: model.ratings(),
         first: 0,
     };
     let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, path.iter().cloned().collect());
-    let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
-    let csv = csv.transpose()?;
-    let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
-    let plot = plot.transpose()?;
-    let files = [
-        ("VTK file", &args.vtk),
-        ("NetCDF file", &args.netcdf),
-        ("Parquet file", &args.parquet),
-    ];
-    let files = files.map(|(what, path)| path.as_ref().map(|p| outputs.claim(what, p)).transpose());
-    let [vtk, netcdf, parquet] = files;
-    let (vtk, netcdf, parquet) = (vtk?, netcdf?, parquet?);
+    let files = Files::claimed(args, &mut outputs)?;
     let manifest = manifest(args, &model, &task);
-    let store = match &args.resume {
-        Some(directory) => Some(Store::open(
-            directory,
-            &manifest,
-            further.len(),
-            grid.len(),
-        )?),
-        None => None,
-    };
-    let wanted = vtk.is_some() || netcdf.is_some() || parquet.is_some();
-    let gathering = wanted.then(|| {
-        let facts = manifest.clone().into_iter().collect();
-        let title = format!("kinetostat map of {}", model.name());
-        Gathering::new(title, facts, &grid, load.is_some(), &further)
-    });
+    let store = store(args, &manifest, &task, &further)?;
     let mut sinks = Sinks {
         outputs: &mut outputs,
-        csv,
+        csv: files.csv,
         store,
-        gathering,
+        gathering: (files.want_fields()).then(|| gathering(&model, manifest, &task, &further)),
         further,
     };
     let work = || solve(&mut task, &mut sinks, picture);
@@ -134,87 +89,129 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     if let Some(failure) = without_figures(&task, &figures.places) {
         return Err(failure);
     }
-    let mut warnings: Vec<Warning> = of_model(&model).collect();
-    warnings.extend(no_potential(&model.mechanism));
-    warnings.extend(loads.iter().flat_map(unusual_load));
-    warnings.extend(figures.warnings(task.mechanism.size()));
-    let turned = figures.largest_turn_deg;
-    if follows {
-        warnings.push(orientation::follows(turned, !requested.is_empty(), true));
-    }
-    let mut solving = figures.solving.clone();
-    solving.one_by_one_because = task.one_by_one_because();
-    let answer = MapAnswer {
-        schema: 3,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: model.name().to_owned(),
-        model_source: match &path {
-            Some(_) => args.model.clone(),
-            None => format!("preset {}", args.model),
-        },
-        tool: match length {
-            0.0 => "none: the platform's own point".to_owned(),
-            length => format!("{} mm along z of the flange", short(length)),
-        },
-        rotation_vector_deg: rotation.scaled_axis().map(f64::to_degrees).into(),
-        max_tool_turn_deg: follows.then_some(turned),
-        grid: grid.into(),
-        loaded: load.is_some(),
-        force_n: load.map_or([0.0; 3], |w| w.force().into()),
-        moment_n_m: load.map_or([0.0; 3], |w| w.moment().into()),
-        deviations: deviation_descriptions(&model),
-        places: figures.places,
+    let solved = Solved {
+        task: &task,
         cases,
-        figures: figures.answer(load.is_some(), &further),
-        solving,
-        warnings,
+        warnings: warnings(&model, &loads, &task, (&figures, &orientations)),
+        figures,
+        further,
     };
-    if let Some(index) = plot {
-        let outline = over::outline(&task, &picture);
-        let mut lines = over::isolines(&picture);
-        lines.extend(outline);
-        let marks = over::extremes(&picture);
-        outputs.fill(index, picture.svg(&answer, lines, marks).as_bytes())?;
-    }
-    if let Some(fields) = gathering.map(Gathering::done) {
-        if let Some(index) = vtk {
-            outputs.fill(index, &fields.vtk())?;
-        }
-        if let Some(index) = netcdf {
-            outputs.fill(index, &fields::netcdf(&fields)?)?;
-        }
-        if let Some(index) = parquet {
-            outputs.fill(index, &parquet_of(&fields)?)?;
-        }
-    }
+    let answer = answer((args, &model, path.as_deref()), solved);
+    files.draw(&mut outputs, (&task, &answer, &picture))?;
+    files.write_fields(&mut outputs, gathering)?;
     let paths = outputs.commit()?;
-    let text = text::answer_text(&answer, &rotation);
+    let text = text::answer_text(&answer, &orientations.first);
     let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, args.json)
 }
 
-/// Orientations and loads beside the first ones.
-fn others(
-    requested: &[Option<UnitQuaternion<f64>>],
-    first: UnitQuaternion<f64>,
+/// The machine with the straight tool of the options.
+fn with_tool(args: &MapArgs, model: &Model) -> Answer<Mechanism> {
+    let length = args.tool_length_mm.unwrap_or(0.0);
+    if length.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
+    }
+    Ok((model.mechanism).with_tool(&straight_tool(1e-3 * length)))
+}
+
+/// What a load does is shown of a load.
+fn shown_with_a_load(args: &MapArgs, loads: &[Wrench]) -> Answer<()> {
+    if loads.is_empty() && matches!(&*args.show, "displacement" | "rotation") {
+        return Err(Failure::input(
+            "--show displacement and --show rotation need a load; give --force or --moment",
+        ));
+    }
+    Ok(())
+}
+
+/// What an earlier run has kept of the same map.
+fn store(
+    args: &MapArgs,
+    manifest: &Manifest,
+    task: &MapTask<'_>,
+    further: &[Column],
+) -> Answer<Option<Store>> {
+    let open =
+        |directory: &PathBuf| Store::open(directory, manifest, further.len(), task.grid.len());
+    args.resume.as_ref().map(open).transpose()
+}
+
+/// Columns for the files of other programs, empty as yet.
+fn gathering(
+    model: &Model,
+    manifest: Manifest,
+    task: &MapTask<'_>,
+    further: &[Column],
+) -> Gathering {
+    let facts = manifest.into_iter().collect();
+    let title = format!("kinetostat map of {}", model.name());
+    Gathering::new(title, facts, &task.grid, task.load.is_some(), further)
+}
+
+/// What looks wrong in the model, the loads and the figures.
+fn warnings(
+    model: &Model,
     loads: &[Wrench],
-) -> Vec<(UnitQuaternion<f64>, Option<Wrench>)> {
-    let orientations: Vec<_> = match requested.is_empty() {
-        true => vec![first],
-        false => requested.iter().flatten().copied().collect(),
-    };
-    let loads: Vec<Option<Wrench>> = match loads.is_empty() {
-        true => vec![None],
-        false => loads.iter().copied().map(Some).collect(),
-    };
-    let all = orientations
-        .iter()
-        .flat_map(|o| loads.iter().map(move |l| (*o, *l)));
-    all.skip(1).collect()
+    task: &MapTask<'_>,
+    (figures, orientations): (&Figures, &Orientations),
+) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = of_model(model).collect();
+    warnings.extend(no_potential(&model.mechanism));
+    warnings.extend(loads.iter().flat_map(unusual_load));
+    warnings.extend(figures.warnings(task.mechanism.size()));
+    if orientations.follows {
+        let (turned, stated) = (figures.largest_turn_deg, orientations.are_stated());
+        warnings.push(orientation::follows(turned, stated, true));
+    }
+    warnings
+}
+
+/// A map that is solved.
+struct Solved<'a> {
+    task: &'a MapTask<'a>,
+    cases: usize,
+    figures: Figures,
+    further: Vec<Column>,
+    warnings: Vec<Warning>,
+}
+
+/// The answer, of the model that the options name, and its file if it is one.
+fn answer((args, model, path): (&MapArgs, &Model, Option<&Path>), solved: Solved<'_>) -> MapAnswer {
+    let (task, figures) = (solved.task, solved.figures);
+    let mut solving = figures.solving.clone();
+    solving.one_by_one_because = task.one_by_one_because();
+    let turned = figures.largest_turn_deg;
+    MapAnswer {
+        schema: 3,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: model.name().to_owned(),
+        model_source: match path {
+            Some(_) => args.model.clone(),
+            None => format!("preset {}", args.model),
+        },
+        tool: match args.tool_length_mm.unwrap_or(0.0) {
+            0.0 => "none: the platform's own point".to_owned(),
+            length => format!("{} mm along z of the flange", short(length)),
+        },
+        rotation_vector_deg: task.orientation.scaled_axis().map(f64::to_degrees).into(),
+        max_tool_turn_deg: task.orientation_follows.then_some(turned),
+        grid: task.grid.into(),
+        loaded: task.load.is_some(),
+        force_n: task.load.map_or([0.0; 3], |w| w.force().into()),
+        moment_n_m: task.load.map_or([0.0; 3], |w| w.moment().into()),
+        deviations: deviation_descriptions(model),
+        figures: figures.answer(task.load.is_some(), &solved.further),
+        places: figures.places,
+        cases: solved.cases,
+        solving,
+        warnings: solved.warnings,
+    }
 }
 
 /// All that the numbers of a map depend on.
-fn manifest(args: &MapArgs, model: &kinetostat_model::Model, task: &MapTask<'_>) -> Manifest {
+fn manifest(args: &MapArgs, model: &Model, task: &MapTask<'_>) -> Manifest {
     let quaternion = |q: &UnitQuaternion<f64>| format!("{:?}", q.coords.as_slice());
     let case = |(o, l): &(UnitQuaternion<f64>, Option<Wrench>)| {
         let load = l.map_or_else(|| "none".to_owned(), |l| format!("{:?}", l.0.as_slice()));
@@ -246,16 +243,4 @@ fn manifest(args: &MapArgs, model: &kinetostat_model::Model, task: &MapTask<'_>)
         .map(|(name, text)| (name.to_owned(), text))
         .into_iter()
         .collect()
-}
-
-#[cfg(feature = "parquet")]
-fn parquet_of(fields: &Fields) -> Answer<Vec<u8>> {
-    fields.parquet().map_err(Failure::input)
-}
-
-#[cfg(not(feature = "parquet"))]
-fn parquet_of(_: &Fields) -> Answer<Vec<u8>> {
-    Err(Failure::input(
-        "--parquet: this program was built without Parquet",
-    ))
 }

@@ -1,5 +1,5 @@
 //! URDF: text to robot ([`read`]), robot to checked tree ([`tree`]), tree to platforms and paths
-//! ([`graph`]), paths to chains ([`chain`]), all of it to a model file ([`write`]).
+//! ([`graph`]), paths to chains ([`chain`]), all of it to a model file ([`mod@write`]).
 
 mod chain;
 mod close;

@@ -1,10 +1,10 @@
 //! Sections of beams by shape: area, second moments, torsion constant and shear areas.
 //!
 //! The link lies along x; widths are along y, heights along z, as in model files. Shear areas are
-//! `kappa A` with the coefficients of [Cowper1966], G. R. Cowper, "The shear coefficient in
+//! `kappa A` with the coefficients of \[Cowper1966\], G. R. Cowper, "The shear coefficient in
 //! Timoshenko's beam theory", J. Applied Mechanics 33 (1966): exact for his theory for round, tube and
 //! rectangle, for thin walls for I and box. Torsion: Saint-Venant, exact for round, tube and rectangle;
-//! the box by Bredt's formula [Roark], walls thin; the I as the sum of its plates (within about 10 %,
+//! the box by Bredt's formula \[Roark\], walls thin; the I as the sum of its plates (within about 10 %,
 //! fillets add to it; warping is not counted).
 
 use std::f64::consts::PI;
@@ -368,12 +368,12 @@ fn six(sizes: &[(&'static str, f64)]) -> [(&'static str, f64); 6] {
     std::array::from_fn(|i| sizes[i.min(sizes.len() - 1)])
 }
 
-/// [Cowper1966], rectangle.
+/// \[Cowper1966\], rectangle.
 fn rectangle_kappa(nu: f64) -> f64 {
     10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)
 }
 
-/// [Cowper1966], thin-walled I and box: `m` flanges over web(s), `flanges` the terms with `n`.
+/// \[Cowper1966\], thin-walled I and box: `m` flanges over web(s), `flanges` the terms with `n`.
 fn thin_walled_kappa(nu: f64, m: f64, flanges: f64) -> f64 {
     let (m2, m3) = (m * m, m * m * m);
     let web =

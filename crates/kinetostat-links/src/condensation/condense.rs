@@ -2,7 +2,7 @@
 //!
 //! The nodes of the interface are tied to a rigid body (a rigid spider, RBE2) whose point is the link's end;
 //! the nodes of the other interface are fixed; everything else follows without load (static
-//! condensation [Guyan1965]): `K = G^T K_bb G - (K_ib G)^T K_ii^-1 (K_ib G)`, `G` the spider.
+//! condensation \[Guyan1965\]): `K = G^T K_bb G - (K_ib G)^T K_ii^-1 (K_ib G)`, `G` the spider.
 //!
 //! An averaged interface (RBE3) may warp: its motion is the rigid one that fits the displacements of its
 //! nodes best, `A u` with `A = (G^T G)^-1 G^T`, and a load of the end acts on the nodes as `A^T w`, so

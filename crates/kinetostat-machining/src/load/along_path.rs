@@ -12,7 +12,7 @@
 //! over 0.05 mm before and behind; that direction stays fixed in the part, and so turns with a table, however the turn is divided into
 //! blocks. Where the path turns back there it has no direction, and the axial force alone acts. At a gentle corner the load turns
 //! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
-//! while the written program steps there is a matter of reading ([`CornerLoad`]).
+//! while the written program steps there is a matter of reading ([`crate::load::law::CornerLoad`]).
 
 use std::borrow::Cow;
 

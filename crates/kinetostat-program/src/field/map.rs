@@ -9,7 +9,7 @@ use crate::field::correction::Correction;
 use crate::field::request::{CorrectionField, Course, FieldFailure, Request, Structure};
 use crate::path::moves::Move;
 
-/// Columns of the table, in the order of [`CorrectionMap::from_nodes`].
+/// Columns of the table: where a node is, and its correction.
 const COLUMNS: [&str; 6] = ["x_mm", "y_mm", "z_mm", "dx_mm", "dy_mm", "dz_mm"];
 
 /// Points this far outside the grid still count as on its border: the rounding of programs, in mm.

@@ -12,7 +12,7 @@ pub(crate) struct ResidualNorms {
     pub torque: f64,
     /// What torques are measured against.
     pub loads: f64,
-    /// The part of `torque` that is rounding, see [`rounding`].
+    /// The part of `torque` that is rounding, see [`crate::chain::system::rounding`].
     pub rounding: f64,
 }
 

@@ -98,7 +98,7 @@ impl System {
     }
 
     /// A chain on a base that does not move: with sweeps where it is long enough and a sequence of
-    /// stages. `scales` are those of [`scales_of`]; `method` overrides the choice, for comparisons.
+    /// stages. `scales` are those of [`crate::chain::scaling::scales_of`]; `method` overrides the choice, for comparisons.
     pub fn of_chain(
         chain: &Chain,
         base: &Pose,

@@ -172,7 +172,7 @@ impl Stretch {
         0.02 * angle * angle * varies.fold(0.0, larger)
     }
 
-    /// Remembers what was found inside, for [`merge`].
+    /// Remembers what was found inside, for [`crate::writing::merge::merge`].
     pub fn accepted(&self, accepted: &mut Vec<Accepted>) {
         if self.entire {
             return;

@@ -1,7 +1,7 @@
 //! Arcs, or straight pieces, in place of the stretches of a move: as few as follow the corrected curve.
 //!
 //! Knows: the corrected curve of one move ([`crate::writing::corrected_curve`]) and the tolerances. Takes a stretch without a jump
-//! ([`fit::Span`]), gives its pieces ([`fit::FittedPiece`]).
+//! ([`stretch::Span`]), gives its pieces ([`stretch::FittedPiece`]).
 //!
 //! Where a correction varies, the corrected curve of an arc is nearly an arc. A stretch of it is taken for one arc about an axis
 //! of the same direction, that rises evenly and passes through both ends in its plane ([`circle`]): the centre is where the squares

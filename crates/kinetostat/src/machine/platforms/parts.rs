@@ -15,8 +15,8 @@ pub(crate) enum Unknowns {
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
     Target(Directions),
-    /// The tool is held where [`PlatformSolver::guide`] says, and the wrenches that hold it there
-    /// follow: a part of [`PlatformSolver::wrench`]. Everything else moves.
+    /// The tool is held where [`crate::machine::platforms::solver::PlatformSolver::guide`] says, and the wrenches that hold it there
+    /// follow: a part of [`crate::machine::platforms::solver::PlatformSolver::wrench`]. Everything else moves.
     Guided,
 }
 
