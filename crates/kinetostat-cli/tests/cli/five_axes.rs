@@ -256,17 +256,30 @@ fn the_pole_itself_is_said_to_be_the_reason() {
         );
         let said = run(here, &words(&line));
         let text = format!("{} {}", said.out, said.err);
-        (said.code, text.split_whitespace().collect::<Vec<_>>().join(" "))
+        (
+            said.code,
+            text.split_whitespace().collect::<Vec<_>>().join(" "),
+        )
     };
     // Through the pole, and far enough beside it.
     for passes in ["0", "0.00000100"] {
         let (code, text) = said(passes);
-        assert!(code == 0 && text.contains("it stays within"), "{passes}: {text}");
+        assert!(
+            code == 0 && text.contains("it stays within"),
+            "{passes}: {text}"
+        );
     }
     let (code, text) = said("0.00000020");
-    assert!(code == 1 && text.contains("line 6: directions of the tool pass the pole of its rotary axes"), "{text}");
+    assert!(
+        code == 1
+            && text.contains("line 6: directions of the tool pass the pole of its rotary axes"),
+        "{text}"
+    );
     let (code, text) = said("0.00000005");
     assert_eq!(code, 3, "{text}");
     assert!(text.contains("THE TOLERANCE IS MISSED at line 6"), "{text}");
-    assert!(text.contains("directions lead the tool past the pole of its rotary axes, here at"), "{text}");
+    assert!(
+        text.contains("directions lead the tool past the pole of its rotary axes, here at"),
+        "{text}"
+    );
 }
