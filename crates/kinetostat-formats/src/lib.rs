@@ -75,6 +75,7 @@ pub use heidenhain::expand::flat::expand_heidenhain;
 pub use heidenhain::reading::reader::read_heidenhain;
 pub use heidenhain::table::HEIDENHAIN_STATEMENTS;
 pub use krl::reader::read_krl;
+pub use krl::system_frames::{KRL_CONFIG, krl_frames_of_config, krl_needs_config};
 pub use krl::table::KRL_STATEMENTS;
 pub use language::{endings_of, language_of, odd_program};
 pub use ls::reader::read_ls;

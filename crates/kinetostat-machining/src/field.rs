@@ -1,6 +1,7 @@
 //! The model as a field of corrections for the program writer.
 
 use kinetostat::batch::AlongPath;
+use kinetostat::number::larger;
 use kinetostat::{Directions, Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{
     Correction, CorrectionField, Course, FieldFailure, Move, Request, RotaryTurn, Structure,
@@ -261,8 +262,9 @@ impl ModelField<'_> {
         let turns = rotary
             .axes
             .gradual_turns(&programmed, &path.tool_axis, &turns);
+        let kept = kept_beside_pole(rotary, &programmed, &turns);
         for (angle, (own, turn)) in angles.iter_mut().zip(programmed.iter().zip(&turns)) {
-            *angle = own + turn;
+            *angle = own + kept * turn;
         }
         let (_, _, shift_mm) = commanded(&angles)?;
         let turn = rotary.axes.tool(&angles) * rotary.axes.tool(&programmed).inverse();
@@ -270,6 +272,26 @@ impl ModelField<'_> {
             shift_mm,
             turn: turn.scaled_axis(),
         })
+    }
+}
+
+/// Farther from the pole than so many times what the axes turn by, all of it is kept; nearer than so many times, nothing.
+const KEPT: [f64; 2] = [20.0, 4.0];
+
+/// How much of a turn of the axes is kept where directions lead the tool past a pole: with another sign of its tilt the written way would
+/// pass the pole on the other side, and the axis that turns about it would turn the other way round.
+fn kept_beside_pole(rotary: &RotaryTurn, programmed: &[f64], turns_deg: &[f64]) -> f64 {
+    let from_pole = rotary.axes.from_pole_rad(programmed);
+    let Some(from_pole) = from_pole.filter(|_| rotary.great_circle.is_some()) else {
+        return 1.0;
+    };
+    let turn = turns_deg.iter().map(|turn| turn.to_radians().abs());
+    let turn = turn.fold(0.0, larger);
+    let [all, nothing] = KEPT.map(|times| times * turn);
+    match from_pole {
+        _ if from_pole >= all => 1.0,
+        _ if from_pole <= nothing => 0.0,
+        _ => (from_pole - nothing) / (all - nothing),
     }
 }
 

@@ -124,6 +124,7 @@ pub(crate) fn for_run(
         parquet: None,
         divided,
         before: None,
+        system_frames: None,
         reading: Reading::new(),
     });
     let target = setting.targets.flat.take();

@@ -17,7 +17,7 @@ use crate::job::file_endings::{Written, refuse_other_ending};
 use crate::job::output_paths::FLAT_PROGRAM;
 use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
-use crate::job::robot::flat::flat_text;
+use crate::job::robot::flat::{flat_text, notes_of};
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::settings as robot_settings;
 use crate::job::robot::source::RobotSource;
@@ -84,6 +84,7 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
         parquet: None,
         divided: None,
         before: None,
+        system_frames: None,
         reading: Reading::new(),
         settings: robot_settings(None, &RobotArgs::default(), (language, Vector3::z()))?,
     };
@@ -100,13 +101,17 @@ fn of_control(args: &ExpandArgs, language: Language, bytes: Vec<u8>) -> Answer<(
     let index = outputs.claim(FLAT_PROGRAM, out)?;
     outputs.fill(index, text.file.bytes())?;
     let paths = outputs.commit()?;
-    let said = wrapped(
+    let mut said = wrapped(
         &match text.changed {
             true => format!("{}.", flat.description()),
             false => "Nothing was to be written flat: the program is as it was.".to_owned(),
         },
         0,
     );
+    for note in notes_of(&text) {
+        let found = format!("line {}: {}", note.line, note.text);
+        said.push_str(&item(&flat.with_sources(&found)));
+    }
     print_bytes((said + &written(&paths)).as_bytes())
 }
 

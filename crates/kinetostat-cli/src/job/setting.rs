@@ -20,12 +20,13 @@ use crate::job::limits::limits;
 use crate::job::output_paths::{Form, OutputPaths, beside_program, flat_beside, output_paths};
 use crate::job::reading::reading;
 use crate::job::robot::called_files::with_called_files;
-use crate::job::robot::flat::flat_text;
+use crate::job::robot::flat::{flat_text, notes_of};
 use crate::job::robot::frames::RobotFrames;
 use crate::job::robot::parts::join_parts;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::read_program::read_robot;
 use crate::job::robot::source::{BeforeFlat, RobotSource, robot_source};
+use crate::job::robot::system_frames::with_system_frames;
 use crate::job::robot_arguments::CorrectWord;
 use crate::job::turn_arguments::FreeTurnWord;
 use crate::job::uncertain::{Uncertainty, uncertainty};
@@ -233,7 +234,7 @@ pub(crate) fn setting(
     let robot = robot_source(files, job, flags, named)?;
     // Where faults of a job are looked for, what its program holds is none of them.
     let expand = expand.filter(|_| !job.is_some_and(|j| j.is_searched));
-    let mut robot_flat = None;
+    let (mut robot_flat, mut notes_of_run) = (None, Vec::new());
     let robot = robot.map(|(mut source, read)| -> Answer<RobotSource> {
         program_files.extend(read);
         inputs.extend(source.paths.iter().cloned());
@@ -243,6 +244,7 @@ pub(crate) fn setting(
                 inputs.push(path);
             }
             let (text, flat) = flat_text(&source, expand.comments_asked)?;
+            notes_of_run = notes_of(&text);
             robot_flat = Some((text.file.bytes().to_vec(), flat));
             source.before = Some(BeforeFlat {
                 files: std::mem::replace(&mut source.files, vec![text.file]),
@@ -261,6 +263,11 @@ pub(crate) fn setting(
             }
             robot_flat = Some((program_of(&source), joined.flat));
         }
+        // The last of its files: it is read, and not written.
+        if let Some((path, read)) = with_system_frames(&mut source, &path)? {
+            program_files.push(read);
+            inputs.push(path);
+        }
         if let Some(out) = &targets.program {
             let further = further.iter();
             targets.beside = further
@@ -270,7 +277,7 @@ pub(crate) fn setting(
         Ok(source)
     });
     let robot = robot.transpose()?;
-    let mut expansion_warnings = Vec::new();
+    let mut expansion_warnings = notes_of_run;
     let (program, flat) = match (robot_flat, expand) {
         (Some((program, flat)), _) => (program, Some(flat)),
         (None, Some(expand)) => {

@@ -207,3 +207,79 @@ fn directions_near_a_pole_are_corrected_within_the_tolerance() {
     let tilt = number("max_residual_rotation_deg");
     assert!(tilt > 0.0 && tilt < 1e-3, "{tilt}");
 }
+
+/// The tool passes the pole at a few hundredths of a degree and the table turns by more than a right angle beside it: within half a degree of
+/// the way the check took the other angles of the same direction, and the tolerance was missed by a hundred times. The second program passes
+/// nearer than the correction tilts the tool: the written way passed the pole on the other side.
+#[test]
+fn a_table_that_turns_beside_the_pole_is_followed() {
+    let here = place();
+    let here = here.path();
+    let begun = "G21 G90 G94\nG0 A0 C0\nG0 X60 Y0 Z50\nG43.5 H1 Z50 P1\n";
+    for cut in [
+        "G1 X60 Y0 Z0 I0.00054084 J-0.00112586 K0.99999922 F600\nX57.3533 Y2.4836 Z0 I0.01451504 J0.06436296 K0.99782099\n\
+        X54.5019 Y0.0288 Z0 I-0.00287471 J-0.00095501 K0.99999541\nX50.9797 Y1.9924 Z0 I-0.05351515 J-0.05743886 K0.99691369\n",
+        "G1 X60 Y0 Z0 I0.00019314 J0.00112747 K0.99999935 F600\nX73.5051 Y-1.7609 Z0 I0.00140568 J0.00014401 K0.99999900\n\
+        X91.9149 Y-14.6317 Z0 I-0.00952311 J-0.00092286 K0.99995423\n",
+    ] {
+        std::fs::write(
+            here.join("beside.nc"),
+            format!("{begun}{cut}G0 Z50\nG49\nM30\n"),
+        )
+        .unwrap();
+        let line = format!(
+            "compensate --program beside.nc {MACHINE} --correct pose --out out.nc --json out.json --force-overwrite"
+        );
+        run(here, &words(&line)).answered();
+        let json: serde_json::Value = serde_json::from_str(&read(here, "out.json")).unwrap();
+        assert_eq!(json["tolerance"]["held"], serde_json::json!(true));
+        let number = |key: &str| json["summary"][key].as_f64().unwrap();
+        let after = number("max_position_error_after_mm");
+        assert!(after > 0.0 && after < 5.8e-4, "{after}");
+    }
+}
+
+/// Less than a millionth of a radian beside the pole the digits of directions decide on which side the tool passes: the line is named, with
+/// what is nearest.
+#[test]
+fn the_pole_itself_is_said_to_be_the_reason() {
+    let here = place();
+    let here = here.path();
+    let said = |beside: &str| {
+        let program = format!(
+            "G21 G90 G94\nG0 A0 C0\nG0 X60 Y0 Z50\nG43.5 H1 Z50 P1\nG1 X60 Y0 Z0 I-0.02 J{beside} K0.9998 F600\n\
+             X70 Y3 Z0 I0.03 J{beside} K0.99955\nX75 Y9 Z0 I0.01 J0.02 K0.99975\nG0 Z50\nG49\nM30\n"
+        );
+        std::fs::write(here.join("at.nc"), program).unwrap();
+        let line = format!(
+            "compensate --program at.nc {MACHINE} --correct pose --limit blocks_per_second=100000 --out at-out.nc --force-overwrite"
+        );
+        let said = run(here, &words(&line));
+        let text = format!("{} {}", said.out, said.err);
+        (
+            said.code,
+            text.split_whitespace().collect::<Vec<_>>().join(" "),
+        )
+    };
+    // Through the pole, and far enough beside it.
+    for passes in ["0", "0.00000100"] {
+        let (code, text) = said(passes);
+        assert!(
+            code == 0 && text.contains("it stays within"),
+            "{passes}: {text}"
+        );
+    }
+    let (code, text) = said("0.00000020");
+    assert!(
+        code == 1
+            && text.contains("line 6: directions of the tool pass the pole of its rotary axes"),
+        "{text}"
+    );
+    let (code, text) = said("0.00000005");
+    assert_eq!(code, 3, "{text}");
+    assert!(text.contains("THE TOLERANCE IS MISSED at line 6"), "{text}");
+    assert!(
+        text.contains("directions lead the tool past the pole of its rotary axes, here at"),
+        "{text}"
+    );
+}

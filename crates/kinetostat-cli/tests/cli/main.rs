@@ -41,6 +41,7 @@ mod import_link;
 mod jobs;
 mod joint_tables;
 mod joints_written;
+mod krl_config;
 mod large_files;
 mod library;
 mod loads_that_swing;

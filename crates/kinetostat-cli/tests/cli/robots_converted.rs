@@ -71,8 +71,8 @@ fn calls_of_what_is_not_there_are_named_by_line() {
     let said = run(here, &words("convert part.src --to rapid --out a.mod")).answered();
     let said = flat(&said.out);
     for part in [
-        "line 10: `SUB1` is in none of these files: it is a note here, and if it moves the tool, that is not seen (lines 10, 12)",
-        "line 11: `SUB2` is in none of these files: it is a note here, and if it moves the tool, that is not seen",
+        "line 10: `SUB1` is in none of these files: it is a note here, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen (lines 10, 12)",
+        "line 11: `SUB2` is in none of these files: it is a note here, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen",
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }

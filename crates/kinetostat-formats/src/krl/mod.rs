@@ -1,7 +1,7 @@
 //! KUKA KRL: programs and data lists read together, and what the writer must know of the language.
 //!
 //! From lines of tokens ([`lex`]) to blocks ([`parser`], [`tree`]), to names and what they are worth ([`symbols`], [`usage`],
-//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`moving_settings`], [`touched`]),
+//! [`aggregate`], [`values`], [`frames`], [`role`], [`assigned_frames`], [`system_frames`]), to what is in force ([`state`], [`settings`], [`turning`], [`moving_settings`], [`touched`]),
 //! to motions ([`motion`], [`targets`], [`steps`], [`kept`], [`behind_ends`], [`speed_place`], [`with_list`]) in the order in which they run ([`walking`], [`calls`],
 //! [`resolve`], [`unsettled`]). [`loads`] reads what tools weigh, [`folds`] compares what the pendant shows with what runs, and [`writing`] writes.
 //!
@@ -28,6 +28,7 @@ pub(crate) mod speed_place;
 pub(crate) mod state;
 pub(crate) mod steps;
 pub(crate) mod symbols;
+pub(crate) mod system_frames;
 pub(crate) mod table;
 pub(crate) mod targets;
 pub(crate) mod touched;

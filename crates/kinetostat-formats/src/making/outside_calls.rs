@@ -9,7 +9,7 @@ use crate::model::program::RobotProgram;
 /// Each name once, with its lines.
 pub(crate) fn outside_calls(program: &RobotProgram, file: usize) -> Vec<MakeFinding> {
     let all = by_name(&program.outside_calls).into_iter().map(|of| {
-        let message = of.message("it is a note here");
+        let message = of.message(program.language, "it is a note here");
         let other = program.files.get(of.file).filter(|_| of.file != file);
         match other {
             Some(other) => {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::model::frame::Frame;
 use crate::model::motion::{Motion, MotionKind};
 use crate::model::outside_call::{OutsideCall, by_name};
-use crate::model::program::Finding;
+use crate::model::program::{Finding, Language};
 use crate::model::target::Target;
 
 /// Motions that stay as they are written because their ends are not known, each reason once.
@@ -56,11 +56,11 @@ pub(crate) fn unknown_frames(motions: &[Motion]) -> Vec<Finding> {
 }
 
 /// What is called and none of the files holds, each name once with its lines.
-pub(crate) fn outside_calls(calls: &[OutsideCall]) -> Vec<Finding> {
+pub(crate) fn outside_calls(language: Language, calls: &[OutsideCall]) -> Vec<Finding> {
     let all = by_name(calls).into_iter().map(|of| Finding {
         file: of.file,
         line: of.line(),
-        message: of.message("it is carried"),
+        message: of.message(language, "it is carried"),
     });
     all.collect()
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::model::program::Language;
 use crate::text::line_words::in_words;
 
 /// A call of what is in none of the files.
@@ -53,7 +54,7 @@ impl CallsOfOne<'_> {
     }
 
     /// What is said of them, with what becomes of them: `it is carried`.
-    pub(crate) fn message(&self, becomes: &str) -> String {
+    pub(crate) fn message(&self, language: Language, becomes: &str) -> String {
         let what = match self.name {
             Some(name) => format!("`{name}` is in none of these files"),
             None => "what is called is computed".to_owned(),
@@ -62,6 +63,22 @@ impl CallsOfOne<'_> {
             1 => String::new(),
             _ => format!(" ({})", in_words(&self.lines)),
         };
-        format!("{what}: {becomes}, and if it moves the tool, that is not seen{all}")
+        format!(
+            "{what}: {becomes}, and if it moves the tool{}, that is not seen{all}",
+            modes_of(language)
+        )
+    }
+}
+
+/// What else it may do: statements that stay in force behind it, of which no motion behind it says anything.
+fn modes_of(language: Language) -> &'static str {
+    match language {
+        Language::Rapid => {
+            ", or states how motions behind it go (`CirPathMode`, `SingArea`, `ConfL`, `ConfJ`, `AccSet`, `VelSet`)"
+        }
+        Language::Krl => {
+            ", or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
+        }
+        _ => "",
     }
 }

@@ -71,7 +71,7 @@ impl Parsed {
         }
         sort_faults(&mut faults, &files);
         faults.dedup();
-        findings.extend(named_calls(&outside_calls));
+        findings.extend(named_calls(language, &outside_calls));
         findings.extend(unknown_frames(&motions));
         findings.extend(left_as_written(&motions));
         findings.sort_by_key(|finding| (finding.file, finding.line));

@@ -10,7 +10,7 @@ use crate::model::motion::{Motion, MotionKind};
 use crate::model::program::RobotProgram;
 use crate::model::site::TurnsOtherwise;
 use crate::path::of_program::RobotPath;
-use crate::path::turning_faults::TURN_RAD;
+use crate::path::turning_faults::not_evenly;
 use crate::text::line_words::in_words;
 use crate::writing::divided::SAME_RAD;
 
@@ -81,15 +81,8 @@ fn lost(
         }
         from = to;
     }
-    let is_none = turn < TURN_RAD;
-    (!is_none).then(|| {
-        let reason = format!(
-            "the correction turns the tool by {:.4} deg on its way, and {}",
-            turn.to_degrees(),
-            otherwise.reason
-        );
-        (motion.line, reason, otherwise.remedy)
-    })
+    let reason = not_evenly("the correction turns the tool", turn, otherwise)?;
+    Some((motion.line, reason, otherwise.remedy))
 }
 
 /// Whether a circle is written as circles.

@@ -39,8 +39,10 @@ impl Walker<'_, '_> {
 
     /// What runs where something went wrong in a body, of which the motions are given, and how many modes were stated before it.
     pub(super) fn handlers(&mut self, handlers: &[Statement], body: Range<usize>, stated: usize) {
-        let (behind, anywhere) = (self.now.modes, self.anywhere);
-        let in_body = self.modes_stated;
+        let (behind, in_body) = (self.now.modes, self.modes_stated);
+        // It may have gone wrong before anything of the body was in force.
+        let (entry, _) = self.modes_at_entry[self.now.routine];
+        let anywhere = self.anywhere.met(entry);
         self.now.modes = behind.met(anywhere);
         self.block(handlers, Place::Unknown);
         // RETRY and TRYNEXT lead back into the body.
@@ -54,6 +56,22 @@ impl Walker<'_, '_> {
             true => behind,
             false => behind.met(anywhere),
         };
+    }
+
+    /// Behind a call, where the routine that calls handles errors: what was called may have been left anywhere in it, with what was in
+    /// force there. TRYNEXT goes on behind the call, and RETRY calls again.
+    ///
+    /// Source: ABB, RAPID Reference Manual, Basic Characteristics, Error recovery: an error goes to the handler of the routine in which it
+    /// occurred, and from one without a handler to that which called it, at the point of the call; RETRY runs the statement again in
+    /// which the error occurred, TRYNEXT the one behind it, RETURN goes on behind the call of the routine.
+    pub(super) fn left_by_error(&mut self, before: Modes, called: usize) {
+        let routine = self.values.symbols.routines[self.now.routine].routine;
+        if !routine.handlers.is_empty() && self.states_modes[called] {
+            let met = self.now.modes.met(before).met(self.anywhere);
+            self.now.modes = met;
+            self.modes_of_another_call(called);
+            self.now.modes = self.now.modes.met(met);
+        }
     }
 
     /// A loop begins.

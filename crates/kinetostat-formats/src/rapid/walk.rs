@@ -74,6 +74,7 @@ pub(crate) fn walk(
         modes: Vec::new(),
         anywhere,
         modes_stated: 0,
+        states_modes: vec![true; count],
         moment: 0,
         active: Vec::new(),
         called_again: 0,
@@ -105,6 +106,7 @@ impl Walker<'_, '_> {
         self.active.push(index);
         self.modes_at_entry[index] = (self.now.modes, self.next_moment());
         let (before, stated) = (self.motions.len(), self.modes_stated);
+        let called_again = self.called_again;
         if home.routine.jumps {
             self.now.runs = Runs::Repeatedly;
         }
@@ -134,6 +136,7 @@ impl Walker<'_, '_> {
         self.summaries[index].leaves = Some(place);
         self.finished.push(index);
         self.jumps = outer_jumps;
+        self.states_modes[index] = self.modes_stated > stated || self.called_again > called_again;
         let modes = self.now.modes;
         self.modes_behind[index] = modes;
         self.now = Now { modes, ..outer };
@@ -293,6 +296,7 @@ impl Walker<'_, '_> {
             // It was walked with what held at its first call, and may change what holds.
             self.modes_of_another_call(called);
         }
+        self.left_by_error(now.modes, called);
         let summary = &mut self.summaries[called];
         match summary.leaves {
             Some(Place::Entry) => place,

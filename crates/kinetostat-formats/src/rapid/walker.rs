@@ -62,6 +62,8 @@ pub(super) struct Walker<'w, 'p> {
     pub anywhere: Modes,
     /// How many statements of modes were walked.
     pub modes_stated: usize,
+    /// By routine, whether it, or what it calls, states modes; what is not walked to its end may.
+    pub states_modes: Vec<bool>,
     /// The last one.
     pub moment: Moment,
     /// The routines that are walked, each called by the one before it.

@@ -153,7 +153,9 @@ impl Reader<'_> {
             return self.rotary_word(item, (place, how), value, words);
         }
         match name {
-            "G" | "N" => {}
+            "G" => {}
+            "N" => self.not_below_zero(item, value, "the number of the block"),
+            "LIMS" => self.not_below_zero(item, value, "the largest speed of the spindle"),
             "M" => self.m_word(item, value, words),
             "F" => {
                 let number = matches!(value, Expression::Number(_)).then(|| span.clone());

@@ -1,9 +1,10 @@
 //! Steps (G91, IC) behind a frame: whether the machine goes the offset of the frame with them, is a setting.
 //!
-//! Source: Siemens, SINUMERIK 840D sl / 828D, programming manual, fundamentals, "Incremental dimensions (G91, IC)": with SD42440
-//! $SC_FRAME_OFFSET_INCR_PROG = 0 the first step of an axis behind a frame change is gone alone; with 1 the offset of the frame as well.
-//! Controls come with 1 (Siemens, list manual, setting data; CEAD's open interpreter of SINUMERIK programs takes it so, too), and so it is
-//! taken here: a step adds to the number of its axis. Of frames that are turned the manuals say nothing, and neither is said here.
+//! With SD42440 $SC_FRAME_OFFSET_INCR_PROG = 0 the first step of an axis behind a frame change is gone alone; with 1 the offset of the frame
+//! as well. That controls come with 1, and so it is taken here: a step adds to the number of its axis. Siemens' manuals (programming manual
+//! "Fundamentals", G91 and IC; list manual, setting data) were not at hand. The source is published code: CEAD's open interpreter of
+//! SINUMERIK programs, which quotes the setting's name, its factory default TRUE and "changes to work offsets are traversed after a frame
+//! change". Of frames that are turned it says nothing, and neither is said here.
 
 use crate::model::program::Finding;
 use crate::siemens::state::Counted;
@@ -89,7 +90,7 @@ pub(crate) fn finding_of_steps(file: usize, lines: &[usize]) -> Option<Finding> 
         file,
         line: first,
         message: format!(
-            "a step (G91, IC) is the first word of its axis behind a frame (TRANS, ATRANS, ROT, AROT), and how far the machine goes is a setting, SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 1 it goes the step and the offset of the frame: controls come with it, and this is what is taken here. With 0 it goes the step alone: then all places from here to the next absolute one are elsewhere by that offset. Check the setting, or write an absolute place behind the frame{further}"
+            "a step (G91, IC) is the first word of its axis behind a frame (TRANS, ATRANS, ROT, AROT), and how far the machine goes is a setting, SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 1 it goes the step and the offset of the frame: controls come with it as far as is known here, and it is what is taken. With 0 it goes the step alone: then all places from here to the next absolute one are elsewhere by that offset. Check the setting, or write an absolute place behind the frame{further}"
         ),
     })
 }

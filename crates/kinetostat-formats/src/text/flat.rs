@@ -1,5 +1,6 @@
 //! A program run once and written flat, with where each of its lines is from.
 
+use crate::model::program::Finding;
 use crate::text::source::SourceFile;
 
 /// A program that was run once and written flat.
@@ -21,4 +22,6 @@ pub struct FlatText {
     pub origins: Vec<(usize, usize)>,
     /// Whether anything was to be flattened; without, the bytes are those of the first file.
     pub changed: bool,
+    /// What was taken where the source is not certain, by file and line of the program as given.
+    pub findings: Vec<Finding>,
 }

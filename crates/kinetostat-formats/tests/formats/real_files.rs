@@ -230,7 +230,7 @@ const READ_APT: [(&str, usize); 6] = [
 const REFUSED_APT: [(&str, &str); 3] = [
     ("DEMO3.txt", "it turns the table or the head"),
     ("DEMO4.txt", "the word is not known"),
-    ("rybakov25__test.apt", "the word is not known"),
+    ("PostProcessor_test.apt", "the word is not known"),
 ];
 
 /// Reads the programs of a folder as they are and with all stated; what is read comes back byte for byte, and with all

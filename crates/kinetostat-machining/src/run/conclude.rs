@@ -97,7 +97,13 @@ pub(crate) fn conclude(
         joints,
         points: Vec::new(),
     };
-    result.tolerance = tolerance(&result, &points, written.as_ref(), &checked.ramps.too_fast);
+    result.tolerance = tolerance(
+        &result,
+        &points,
+        written.as_ref(),
+        &checked.ramps.too_fast,
+        task.path(),
+    );
     result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
         .into_iter()
         .map(|i| points[i].clone())

@@ -1,7 +1,7 @@
 //! How a written program stands to its tolerance, and where and why it is farthest off.
 
-use kinetostat::number::largest_length;
-use kinetostat_program::Corrected;
+use kinetostat::number::{largest_length, short};
+use kinetostat_program::{Corrected, Path};
 
 use crate::load::ramp_findings::TooFast;
 use crate::result::point::{PointKind, PointResult, size};
@@ -14,6 +14,7 @@ pub(crate) fn tolerance(
     points: &[PointResult],
     written: Option<&Corrected>,
     too_fast: &[TooFast],
+    path: &Path,
 ) -> ToleranceResult {
     let allowed_mm = result.allowed_mm();
     let held = result.holds_tolerance();
@@ -27,6 +28,8 @@ pub(crate) fn tolerance(
         let a = &written.accounting;
         let reason = if a.left_out_mm > 0.5 * error(p) {
             left_out(a)
+        } else if let Some(at_pole) = near_pole(path, p, AT_POLE_RAD) {
+            at_pole
         } else if p.kind == PointKind::Corner {
             "the tool is at rest at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
         } else if p.kind == PointKind::Entry && points.first().is_some_and(|first| first.line == p.line) {
@@ -42,6 +45,8 @@ pub(crate) fn tolerance(
             )
         } else if too_fast.iter().any(|found| found.off_mm > 0.5 * error(p)) {
             "the force changes faster there than the correction may follow; enter the cut more softly, or allow a larger step (largest_step_mm_per_mm)".to_owned()
+        } else if let Some(near) = near_pole(path, p, NEAR_POLE_RAD) {
+            near
         } else {
             "the correction bends more between the ends of the written pieces than was expected, also where they were divided again; tighten the tolerance of the path".to_owned()
         };
@@ -52,4 +57,30 @@ pub(crate) fn tolerance(
         held,
         missed,
     }
+}
+
+/// Nearer to the pole than this, the axis that turns about it turns more than ten times as far as the tool.
+const NEAR_POLE_RAD: f64 = 0.1;
+
+/// Nearer than this it is the reason, whatever else there is: at a corner the program turns nothing.
+const AT_POLE_RAD: f64 = 1e-4;
+
+/// That directions lead the tool past the pole of its rotary axes at a place, how far from it, and what can be done.
+fn near_pole(path: &Path, point: &PointResult, within_rad: f64) -> Option<String> {
+    let turn = path.moves.get(point.move_index)?.tool_turn.as_ref()?;
+    let rotary = turn.rotary.as_ref()?;
+    let angles = rotary.angles_deg(point.share);
+    let from_pole = rotary.axes.from_pole_rad(&angles)?;
+    let is_near = rotary.great_circle.is_some() && from_pole < within_rad;
+    is_near.then(|| {
+        let axes = rotary.axes.axes.iter().zip(angles);
+        let stand: Vec<String> = axes
+            .map(|(axis, angle)| format!("{}{angle:.3}", axis.letter))
+            .collect();
+        format!(
+            "directions lead the tool past the pole of its rotary axes, here at {} deg ({}), where they turn fast, and between the ends of pieces not as in the block; let the CAM system keep the tool farther from the pole there, write angles of the axes, or widen the tolerance of the path",
+            short(from_pole.to_degrees()),
+            stand.join(" ")
+        )
+    })
 }

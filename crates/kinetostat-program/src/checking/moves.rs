@@ -1,5 +1,7 @@
 //! The geometry, feeds and further axes of a written program, against the input's path.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
@@ -7,7 +9,7 @@ use crate::irregular::irregular;
 use crate::number::larger;
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
-use crate::path::rotary_turn::StatedBy;
+use crate::path::rotary_turn::{RotaryTurn, StatedBy};
 use crate::writing::written::Piece;
 
 use crate::checking::verifier::{Verifier, fail};
@@ -330,6 +332,10 @@ impl Verifier<'_> {
         let written = self.rotary_deg.get(index).filter(|list| !list.is_empty());
         let wanted = written.map_or_else(|| at(&own.angles_deg(piece.share_to)), |list| at(list));
         let off = (at(&again.end_deg) - wanted).norm();
+        if own.great_circle.is_some() {
+            let stand = written.map_or_else(|| own.angles_deg(piece.share_to), Clone::clone);
+            same_angles(motion, &own, (&again.end_deg, &stand))?;
+        }
         let before = index.checked_sub(1).and_then(tilt);
         let tilted = before.unwrap_or(0.0) + tilt(index).unwrap_or(0.0);
         let between = [0.25, 0.5, 0.75].map(|part| {
@@ -390,6 +396,41 @@ impl Verifier<'_> {
             }
         }
         Ok(letters)
+    }
+}
+
+/// Largest angle of an axis on a great circle from where it was written, deg, beside what the digits of directions leave.
+const SAME_ON_CIRCLE_DEG: f64 = 0.1;
+
+/// What the digits of a direction leave of it, rad.
+const DIGITS_RAD: f64 = 4e-8;
+
+/// Nearer to the pole directions say nothing of one axis, rad.
+const AT_POLE_RAD: f64 = 1e-6;
+
+/// Directions on a great circle lead the axes to the angles for which the pieces were corrected, not to others of the same direction.
+fn same_angles(
+    motion: &Move,
+    own: &RotaryTurn,
+    (read, written): (&[f64], &[f64]),
+) -> Result<(), WriteError> {
+    let from_pole = own.axes.from_pole_rad(written).unwrap_or(FRAC_PI_2);
+    if from_pole < AT_POLE_RAD {
+        return Ok(());
+    }
+    let allowed = SAME_ON_CIRCLE_DEG + (DIGITS_RAD / from_pole).to_degrees();
+    let turned = read.iter().zip(written).map(|(a, b)| (a - b).abs());
+    let turned = turned.fold(0.0, larger);
+    match turned <= allowed {
+        true => Ok(()),
+        false => Err(WriteError::Motion {
+            line: motion.line,
+            reason: format!(
+                "directions of the tool pass the pole of its rotary axes (the tool along an axis), and with the correction an axis would come to an angle {turned:.2} deg from where the block has it, {:.4} deg from the pole",
+                from_pole.to_degrees()
+            ),
+            remedy: "let the CAM system keep the tool farther from the pole here, or write angles of the rotary axes; or correct the position alone".to_owned(),
+        }),
     }
 }
 

@@ -2,16 +2,27 @@
 //!
 //! Where a program states directions of the tool, many controllers turn it from one to the next in the plane of both (ORIVECT of
 //! SINUMERIK, tool posture control of Fanuc, PATHCTRL VECTOR of Heidenhain; what postprocessors of APT divide for). The rotary axes then
-//! do not turn evenly, and near a pole fast. Their angles are followed along the circle once, in small steps, and are found from the
-//! direction wherever they are asked for.
+//! do not turn evenly, and near a pole fast. Their angles are followed along the circle once, in steps that are the smaller the nearer
+//! the tool comes to a pole, and are found from the direction wherever they are asked for.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::number::{larger, smaller};
 use crate::path::rotary::RotaryAxes;
 use crate::path::rotary_angles::{Pointing, Unreached};
 
-/// Angle of the circle from one step to the next, deg.
+/// Largest angle of the circle from one step to the next, deg.
 const STEP_DEG: f64 = 0.5;
+
+/// Angle of the circle in a step over the area that the turns of the axes span there: so far, in rad, an axis turns in the step. Both ways
+/// to a direction are half a turn apart, and are told apart by far smaller turns.
+const TURN_IN_STEP: f64 = 0.2;
+
+/// Smallest angle of the circle in a step, rad: a tool that passes a pole nearer goes through it.
+const FINEST: f64 = 1e-6;
+
+/// Most steps of one way that are made smaller than the largest: the way of a tool passes few poles.
+const MOST_STEPS: usize = 20_000;
 
 /// Directions as opposite as this have no circle of their own.
 const OPPOSITE: f64 = 1e-6;
@@ -22,8 +33,15 @@ pub struct GreatCircle {
     from: Vector3<f64>,
     /// Rotation vector to the other direction.
     turn: Vector3<f64>,
-    /// Where the axes stand at even shares, deg.
-    guides: Vec<Vec<f64>>,
+    /// Where the axes stand, from the first share to the last.
+    guides: Vec<Guide>,
+}
+
+/// Where the axes stand at a share of the way.
+#[derive(Debug, Clone, PartialEq)]
+struct Guide {
+    share: f64,
+    angles_deg: Vec<f64>,
 }
 
 /// Why the tool's axis cannot go on a great circle.
@@ -61,7 +79,7 @@ impl GreatCircle {
     /// assert!((b.to_radians().tan() - 30_f64.to_radians().tan() / 2_f64.sqrt()).abs() < 1e-9);
     /// assert!((circle.direction_at(0.5) - Vector3::new(0.25, 0.25, half) / (0.875_f64).sqrt()).norm() < 1e-12);
     /// assert!(circle.start_deg()[0].abs() < 1e-9 && (circle.end_deg()[0] - 90.0).abs() < 1e-9);
-    /// assert!(circle.way_deg()[0] > 89.0 && circle.fastest_deg()[0] < 120.0);
+    /// assert!(circle.way_deg()[0] > 89.0 && circle.fastest_deg([0.0, 1.0])[0] < 120.0);
     /// ```
     ///
     /// # Errors
@@ -79,25 +97,35 @@ impl GreatCircle {
         let turn = across
             .try_normalize(0.0)
             .map_or_else(Vector3::zeros, |axis| axis * sine.atan2(cosine));
-        let steps = (turn.norm().to_degrees() / STEP_DEG).ceil();
-        let steps = crate::number::larger(1.0, steps) as usize;
+        let sweep = turn.norm();
         let mut circle = Self {
             from,
             turn,
-            guides: vec![from_deg.to_vec()],
+            guides: vec![Guide {
+                share: 0.0,
+                angles_deg: from_deg.to_vec(),
+            }],
         };
-        for step in 1..=steps {
-            let direction = match step == steps {
+        let (mut share, mut last) = (0.0, from_deg.to_vec());
+        while share < 1.0 {
+            let fine = match circle.guides.len() < MOST_STEPS {
+                true => TURN_IN_STEP * axes.area_of_turns(&last),
+                false => f64::INFINITY,
+            };
+            let way = smaller(larger(fine, FINEST), STEP_DEG.to_radians());
+            let is_last = (1.0 - share) * sweep <= way;
+            share = if is_last { 1.0 } else { share + way / sweep };
+            let direction = match is_last {
                 true => *to,
-                false => circle.direction_at(step as f64 / steps as f64),
+                false => circle.direction_at(share),
             };
             let off = |reason| OffCircle::Unreached(direction, reason);
             // From a pole the way leads to the angles of its end. Elsewhere the axes go on as they came: over to other angles they would
             // take the tool off its way.
-            let begins_free = step == 1 && at_pole(&axes.pointing(&from, from_deg));
+            let begins_free = circle.guides.len() == 1 && at_pole(&axes.pointing(&from, from_deg));
             let near = match begins_free {
                 true => &end,
-                false => &circle.guides[step - 1],
+                false => &last,
             };
             let Some(angles) = nearest(axes.pointing(&direction, near)) else {
                 return Err(off(Unreached::Direction));
@@ -105,12 +133,15 @@ impl GreatCircle {
             if axes.angle_outside(&angles).is_some() {
                 return Err(off(Unreached::Limits(angles)));
             }
-            circle.guides.push(angles);
             if begins_free {
-                let first = circle.guides[1].clone();
-                let begun = axes.angles_towards(&from, &first);
-                circle.guides[0] = begun.unwrap_or(first);
+                let begun = axes.angles_towards(&from, &angles);
+                circle.guides[0].angles_deg = begun.unwrap_or_else(|_| angles.clone());
             }
+            last.clone_from(&angles);
+            circle.guides.push(Guide {
+                share,
+                angles_deg: angles,
+            });
         }
         Ok(circle)
     }
@@ -124,54 +155,63 @@ impl GreatCircle {
     /// Where the axes stand at a share of the way, deg.
     #[must_use]
     pub fn angles_at(&self, axes: &RotaryAxes, share: f64) -> Vec<f64> {
-        let last = self.guides.len() - 1;
-        let place = share.clamp(0.0, 1.0) * last as f64;
-        let below = (place.floor() as usize).min(last.saturating_sub(1));
-        let part = place - below as f64;
-        let both = self.guides[below].iter().zip(&self.guides[below + 1]);
-        let between: Vec<f64> = both.map(|(a, b)| a + (b - a) * part).collect();
+        let behind = self.guides.partition_point(|guide| guide.share <= share);
+        let behind = behind.clamp(1, self.guides.len() - 1);
+        let [below, above] = [&self.guides[behind - 1], &self.guides[behind]];
+        let part = ((share - below.share) / (above.share - below.share)).clamp(0.0, 1.0);
         if part == 0.0 {
-            return self.guides[below].clone();
+            return below.angles_deg.clone();
         }
+        let both = below.angles_deg.iter().zip(&above.angles_deg);
+        let between: Vec<f64> = both.map(|(a, b)| a + (b - a) * part).collect();
         nearest(axes.pointing(&self.direction_at(share), &between)).unwrap_or(between)
     }
 
     /// Where the axes stand at the beginning, deg.
     #[must_use]
     pub fn start_deg(&self) -> &[f64] {
-        &self.guides[0]
+        &self.guides[0].angles_deg
     }
 
     /// Where the axes stand at the end, deg.
     #[must_use]
     pub fn end_deg(&self) -> &[f64] {
-        &self.guides[self.guides.len() - 1]
+        &self.guides[self.guides.len() - 1].angles_deg
     }
 
     /// How far each axis turns on the way, back and forth, deg.
     #[must_use]
     pub fn way_deg(&self) -> Vec<f64> {
-        let mut ways = vec![0.0; self.guides[0].len()];
+        let mut ways = vec![0.0; self.start_deg().len()];
         for pair in self.guides.windows(2) {
-            for (way, (a, b)) in ways.iter_mut().zip(pair[0].iter().zip(&pair[1])) {
-                *way += (b - a).abs();
+            for (way, turned) in ways.iter_mut().zip(turned(pair)) {
+                *way += turned;
             }
         }
         ways
     }
 
-    /// How far each axis would turn if it went on throughout as fast as where it is fastest, deg.
+    /// How far each axis would turn on the whole way if it went on throughout as fast as where it is fastest between two shares, deg.
     #[must_use]
-    pub fn fastest_deg(&self) -> Vec<f64> {
-        let mut ways = vec![0.0; self.guides[0].len()];
-        for pair in self.guides.windows(2) {
-            for (way, (a, b)) in ways.iter_mut().zip(pair[0].iter().zip(&pair[1])) {
-                *way = crate::number::larger(*way, (b - a).abs());
+    pub fn fastest_deg(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let mut ways = vec![0.0; self.start_deg().len()];
+        let first = self.guides.partition_point(|guide| guide.share <= from);
+        let last = self.guides.partition_point(|guide| guide.share < to);
+        let within = first.saturating_sub(1)..=last.min(self.guides.len() - 1);
+        for pair in self.guides[within].windows(2) {
+            let width = pair[1].share - pair[0].share;
+            for (way, turned) in ways.iter_mut().zip(turned(pair)) {
+                *way = larger(*way, turned / width);
             }
         }
-        let steps = (self.guides.len() - 1) as f64;
-        ways.into_iter().map(|way| way * steps).collect()
+        ways
     }
+}
+
+/// How far each axis turns from one of two places to the other, deg.
+fn turned(pair: &[Guide]) -> impl Iterator<Item = f64> {
+    let both = pair[0].angles_deg.iter().zip(&pair[1].angles_deg);
+    both.map(|(a, b)| (b - a).abs())
 }
 
 /// Whether an axis may stand anywhere.

@@ -63,10 +63,10 @@ impl Move {
         larger(self.length_mm(), self.turn_deg().to_radians() * lever_mm)
     }
 
-    /// How much the machine moves while the tool turns, over the length within which its deflection is a power series (in mm), or
+    /// How much the machine moves while the tool turns, were it to turn on the whole move as fast as between two shares, over the length within which its deflection is a power series (in mm), or
     /// over the angle within which that of a turn is one (a radian): the sum over all axes, a table with the distance of the tip
     /// from it.
-    pub(crate) fn turn_ratio(&self, radius_mm: f64) -> f64 {
+    pub(crate) fn turn_ratio(&self, radius_mm: f64, between: [f64; 2]) -> f64 {
         let Some(turn) = &self.tool_turn else {
             return 0.0;
         };
@@ -74,7 +74,7 @@ impl Move {
             return turn.start.angle_to(&turn.end);
         };
         let ways = match &rotary.great_circle {
-            Some(circle) => circle.fastest_deg(),
+            Some(circle) => circle.fastest_deg(between),
             None => rotary.ways_deg(),
         };
         let each = rotary.axes.axes.iter().zip(ways).map(|(axis, way)| {

@@ -92,6 +92,15 @@ impl<'p> Block<'p> {
                     let refused = block.note_code(&word).err();
                     fault = fault.or(refused);
                 }
+                b'N' if word.value < 0.0 => {
+                    let below = block.refuse(
+                        ProgramErrorKind::Malformed,
+                        Some(&word),
+                        &format!("N{} is no number of a block", word.value),
+                        "write it without a sign",
+                    );
+                    fault = fault.or(Some(below));
+                }
                 b'N' | b'O' => {}
                 letter => {
                     let slot = &mut block.values[usize::from(letter - b'A')];

@@ -37,6 +37,25 @@ impl ToolWords {
                 "write a whole number that is not negative, such as T2",
             ));
         }
+        // Behind G96, D is the largest speed of the spindle.
+        let of_spindle = block.codes.speed_mode == Some(960);
+        for letter in [b'D', b'H']
+            .into_iter()
+            .filter(|letter| !(of_spindle && *letter == b'D'))
+        {
+            if let (Some(word), None) = (block.word(letter), whole(letter)) {
+                let letter = char::from(letter);
+                return Err(block.refuse(
+                    ProgramErrorKind::Tool,
+                    Some(word),
+                    &format!(
+                        "{letter}{} is no number of an offset of the tool",
+                        word.value
+                    ),
+                    &format!("write a whole number that is not negative, such as {letter}2"),
+                ));
+            }
+        }
         if let Some(number) = whole(b'T') {
             self.selected = Some(number);
             push(&mut self.named, line, number);

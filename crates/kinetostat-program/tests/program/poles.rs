@@ -1,6 +1,6 @@
 //! Where directions of the tool say little of two rotary axes: closed forms of three machines.
 
-use kinetostat_program::{Carries, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
+use kinetostat_program::{Carries, GreatCircle, RotaryAxes, RotaryAxis, RotaryTurn, StatedBy};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 fn turn(axes: [(Carries, Vector3<f64>); 2], from: [f64; 2], to: [f64; 2]) -> RotaryTurn {
@@ -54,5 +54,59 @@ fn poles_lie_where_the_axes_turn_the_tool_about_one_direction() {
     ];
     for turn in none {
         assert!(turn.shares_near_poles(near).is_empty(), "{turn:?}");
+    }
+}
+
+/// A fork head above a table passes a pole nearby: the table turns by the angle between what both directions lean, fast, and goes on as it
+/// came. Steps of half a degree took the other angles of the same direction behind the pole, half a turn off.
+#[test]
+fn near_a_pole_the_axes_go_on_as_they_came() {
+    let axes = turn(
+        [
+            (Carries::Tool, Vector3::x()),
+            (Carries::Part, -Vector3::z()),
+        ],
+        [0.0; 2],
+        [0.0; 2],
+    )
+    .axes;
+    let direction = |x: f64, y: f64| Vector3::new(x, y, (1.0 - x * x - y * y).sqrt());
+    for distance in [1e-5, 5e-4, 3e-3] {
+        let [from, to] = [direction(distance, -0.02), direction(distance, 0.07)];
+        let start = axes.angles_towards(&from, &[0.0, 0.0]).unwrap();
+        let circle = GreatCircle::new(&axes, &start, &to).unwrap();
+        // What the tool leans by, seen from above, turns so far.
+        let lean = |v: &Vector3<f64>| v.y.atan2(v.x).to_degrees();
+        let expected = lean(&to) - lean(&from);
+        let turned = circle.end_deg()[1] - circle.start_deg()[1];
+        assert!(
+            (turned.abs() - expected).abs() < 1e-6,
+            "{distance}: {turned}, not {expected}"
+        );
+        assert!(expected > 100.0 && (circle.way_deg()[1] - expected).abs() < 1e-6);
+        // The head does not pass upright, and the table turns one way.
+        let mut before = circle.start_deg()[1];
+        for step in 1..=5000 {
+            let share = f64::from(step) / 5000.0;
+            let angles = circle.angles_at(&axes, share);
+            let [a, c] = angles[..] else { unreachable!() };
+            assert!(a * start[0] > 0.0, "{distance}, {share}: A{a}");
+            assert!(
+                (c - before) * turned >= 0.0,
+                "{distance}, {share}: C{c} behind C{before}"
+            );
+            let points = axes.tool_direction_at(&angles, &Vector3::z());
+            assert!((points - circle.direction_at(share)).norm() < 1e-9);
+            before = c;
+        }
+        // Fastest where the pole is nearest: an angle of the way over the distance from it.
+        let sweep = from.angle(&to).to_degrees();
+        let fastest = circle.fastest_deg([0.0, 1.0])[1];
+        let nearest = sweep / distance;
+        assert!(
+            fastest > 0.9 * nearest && fastest < 1.1 * nearest,
+            "{fastest} {nearest}"
+        );
+        assert!(circle.fastest_deg([0.6, 1.0])[1] < 0.05 * fastest);
     }
 }

@@ -137,7 +137,7 @@ fn constant_surface_speed() {
     assert_eq!(speed(5), None);
     // An S of one mode is none of the other; standing still is known in both.
     let modes =
-        path("G21\nS900 M3\nG96\nG97\nG97 S800\nG96 S80 M5\nG96 D900\nG97 D-1 S1\n").unwrap();
+        path("G21\nS900 M3\nG96\nG97\nG97 S800\nG96 S80 M5\nG96 D900\nG97 D1 S1\n").unwrap();
     let states: Vec<_> = (2..=8).map(|line| modes.spindle_on(line)).collect();
     let speeds: Vec<_> = states.iter().map(|spindle| spindle.speed).collect();
     let wanted = [

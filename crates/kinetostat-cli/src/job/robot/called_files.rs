@@ -57,13 +57,13 @@ pub(crate) fn with_called_files(
 }
 
 /// A folder with the names of its files: controls do not tell capitals from small letters.
-struct Folder {
+pub(super) struct Folder {
     path: PathBuf,
     names: Vec<String>,
 }
 
 impl Folder {
-    fn of(path: &Path) -> Self {
+    pub(super) fn of(path: &Path) -> Self {
         let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
         let mut names: Vec<String> = names.take(MOST_NAMES).collect();
@@ -75,10 +75,19 @@ impl Folder {
     }
 
     /// The file of a name: as it is written, else in other letters.
-    fn file(&self, name: &str) -> Option<PathBuf> {
+    pub(super) fn file(&self, name: &str) -> Option<PathBuf> {
+        self.named(name).filter(|found| found.is_file())
+    }
+
+    /// The folder of a name in it: as it is written, else in other letters.
+    pub(super) fn folder(&self, name: &str) -> Option<Self> {
+        let found = self.named(name).filter(|found| found.is_dir())?;
+        Some(Self::of(&found))
+    }
+
+    fn named(&self, name: &str) -> Option<PathBuf> {
         let same = self.names.iter().find(|own| *own == name);
         let alike = || self.names.iter().find(|own| own.eq_ignore_ascii_case(name));
-        let found = self.path.join(same.or_else(alike)?);
-        found.is_file().then_some(found)
+        Some(self.path.join(same.or_else(alike)?))
     }
 }

@@ -2,6 +2,7 @@
 
 use kinetostat_formats::{FlatText, expand};
 use kinetostat_machining::FlatProgram;
+use kinetostat_program::Warning;
 
 use crate::job::robot::read_program::refused;
 use crate::job::robot::source::RobotSource;
@@ -27,4 +28,17 @@ pub(crate) fn flat_text(source: &RobotSource, comments: bool) -> Answer<(FlatTex
     let origins = origins.map(|(file, line)| (index(*file), index(*line)));
     let flat = FlatProgram::new(names, text.origins.len(), origins.collect());
     Ok((text, flat))
+}
+
+/// What was taken in the run where the source is not certain, at the first flat line of each.
+pub(crate) fn notes_of(text: &FlatText) -> Vec<Warning> {
+    let notes = text.findings.iter().map(|finding| {
+        let of_it = |origin: &(usize, usize)| *origin == (finding.file, finding.line);
+        let line = text.origins.iter().position(of_it);
+        Warning {
+            line: line.map_or(1, |index| index + 1),
+            text: finding.message.clone(),
+        }
+    });
+    notes.collect()
 }

@@ -1,6 +1,7 @@
 //! Tool and placement of a run over a robot's program: of the program where it states them, else of the job.
 
 use kinetostat::{Mechanism, Pose};
+use kinetostat_formats::KRL_CONFIG;
 use kinetostat_machining::{Placement, ProgramLoad, ToolGiven};
 use nalgebra::Vector3;
 
@@ -54,7 +55,8 @@ pub(crate) fn tool_of_robot(
         None => Ok((stated, stated_words)),
         Some((_, _, None)) if is_stated || !frames.states_orientation => Ok((stated, stated_words)),
         Some((_, name, None)) => Err(Failure::input(format!(
-            "the program does not say what its tool `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file, or under [tool]"
+            "{}, or under [tool]",
+            not_stated(name)
         ))),
         Some((_, name, Some(pose))) if is_stated && differ(pose, &stated) => {
             Err(Failure::input(format!(
@@ -75,6 +77,19 @@ pub(crate) fn tool_of_robot(
     }
 }
 
+/// That a tool is stated nowhere, and where it can be.
+fn not_stated(name: &str) -> String {
+    let of_controller = match name.contains("_DATA[") {
+        true => {
+            format!("lay the controller's {KRL_CONFIG}, which states it, beside the program, or ")
+        }
+        false => String::new(),
+    };
+    format!(
+        "the program does not say what its tool `{name}` is: {of_controller}state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file"
+    )
+}
+
 /// The tools of a program that uses several, by number, where it says what they are; none where the job's `[[tools]]` do.
 pub(crate) fn tools_of_robot(
     frames: &RobotFrames,
@@ -89,9 +104,7 @@ pub(crate) fn tools_of_robot(
     let (mut tools, mut all) = (Vec::new(), Vec::new());
     for (number, name, pose) in &frames.tools {
         let Some(pose) = pose else {
-            return Err(Failure::input(format!(
-                "the program does not say what its tool `{name}` is: state it as  frames.\"{name}\" = {{ position_mm = [...] }}  under [robot] in the job file"
-            )));
+            return Err(Failure::input(not_stated(name)));
         };
         all.push(words(name, pose));
         given.push(ToolGiven {

@@ -21,4 +21,5 @@ mod row_limits;
 pub(crate) mod settings;
 pub(crate) mod source;
 mod stated_frames;
+pub(crate) mod system_frames;
 mod unfit_options;

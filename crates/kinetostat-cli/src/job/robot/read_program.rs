@@ -14,6 +14,7 @@ use crate::job::robot::read_once::ReadOnce;
 use crate::job::robot::settings::RobotSettings;
 use crate::job::robot::source::RobotSource;
 use crate::job::robot::stated_frames::warnings;
+use crate::job::robot::system_frames::taken;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::fault_list::fault_list_text;
 
@@ -102,6 +103,7 @@ fn read_files(source: &RobotSource) -> Answer<ReadOnce> {
         )));
     }
     path.path.warnings.extend(warnings(source, &program));
+    path.path.warnings.extend(taken(source, &program));
     path.path
         .warnings
         .extend(settings.joints_are.map(|words| Warning {

@@ -14,6 +14,7 @@ use crate::job::robot::divided::Divided;
 use crate::job::robot::parquet;
 use crate::job::robot::read_once::Reading;
 use crate::job::robot::settings::{RobotSettings, settings};
+use crate::job::robot::system_frames::SystemFrames;
 use crate::job::robot::unfit_options::refuse_unfit;
 use crate::ui::failure::{Answer, Failure};
 
@@ -31,6 +32,8 @@ pub(crate) struct RobotSource {
     pub(crate) divided: Option<Divided>,
     /// Of a program that was written flat, what it was before.
     pub(crate) before: Option<BeforeFlat>,
+    /// Tools and bases of the controller that were found beside the program.
+    pub(crate) system_frames: Option<SystemFrames>,
     /// The program as it was read.
     pub(crate) reading: Reading,
 }
@@ -107,6 +110,7 @@ pub(crate) fn robot_source(
         settings,
         divided: None,
         before: None,
+        system_frames: None,
         reading: Reading::new(),
     };
     let mut read = Vec::new();

@@ -65,6 +65,7 @@ pub(crate) fn written_out(
         file: SourceFile::new(flat.file.name(), bytes),
         origins: flat.origins,
         changed: true,
+        findings: flat.findings,
     })
 }
 

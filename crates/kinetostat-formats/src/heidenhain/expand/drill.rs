@@ -38,6 +38,9 @@ impl Hole {
         if self.feed <= 0.0 {
             return Err("the cycle has no feed".to_owned());
         }
+        if self.dwell_above < 0.0 || self.dwell_below < 0.0 {
+            return Err("the dwell of the cycle is below zero".to_owned());
+        }
         let mut strokes = Vec::new();
         match self.cycle {
             1 => self.pecking(&mut strokes)?,

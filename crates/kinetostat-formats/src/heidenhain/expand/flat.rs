@@ -116,6 +116,7 @@ fn run_within(
         file,
         origins,
         changed,
+        findings: Vec::new(),
     };
     with_corners(flat, faults.into_faults(), out)
 }
@@ -131,5 +132,6 @@ fn unchanged(file: &SourceFile) -> FlatText {
         file: file.clone(),
         origins: (1..=count).map(|line| (0, line)).collect(),
         changed: false,
+        findings: Vec::new(),
     }
 }

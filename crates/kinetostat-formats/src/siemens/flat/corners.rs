@@ -113,6 +113,7 @@ pub(super) fn written_out(
         file: SourceFile::new(flat.file.name(), bytes),
         origins,
         changed: true,
+        findings: flat.findings,
     })
 }
 

@@ -26,7 +26,7 @@ const FLOW: [&str; 26] = [
 /// CYCLE82 and CYCLE83, and corners between two lines that are rounded or broken (RND, CHF, CHR). The program is the first file that ends in `.mpf`, or the first; the others are its subprograms, by their
 /// names. What needs none of that comes back byte for byte.
 ///
-/// Expressions become numbers with up to six decimals; frames (TRANS, ROT) and all else stay as they are. At most 5 million
+/// Expressions become numbers with up to nine decimals; frames (TRANS, ROT) and all else stay as they are. At most 5 million
 /// blocks and 20 million steps are run.
 ///
 /// ```
@@ -66,6 +66,7 @@ fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Refused
             file: SourceFile::new("", ""),
             origins: Vec::new(),
             changed: false,
+            findings: Vec::new(),
         });
     };
     let names: BTreeMap<Vec<u8>, usize> = (files.iter().enumerate())
@@ -82,6 +83,7 @@ fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Refused
             file: file.clone(),
             origins: (1..=file.line_count()).map(|line| (main, line)).collect(),
             changed: false,
+            findings: Vec::new(),
         };
         return with_corners(flat, faults, |flat| written_out(flat, files));
     }
@@ -96,12 +98,14 @@ fn run_within(files: &[SourceFile], most_steps: u64) -> Result<FlatText, Refused
         output,
         origins,
         faults: of_run,
+        findings,
     } = runner.run(most_steps);
     faults.extend(of_run);
     let flat = FlatText {
         file: SourceFile::new(file.name(), output),
         origins,
         changed: true,
+        findings,
     };
     with_corners(flat, faults, |flat| written_out(flat, files))
 }

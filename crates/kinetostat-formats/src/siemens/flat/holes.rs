@@ -144,6 +144,7 @@ impl Runner<'_> {
         let axis = self.modes.normal();
         let to = |at: f64| format!("{axis}=AC({})", number(at));
         let mut blocks = vec![format!("G0 {}", to(drilling.begin))];
+        self.doubt(drilling);
         match &drilling.deep {
             None => {
                 let exact = if drilling.exact { "G9 " } else { "" };

@@ -48,6 +48,7 @@ impl<'r> Runner<'r> {
             output: self.output,
             origins: self.origins,
             faults: self.faults.into_faults(),
+            findings: self.doubts.into_findings(),
         }
     }
 

@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::error::ProgramError;
+use crate::model::program::Finding;
 use crate::refused_run::FaultsOfRun;
 use crate::siemens::block::What;
 use crate::siemens::expression::Expression;
+use crate::siemens::flat::doubts::Doubts;
 use crate::siemens::flat::drilling::Drilling;
 use crate::siemens::flat::frames::Frames;
 use crate::siemens::flat::modes::Modes;
@@ -24,6 +26,7 @@ pub(super) struct Written {
     pub output: Vec<u8>,
     pub origins: Vec<(usize, usize)>,
     pub faults: Vec<ProgramError>,
+    pub findings: Vec<Finding>,
 }
 
 /// A section that is run again.
@@ -87,6 +90,7 @@ pub(super) struct Runner<'r> {
     /// MCALL in force.
     pub drilling: Option<Drilling>,
     pub faults: FaultsOfRun,
+    pub doubts: Doubts,
 }
 
 impl<'r> Runner<'r> {
@@ -110,6 +114,7 @@ impl<'r> Runner<'r> {
             feed: None,
             drilling: None,
             faults: FaultsOfRun::default(),
+            doubts: Doubts::default(),
         }
     }
 

@@ -301,6 +301,10 @@ fn runs_are_bounded_and_faults_name_their_line() {
             "the cycle has no feed",
         ),
         (
+            "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q203=+0 ~\n Q211=-1\nL X+1 M99\n",
+            "the dwell of the cycle is below zero",
+        ),
+        (
             "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+9 ~\n Q203=+0 ~\n Q395=+1\nL X+1 M99\n",
             "the drill's full diameter (Q395)",
         ),

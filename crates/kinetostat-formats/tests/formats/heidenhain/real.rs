@@ -1,5 +1,5 @@
-//! Real public programs, read where they lie (`KINETOSTAT_ROBOT_PROGRAMS`/heidenhain, its `notes.md` names repositories, paths and
-//! licences); none of them is copied here.
+//! Real public programs, read where they lie (`KINETOSTAT_ROBOT_PROGRAMS`/heidenhain; `docs/robot-programs.csv` names
+//! repositories, commits, paths and licences); none of them is copied here.
 
 use std::collections::BTreeMap;
 use std::io::Write;

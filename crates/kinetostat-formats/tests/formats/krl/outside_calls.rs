@@ -62,7 +62,7 @@ fn what_is_stated_again_makes_a_note_of_the_call() {
         let notes: Vec<(usize, &str)> = (program.findings.iter())
             .map(|finding| (finding.line, finding.message.as_str()))
             .collect();
-        let note = "`spindle_on` is in none of these files: it is carried, and if it moves the tool, that is not seen";
+        let note = "`spindle_on` is in none of these files: it is carried, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen";
         assert_eq!(notes, [(6, note)]);
     }
     // The caller states them; or all places are behind the call, in one base that nobody needs to know.
@@ -138,7 +138,7 @@ fn what_interrupts_set_is_refused_and_what_they_call_outside_is_named() {
         assert_eq!(note.line, 5);
         assert_eq!(
             note.message,
-            "`elsewhere` is in none of these files: it is carried, and if it moves the tool, that is not seen"
+            "`elsewhere` is in none of these files: it is carried, and if it moves the tool, or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`), that is not seen"
         );
         // Frames and speed are those of before.
         let last = &program.motions[1];

@@ -168,7 +168,16 @@ fn each_call_of_what_is_not_there_is_named_with_its_lines() {
     ] {
         let made = of_robot(language, &text, MakeLanguage::Krl);
         for (line, begins, ends) in expected {
-            let end = format!("if it moves the tool, that is not seen{ends}");
+            let modes = match language {
+                Language::Rapid => {
+                    ", or states how motions behind it go (`CirPathMode`, `SingArea`, `ConfL`, `ConfJ`, `AccSet`, `VelSet`)"
+                }
+                Language::Krl => {
+                    ", or states how motions behind it go (`$ORI_TYPE`, `$CIRC_TYPE`, `$ACC`, `$APO`)"
+                }
+                _ => "",
+            };
+            let end = format!("if it moves the tool{modes}, that is not seen{ends}");
             assert!(
                 made.findings.iter().any(|finding| {
                     finding.line == Some(line)

@@ -43,7 +43,7 @@ fn carried(main: &str, other: &str) {
 
 #[test]
 fn on_circles_the_tool_turns_evenly_with_the_object_frame_alone() {
-    let remedy = "the tool turns by 60.000 deg, and on a circle it does not turn evenly: it turns with the path (CirPathMode\\PathFrame";
+    let remedy = "the tool turns by 60.0000 deg on its way, and on a circle it does not turn evenly: it turns with the path (CirPathMode\\PathFrame";
     refused(&format!("{START}\n{TURNED}"), "", 4, remedy);
     carried(&format!("{START}\n{EVEN}"), "");
     carried(&format!("{START}\nCirPathMode\\ObjectFrame;\n{TURNED}"), "");
@@ -184,6 +184,28 @@ fn handlers_traps_and_functions_come_from_anywhere() {
     let main = format!("{set}\nother;\n{START}\n{TURNED}");
     let leaves = format!("{left}\nWaitDI x,1;\n{set}\nERROR\nRETURN;");
     refused(&main, &leaves, 6, "turns with the path");
+    // What is called is left where something goes wrong in it, and TRYNEXT goes on behind the call, or RETRY calls it again.
+    let restored = format!("{left}\nWaitDI x,1;\n{set}");
+    let main = format!("{set}\nother;\n{START}\n{TURNED}");
+    carried(&main, &restored);
+    for back in ["TRYNEXT", "RETRY"] {
+        let handled = format!("{main}\nERROR\n{back};");
+        refused(&handled, &restored, 6, "turns with the path");
+        carried(&handled, "WaitDI x,1;");
+        // Before it stated anything, too.
+        let handled = format!("other;\n{START}\n{TURNED}\nERROR\n{back};");
+        refused(&handled, set, 5, "turns with the path");
+    }
+    let again = format!("{set}\nother;\nERROR\nRETRY;");
+    let turned_first = format!("{START}\n{TURNED}\n{left}\nWaitDI x,1;\n{set}");
+    refused(&again, &turned_first, 10, "turns with the path");
+    carried(&format!("{set}\nother;"), &turned_first);
+    refused(
+        &format!("other;\n{START}\n{TURNED}"),
+        &format!("WaitDI x,1;\n{set}\nERROR\nRETURN;"),
+        5,
+        "turns with the path",
+    );
     // An interrupt between statement and circle.
     let main = format!("{set}\n{START}\n{TURNED}");
     let trap = format!("ENDPROC\nTRAP t\n{left}\nENDTRAP\nPROC last()");

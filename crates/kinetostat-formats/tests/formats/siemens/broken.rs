@@ -31,6 +31,11 @@ fn what_moves_the_tool_otherwise_is_refused_by_line() {
         ("S-100 M3", "S is below zero (-100)"),
         ("S2=-100", "S is below zero (-100)"),
         (
+            "LIMS=-5",
+            "the largest speed of the spindle is below zero (-5); write zero or more",
+        ),
+        ("N-5 G1 X1", "the number of the block is below zero"),
+        (
             "T-1",
             "-1 is no whole number of zero or above; mend the number",
         ),

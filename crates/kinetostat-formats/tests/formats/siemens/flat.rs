@@ -315,3 +315,29 @@ fn a_flat_program_is_read_and_corrected() {
         assert!((found - x).abs() < 1e-12 && (z - (x / 10.0 - 1.0)).abs() < 1e-12);
     }
 }
+
+/// What of CYCLE83 is not certain is named with its lines, once; what it does not need is not.
+#[test]
+fn doubts_of_deep_holes_are_noted_by_line() {
+    let notes = |text: &str| -> Vec<(usize, String)> {
+        let found = flat_of(&[("main.mpf", text)]).findings;
+        let notes = found.into_iter().map(|found| (found.line, found.message));
+        notes.collect()
+    };
+    let begun = "G17 G90 G0 X0 Y0 Z10\nF100\n";
+    let breaks = "CYCLE83(5,0,1,-30,,-10,,0,0,0,1,0)\n";
+    let found = notes(&format!("{begun}{breaks}X5\n{breaks}"));
+    assert_eq!(found.len(), 2, "{found:?}");
+    for (word, (line, message)) in ["breaks chips (VARI=0)", "without DAM"].iter().zip(found) {
+        let fits = message.contains(word) && message.ends_with("(lines 3, 5)");
+        assert!(line == 3 && fits, "{message}");
+    }
+    // Out of the hole by G0, and steps that become shorter; a hole of one step; other cycles.
+    for certain in [
+        "CYCLE83(5,0,1,-30,,-10,,2,0,0,1,1)\n",
+        "CYCLE83(5,0,1,-10,,-10,,0,0,0,1,0)\n",
+        "CYCLE81(5,0,1,-10)\n",
+    ] {
+        assert_eq!(notes(&format!("{begun}{certain}")), [], "{certain}");
+    }
+}

@@ -27,7 +27,7 @@ fn steps_behind_a_frame_name_the_setting() {
         let found = notes(&format!("{BEGUN}{text}M30\n"));
         let named = found.iter().all(|(_, message)| {
             message.contains(
-                "SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 1 it goes the step and the offset of the frame: controls come with it, and this is what is taken here",
+                "SD42440 $SC_FRAME_OFFSET_INCR_PROG. With 1 it goes the step and the offset of the frame: controls come with it as far as is known here, and it is what is taken",
             )
         });
         assert!(named, "{found:?}");

@@ -121,7 +121,7 @@ impl Stretch {
                     Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),
                 };
                 // A turn of the tool is a way as well.
-                let turn = motion.turn_ratio(radius) * (to - from);
+                let turn = motion.turn_ratio(radius, self.share) * (to - from);
                 let way = larger(motion.length_between_mm(from, to), turn * radius);
                 let points = if all_requested { 5 } else { 3 };
                 let change = (self.ends[1] - self.ends[0]).norm();

@@ -46,6 +46,30 @@ pub const MODES_AND_ARCS: &[Refused] = &[
         "I appears in a straight move",
         "remove the word",
     ),
+    (
+        "G21\nG43 H-1 Z5",
+        2,
+        "H-1 is no number of an offset of the tool",
+        "not negative, such as H2",
+    ),
+    (
+        "G21\nG0 X1\nD-3",
+        3,
+        "D-3 is no number of an offset of the tool",
+        "such as D2",
+    ),
+    (
+        "G21\nG0 X1 H1.5",
+        2,
+        "H1.5 is no number of an offset of the tool",
+        "a whole number",
+    ),
+    (
+        "G21\nG0 X1\nN-5 X2",
+        3,
+        "N-5 is no number of a block",
+        "without a sign",
+    ),
     ("G21\nG4 X1 G1 Y5", 2, "a dwell and a motion", "two blocks"),
     ("G21\nG4 S5 G0 Y5", 2, "a dwell and a motion", "two blocks"),
     (

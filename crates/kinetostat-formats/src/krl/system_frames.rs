@@ -1,0 +1,110 @@
+//! Tools and bases of a controller's `$config.dat`, for programs that name them.
+//!
+//! Source: KUKA, KR C2 / KR C3 Expert Programming, KSS 5.x: `TOOL_DATA[n]` and `BASE_DATA[n]` stand in `R1\System\$config.dat`.
+
+use crate::krl::role::Role;
+use crate::text::source::SourceFile;
+
+/// How a file of the data is called.
+pub const KRL_CONFIG: &str = "$config.dat";
+
+/// Largest file of which they are taken.
+const MOST_BYTES: usize = 1 << 24;
+
+/// What names tools and bases by numbers: the arrays, the data of inline forms, and the arguments of BAS.
+const NAMING: [&[u8]; 6] = [
+    b"TOOL_DATA",
+    b"BASE_DATA",
+    b"TOOL_NO",
+    b"BASE_NO",
+    b"#TOOL",
+    b"#BASE",
+];
+
+/// Whether files name tools or bases by numbers and none of them is a `$config.dat`.
+///
+/// ```
+/// use kinetostat_formats::{SourceFile, krl_needs_config};
+///
+/// let file = |name: &str, text: &str| SourceFile::new(name, text);
+/// assert!(krl_needs_config(&[file("a.src", "DEF a()\n$base=base_data[2]\nEND\n")]));
+/// assert!(!krl_needs_config(&[file("a.src", "DEF a()\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nEND\n")]));
+/// let config = "DEFDAT $CONFIG PUBLIC\nBASE_DATA[2]={X 0,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
+/// assert!(!krl_needs_config(&[file("a.src", "$BASE=BASE_DATA[2]\n"), file("R1/System/$Config.dat", config)]));
+/// ```
+#[must_use]
+pub fn krl_needs_config(files: &[SourceFile]) -> bool {
+    let is_config = |file: &SourceFile| {
+        let name = file.name().rsplit(['/', '\\']).next().unwrap_or_default();
+        name.eq_ignore_ascii_case(KRL_CONFIG)
+    };
+    !files.iter().any(is_config) && files.iter().any(|file| names_frames(file.bytes()))
+}
+
+fn names_frames(bytes: &[u8]) -> bool {
+    let mut all = bytes.iter().enumerate();
+    all.any(|(at, byte)| {
+        matches!(byte, b'T' | b't' | b'B' | b'b' | b'#')
+            && NAMING.iter().any(|word| begins(&bytes[at..], word))
+    })
+}
+
+/// The tools and bases of a `$config.dat` and nothing else of it, in their lines: `TOOL_DATA[n]={...}` and `BASE_DATA[n]={...}` with
+/// the number written. None where it holds none, or is larger than 16 MiB.
+///
+/// ```
+/// use kinetostat_formats::{SourceFile, krl_frames_of_config};
+///
+/// let config = "&ACCESS RV1\nDEFDAT $CONFIG\nINT USER=3\nbase_data[2] = {FRAME: X 10.0,Y 0,Z 0,A 0,B 0,C 0}\nBASE_DATA[I]={X 0}\nENDDAT\n";
+/// let frames = krl_frames_of_config(&SourceFile::new("$config.dat", config)).unwrap();
+/// let expected = "\nDEFDAT $CONFIG PUBLIC\n\nbase_data[2] = {FRAME: X 10.0,Y 0,Z 0,A 0,B 0,C 0}\n\nENDDAT\n";
+/// assert_eq!(frames.bytes(), expected.as_bytes());
+/// assert!(krl_frames_of_config(&SourceFile::new("$config.dat", "DEFDAT $CONFIG\nENDDAT\n")).is_none());
+/// ```
+#[must_use]
+pub fn krl_frames_of_config(config: &SourceFile) -> Option<SourceFile> {
+    if config.bytes().len() > MOST_BYTES {
+        return None;
+    }
+    let mut kept = Vec::new();
+    let mut found = false;
+    for line in config.bytes().split(|byte| *byte == b'\n') {
+        let line = line.trim_ascii();
+        if begins(line, b"DEFDAT") {
+            kept.extend_from_slice(b"DEFDAT $CONFIG PUBLIC");
+        } else if begins(line, b"ENDDAT") {
+            kept.extend_from_slice(b"ENDDAT");
+        } else if is_frame(line) {
+            found = true;
+            kept.extend_from_slice(line);
+        }
+        kept.push(b'\n');
+    }
+    kept.pop();
+    found.then(|| SourceFile::new(config.name(), kept))
+}
+
+fn begins(line: &[u8], word: &[u8]) -> bool {
+    line.get(..word.len())
+        .is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+/// Whether a line gives an element of TOOL_DATA or BASE_DATA a frame in numbers.
+fn is_frame(line: &[u8]) -> bool {
+    let arrays = [Role::Tool, Role::Base].map(Role::array);
+    let Some(array) = arrays.iter().find(|name| begins(line, name.as_bytes())) else {
+        return false;
+    };
+    let parts = || {
+        let rest = line[array.len()..].trim_ascii_start().strip_prefix(b"[")?;
+        let close = rest.iter().position(|byte| *byte == b']')?;
+        let value = rest[close + 1..].trim_ascii_start().strip_prefix(b"=")?;
+        Some((rest[..close].trim_ascii(), value.trim_ascii_start()))
+    };
+    parts().is_some_and(|(number, value)| {
+        !number.is_empty()
+            && number.iter().all(u8::is_ascii_digit)
+            && value.starts_with(b"{")
+            && value.contains(&b'}')
+    })
+}
