@@ -71,7 +71,7 @@ fn statements_that_move_the_tool_otherwise_are_refused_by_line() {
             "PTP $POS_RET",
             "computed while the program runs; write the motion with a literal",
         ),
-        ("PTP $AXIS_ACT", "computed while the program runs"),
+        ("PTP $AXIS_RET", "computed while the program runs"),
         (
             "LIN XP9",
             "no `XP9` is declared in these files; give the .dat file",
